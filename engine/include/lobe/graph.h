@@ -1,0 +1,269 @@
+#ifndef LOBE_GRAPH_H
+#define LOBE_GRAPH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/device.h>
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A render graph: the passes of one frame and the resources they read and write.
+///
+/// Each frame is declared anew: lobe_graph_begin, resources, passes, outputs, then
+/// lobe_graph_execute. Declaring is cheap; pipelines, descriptor layouts, memory and retained
+/// resources are kept from frame to frame. The first mistake in a declaration is remembered, its
+/// line (naming pass and resource) goes to the log, later declarations become no-ops, and
+/// compile or execute return its code: call sites need not check each step.
+///
+/// Not thread-safe: one graph, one thread.
+typedef struct lobe_graph lobe_graph;
+
+/// A pass being declared; valid until the next lobe_graph_begin.
+typedef struct lobe_pass lobe_pass;
+
+/// A resource at one version of its content. Each write yields a new version; using a version
+/// that was overwritten since is an error (a stale handle). All zero: none.
+typedef struct lobe_resource {
+    uint32_t index;
+    uint32_t version;
+} lobe_resource;
+
+/// Levels and layers of an image. A count of 0 means all from the first on.
+typedef struct lobe_range {
+    uint32_t first_level, level_count;
+    uint32_t first_layer, layer_count;
+} lobe_range;
+
+typedef enum lobe_filter_mode { LOBE_SAMPLE_NEAREST, LOBE_SAMPLE_LINEAR } lobe_filter_mode;
+typedef enum lobe_wrap_mode { LOBE_WRAP_REPEAT, LOBE_WRAP_MIRROR, LOBE_WRAP_CLAMP } lobe_wrap_mode;
+
+/// How a sampled image is read. All zero: nearest texel, nearest level, repeating.
+typedef struct lobe_sampler {
+    lobe_filter_mode texels; ///< within a level
+    lobe_filter_mode levels; ///< between levels
+    lobe_wrap_mode wrap_u, wrap_v;
+    float maximum_anisotropy; ///< [1, 16]; 0: off. Clamped to what the device offers.
+} lobe_sampler;
+
+lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph);
+/// Waits for the device to finish the last frame, frees all. Clears the pointer; NULL is fine.
+void lobe_graph_destroy(lobe_graph **graph);
+
+/// Starts a new frame: forgets the passes of the last, waits for it where it still runs.
+/// Retained resources that the new frame does not declare again are freed when it is compiled.
+void lobe_graph_begin(lobe_graph *graph);
+
+// ---------------------------------------------------------------------------------------------
+// Resources
+
+typedef struct lobe_image_description {
+    const char *name; ///< for errors, dumps and debug labels; for a retained image also its key
+    lobe_format format;
+    uint32_t width, height; ///< texels, above 0
+    uint32_t layers;        ///< 0 means 1. The shader sees an array where its binding is one.
+    uint32_t levels;        ///< MIP levels; 0 means 1; at most floor(log2(max extent)) + 1
+    uint32_t samples;       ///< 0 or 1: no multisampling; else 2 or 4, single level and layer
+    /// Keep the content for the next frame. Passes that write only retained resources are
+    /// skipped while nothing they depend on changes. Memory of others is shared (aliased).
+    bool retained;
+} lobe_image_description;
+
+typedef struct lobe_buffer_description {
+    const char *name;
+    size_t size; ///< bytes, above 0
+    bool retained;
+} lobe_buffer_description;
+
+/// Declares an image or buffer that passes of this frame write; it has no content before that.
+lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description);
+lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description);
+
+/// Brings in what the host filled. Reading is all that passes may do with it. The object must
+/// live until the frame has executed. Importing the same object twice gives the same resource.
+lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
+lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
+
+/// A small buffer with content for this frame (camera, lights). Copied; at most 64 KiB. A pass
+/// that reads it counts as unchanged while the bytes stay the same.
+lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data, size_t size);
+
+// ---------------------------------------------------------------------------------------------
+// Passes
+
+typedef enum lobe_pass_kind {
+    LOBE_PASS_COMPUTE,
+    LOBE_PASS_RASTER,
+    LOBE_PASS_TRANSFER
+} lobe_pass_kind;
+
+lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
+
+/// A resource bound to a variable of the pass's shaders, by the variable's (or block's) name.
+/// Reflection says what kind it is: uniform or storage block, sampled or storage image.
+typedef struct lobe_binding {
+    const char *name;
+    lobe_resource resource;
+    lobe_range range;     ///< images only
+    lobe_sampler sampler; ///< sampled images only
+} lobe_binding;
+
+/// Reads, in all shaders of the pass. A name that none of them has is an error.
+void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding);
+/// Writes, with the former content of the range lost; returns the new version. Subresources
+/// outside the range keep their content.
+lobe_resource lobe_pass_write(lobe_pass *pass, const lobe_binding *binding);
+/// Reads and writes; returns the new version.
+lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding);
+
+/// A value for a specialisation constant, by its constant_id. `bits` holds the int, the uint, the
+/// float's bits, or 0 and 1 for bool. An id the shader lacks is ignored.
+typedef struct lobe_specialisation {
+    uint32_t id;
+    uint32_t bits;
+} lobe_specialisation;
+
+typedef struct lobe_dispatch {
+    const char *shader; ///< "lobe_reduction.comp"
+    /// Invocations in each dimension; rounded up to whole groups of the shader's local size, so
+    /// the shader must guard its edge. 0 means 1.
+    uint32_t threads[3];
+    const void *constants;                     ///< push constants, copied
+    size_t constants_size;                     ///< bytes, equal to the shader's block; at most 128
+    const lobe_specialisation *specialisation; ///< copied
+    size_t specialisation_count;
+    const lobe_binding *bindings; ///< reads of this dispatch alone, beside those of the pass
+    size_t binding_count;
+} lobe_dispatch;
+
+/// Adds a dispatch. Dispatches of one pass must not depend on one another.
+void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch);
+
+typedef enum lobe_load {
+    LOBE_LOAD_CLEAR,   ///< start from a constant
+    LOBE_LOAD_KEEP,    ///< start from the former content
+    LOBE_LOAD_DISCARD, ///< start undefined: every texel is drawn
+} lobe_load;
+
+typedef struct lobe_attachment {
+    lobe_resource resource;
+    uint32_t level, layer;
+    lobe_load load;
+    float clear[4]; ///< depth uses the first
+} lobe_attachment;
+
+/// Colour output `location` of the fragment shader [0, 3]. All attachments of a pass have one
+/// extent and one sample count. Returns the new version.
+lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
+                               const lobe_attachment *attachment);
+/// Where multisampled colour `location` is resolved to (the samples' mean).
+lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target);
+/// Depth, D32_FLOAT. lobe uses reversed depth: 1 at the near plane, 0 at infinity, and the
+/// greater wins; clear it to 0. Returns the new version.
+lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment);
+
+typedef enum lobe_cull { LOBE_CULL_NONE, LOBE_CULL_BACK, LOBE_CULL_FRONT } lobe_cull;
+typedef enum lobe_blend {
+    LOBE_BLEND_OFF,
+    LOBE_BLEND_ALPHA, ///< source alpha over target, premultiplied
+    LOBE_BLEND_ADD,
+} lobe_blend;
+
+typedef struct lobe_draw {
+    const char *vertex_shader;   ///< "shading.vert". Vertices are read from storage buffers.
+    const char *fragment_shader; ///< NULL: depth only
+    lobe_resource indices;       ///< buffer of uint32; none: vertices are drawn in order
+    uint32_t first_index, index_count, instance_count; ///< 0 instances means 1
+    lobe_cull cull;                                    ///< counter-clockwise is the front
+    bool depth_test, depth_write;
+    lobe_blend blend;
+    const void *constants; ///< push constants of all stages, copied
+    size_t constants_size;
+    const lobe_specialisation *specialisation; ///< of both stages, copied
+    size_t specialisation_count;
+    const lobe_binding *bindings; ///< reads of this draw alone, beside those of the pass
+    size_t binding_count;
+} lobe_draw;
+
+/// Adds a draw of triangles, in order.
+void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
+
+/// Transfer passes: copies one image (same extent, format size and range shape) or buffer.
+lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range source_range,
+                             lobe_resource target, lobe_range target_range);
+/// Transfer passes: fills with a constant.
+lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
+                             const float value[4]);
+
+/// Keeps a pass (and all it depends on) although no output reads what it writes.
+void lobe_pass_keep(lobe_pass *pass);
+
+// ---------------------------------------------------------------------------------------------
+// Outputs and execution
+
+/// Marks content as wanted after the frame: what no output depends on is culled.
+void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
+/// Marks content as wanted by the host: copied back while executing, see lobe_graph_data.
+void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
+
+/// Validates, culls, orders, places in memory and derives barriers, without running anything;
+/// lobe_graph_execute does it too. Errors: LOBE_ERROR_GRAPH (the log names pass and resource),
+/// LOBE_ERROR_SHADER, LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY.
+lobe_result lobe_graph_compile(lobe_graph *graph);
+
+/// Compiles where that was not done, records, submits, and waits for the end.
+lobe_result lobe_graph_execute(lobe_graph *graph);
+
+/// The bytes read back from `resource` in the frame just executed: levels in order, within a
+/// level layers, rows from top to bottom, tightly packed. Valid until the next begin. NULL where
+/// it was not marked with lobe_graph_read_back. `size` may be NULL.
+const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
+
+/// Forgets that retained content is up to date (its memory stays): all its passes run again.
+void lobe_graph_invalidate(lobe_graph *graph);
+
+// ---------------------------------------------------------------------------------------------
+// What happened
+
+typedef enum lobe_pass_state {
+    LOBE_PASS_RUN,
+    LOBE_PASS_CULLED,  ///< nothing wanted depends on it
+    LOBE_PASS_SKIPPED, ///< its retained results are still valid
+} lobe_pass_state;
+
+typedef struct lobe_pass_report {
+    const char *name;
+    lobe_pass_kind kind;
+    lobe_pass_state state;
+    double milliseconds; ///< device time, from timestamps; 0 where it did not run
+} lobe_pass_report;
+
+typedef struct lobe_graph_report {
+    const lobe_pass_report *passes; ///< in order of execution, then those that did not run
+    size_t pass_count;
+    double milliseconds;      ///< device time of the whole frame, first to last timestamp
+    uint64_t transient_bytes; ///< memory of transient resources, aliased
+    uint64_t transient_bytes_without_aliasing;
+    uint64_t retained_bytes;
+    uint32_t barrier_count; ///< image and buffer barriers recorded
+} lobe_graph_report;
+
+/// About the frame last compiled or executed; valid until the next begin.
+const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph);
+
+/// The compiled graph as text or as Graphviz, to free() by the caller; NULL without memory.
+/// Shows passes (run, culled, skipped), resources, barriers, memory with and without aliasing.
+char *lobe_graph_dump_text(const lobe_graph *graph);
+char *lobe_graph_dump_graphviz(const lobe_graph *graph);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,65 @@
+#ifndef LOBE_IMAGE_H
+#define LOBE_IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Texel formats, for images in host memory and on the device alike. Channels are stored in
+/// order, little-endian. `_SRGB` holds colour encoded with the sRGB curve (alpha linear).
+typedef enum lobe_format {
+    LOBE_FORMAT_NONE = 0,
+    LOBE_FORMAT_R8_UNORM,
+    LOBE_FORMAT_RG8_UNORM,
+    LOBE_FORMAT_RGBA8_UNORM,
+    LOBE_FORMAT_RGBA8_SRGB,
+    LOBE_FORMAT_RGBA16_UNORM,
+    LOBE_FORMAT_RGBA16_SNORM,
+    LOBE_FORMAT_R16_FLOAT,
+    LOBE_FORMAT_RG16_FLOAT,
+    LOBE_FORMAT_RGBA16_FLOAT,
+    LOBE_FORMAT_R32_FLOAT,
+    LOBE_FORMAT_RG32_FLOAT,
+    LOBE_FORMAT_RGBA32_FLOAT,
+    LOBE_FORMAT_D32_FLOAT, ///< depth, device images only
+    LOBE_FORMAT_COUNT
+} lobe_format;
+
+/// Bytes of one texel; 0 for LOBE_FORMAT_NONE.
+size_t lobe_format_size(lobe_format format);
+/// Channels of one texel [1, 4]; 0 for LOBE_FORMAT_NONE.
+uint32_t lobe_format_channels(lobe_format format);
+/// For example "RGBA16_FLOAT". Never NULL.
+const char *lobe_format_name(lobe_format format);
+
+/// A two-dimensional image in host memory: rows from top to bottom, tightly packed.
+typedef struct lobe_image {
+    lobe_format format;
+    uint32_t width;  ///< texels
+    uint32_t height; ///< texels
+    void *texels;    ///< width * height * lobe_format_size(format) bytes, owned by the image
+} lobe_image;
+
+/// Largest width or height that any lobe image may have, in texels.
+#define LOBE_IMAGE_MAXIMUM_EXTENT 65535u
+
+/// Allocates zeroed texels. `image` is overwritten; free it with lobe_image_free.
+/// Errors: LOBE_ERROR_LIMIT for an extent of 0 or above LOBE_IMAGE_MAXIMUM_EXTENT,
+/// LOBE_ERROR_OUT_OF_MEMORY. `log` may be NULL.
+lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
+                                uint32_t height, const lobe_log *log);
+
+/// Frees the texels and zeroes the structure. NULL and an already freed image are fine.
+void lobe_image_free(lobe_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

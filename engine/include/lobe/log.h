@@ -1,0 +1,27 @@
+#ifndef LOBE_LOG_H
+#define LOBE_LOG_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum lobe_log_level {
+    LOBE_LOG_ERROR,   ///< why a call failed: exactly one line for each failure
+    LOBE_LOG_WARNING, ///< the call went on, but not quite as asked
+    LOBE_LOG_NOTICE,  ///< a choice made for the user (a default light, a default camera)
+    LOBE_LOG_DEBUG,   ///< for developers
+} lobe_log_level;
+
+/// Where the library sends its words. lobe prints nothing of its own.
+typedef struct lobe_log {
+    /// Called with one line of UTF-8 without a line end; `message` lives only during the call.
+    /// May be called from several threads at once. NULL drops all messages.
+    void (*write)(void *user, lobe_log_level level, const char *message);
+    void *user; ///< handed to `write` unchanged
+} lobe_log;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

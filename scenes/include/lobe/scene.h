@@ -1,0 +1,215 @@
+#ifndef LOBE_SCENE_H
+#define LOBE_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What is drawn, in host memory. Lengths are metres, +Y is up, right-handed, as in glTF.
+/// A scene owns everything it points to; it is plain data that a host may also fill itself.
+
+typedef enum lobe_scene_wrap {
+    LOBE_SCENE_WRAP_REPEAT,
+    LOBE_SCENE_WRAP_MIRROR,
+    LOBE_SCENE_WRAP_CLAMP
+} lobe_scene_wrap;
+
+/// An image of the scene. Rows run downwards; texture coordinate (0, 0) is its top left corner.
+typedef struct lobe_scene_image {
+    char *name; ///< where it comes from, for messages
+    lobe_image image;
+} lobe_scene_image;
+
+/// A use of an image by a material.
+typedef struct lobe_texture_use {
+    int32_t image;                ///< index into lobe_scene.images; -1: none
+    uint32_t texture_coordinates; ///< which set of the mesh [0, 1]
+    lobe_scene_wrap wrap_u, wrap_v;
+    bool nearest; ///< texels are not interpolated (the sampler's magnification filter)
+    /// Texture coordinates are transformed before the fetch (KHR_texture_transform):
+    /// uv' = T(offset) R(rotation) S(scale) uv, as two rows of an affine 2x3 matrix.
+    float transform[2][3];
+} lobe_texture_use;
+
+/// No image, identity transform.
+#define LOBE_TEXTURE_NONE ((lobe_texture_use){-1, 0, 0, 0, false, {{1, 0, 0}, {0, 1, 0}}})
+
+typedef enum lobe_material_model {
+    /// glTF metal-rough: F D G2 / (4 cos) with a distribution of normals, and Lambert below it.
+    LOBE_MATERIAL_MICROFACET,
+    /// The papers' own: a sum of lobes of the half vector, the cosine included, no Fresnel term,
+    /// no shadowing; and Lambert beside it.
+    LOBE_MATERIAL_HALF_VECTOR_LOBES,
+} lobe_material_model;
+
+/// Shape of the base lobe, and thereby what "width" means.
+typedef enum lobe_distribution {
+    LOBE_DISTRIBUTION_GGX,         ///< roughness [0, 1], alpha = roughness squared
+    LOBE_DISTRIBUTION_BECKMANN,    ///< roughness [0, 1], alpha = roughness squared
+    LOBE_DISTRIBUTION_BLINN_PHONG, ///< exponent s [0, 1e6], normalised by (s+1)/2pi
+    LOBE_DISTRIBUTION_VMF,         ///< concentration kappa [0, 1e6] of a von Mises-Fisher lobe
+} lobe_distribution;
+
+#define LOBE_MATERIAL_MAXIMUM_LOBES 4
+
+/// One lobe of a half-vector material, in the frame of the texel's normal (z along the normal,
+/// x along the tangent).
+typedef struct lobe_base_lobe {
+    float direction[3]; ///< unit length
+    float width;        ///< exponent or kappa, multiplied by the width map where there is one
+    float colour[3];    ///< linear RGB reflectance, multiplied by the specular map
+} lobe_base_lobe;
+
+/// Which space mixtures of lobes are built in (method: Xu et al. 2017, section 4).
+typedef enum lobe_map_space {
+    LOBE_SPACE_AUTOMATIC, ///< tangent where the maps tile, else what suits the mesh
+    LOBE_SPACE_TANGENT,   ///< over the maps themselves
+    LOBE_SPACE_OBJECT,    ///< over the mesh's texture atlas, with its interpolated normals
+    LOBE_SPACE_CAMERA,    ///< the same, seen from the camera; rebuilt when that moves
+} lobe_map_space;
+
+typedef struct lobe_material {
+    char *name;
+    lobe_material_model model;
+    lobe_distribution distribution;
+    lobe_map_space space;
+
+    // Both models. A map's texel is multiplied by the factor.
+    float base_colour[4]; ///< linear RGB albedo (of the diffuse part of half-vector lobes), alpha
+    lobe_texture_use base_colour_map; ///< sRGB or linear, as its image's format says
+    lobe_texture_use normal_map;      ///< tangent space, +Y (OpenGL), RGB = (n + 1) / 2
+    float normal_scale;               ///< x and y of the texel's normal are multiplied by it
+    /// Concentration kappa_N of the normals inside one texel of the normal map; each base lobe is
+    /// convolved with it (Xu et al. 2017, Eqs. 11-14). 0: none, the texel's normal is exact.
+    float normal_concentration;
+    float emissive[3]; ///< linear RGB radiance
+    lobe_texture_use emissive_map;
+    lobe_texture_use occlusion_map; ///< red; scales indirect light only
+    float occlusion_strength;       ///< [0, 1]
+    bool double_sided;
+    bool alpha_mask; ///< discard below alpha_cutoff; otherwise opaque
+    float alpha_cutoff;
+
+    // Microfacet.
+    float metallic;                          ///< [0, 1]
+    float roughness;                         ///< [0, 1]
+    lobe_texture_use metallic_roughness_map; ///< green: roughness, blue: metallic
+
+    // Half-vector lobes.
+    lobe_base_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
+    uint32_t lobe_count;           ///< [1, LOBE_MATERIAL_MAXIMUM_LOBES]
+    lobe_texture_use width_map;    ///< red multiplies the width of every lobe (float formats)
+    lobe_texture_use specular_map; ///< RGB multiplies the colour of every lobe
+} lobe_material;
+
+/// A white microfacet material: GGX, roughness 1, metallic 0, no maps.
+void lobe_material_default(lobe_material *material);
+
+/// Shared with shaders/interface/vertex.h: the same 18 floats.
+typedef struct lobe_scene_vertex {
+    float position[3];
+    float normal[3];  ///< unit length
+    float tangent[4]; ///< unit length, orthogonal to the normal; w = +1 or -1 gives the
+                      ///< bitangent w * cross(normal, tangent); along increasing u
+    float texture_coordinates[2][2];
+    float colour[4]; ///< linear RGB and alpha, multiplies base_colour; 1 where there is none
+} lobe_scene_vertex;
+
+typedef struct lobe_mesh {
+    char *name;
+    lobe_scene_vertex *vertices;
+    size_t vertex_count;
+    uint32_t *indices; ///< three a triangle, counter-clockwise in front
+    size_t index_count;
+    bool has_texture_coordinates[2];
+    bool has_colour;
+    float minimum[3], maximum[3]; ///< bounds of the positions
+} lobe_mesh;
+
+/// A mesh placed in the world with a material.
+typedef struct lobe_instance {
+    uint32_t mesh, material;
+    float transform[16]; ///< object to world, column-major, affine
+} lobe_instance;
+
+typedef enum lobe_light_type {
+    LOBE_LIGHT_DIRECTIONAL, ///< intensity in W/m2 (lux) perpendicular to it
+    LOBE_LIGHT_POINT,       ///< intensity in W/sr (candela), falls with the squared distance
+    LOBE_LIGHT_SPOT,        ///< a point light within a cone, as in KHR_lights_punctual
+} lobe_light_type;
+
+typedef struct lobe_light {
+    lobe_light_type type;
+    float position[3];            ///< point and spot
+    float direction[3];           ///< directional and spot: where the light travels to, unit length
+    float intensity[3];           ///< linear RGB
+    float range;                  ///< metres, 0: unlimited (windowing of KHR_lights_punctual)
+    float inner_cone, outer_cone; ///< spot: half angles in radians
+} lobe_light;
+
+typedef struct lobe_camera {
+    float eye[3], target[3], up[3];
+    float vertical_field_of_view; ///< radians; 0 for an orthographic camera
+    float orthographic_height;    ///< metres across, used where the field of view is 0
+    float near_plane;             ///< metres, above 0; the far plane is at infinity
+} lobe_camera;
+
+typedef struct lobe_scene {
+    char *name;
+    lobe_scene_image *images;
+    size_t image_count;
+    lobe_material *materials;
+    size_t material_count;
+    lobe_mesh *meshes;
+    size_t mesh_count;
+    lobe_instance *instances;
+    size_t instance_count;
+    lobe_light *lights;
+    size_t light_count;
+    lobe_camera camera;
+    bool has_camera;     ///< false: the file brought none; lobe_scene_complete sets a sensible one
+    float background[3]; ///< linear RGB radiance where nothing is hit
+    float minimum[3], maximum[3]; ///< bounds of all instances in the world
+} lobe_scene;
+
+/// Frees all and clears the pointer. NULL is fine.
+void lobe_scene_destroy(lobe_scene **scene);
+
+/// A scene made by code, from a fixed seed.
+typedef struct lobe_builtin_scene {
+    const char *name;
+    const char *summary; ///< one line
+} lobe_builtin_scene;
+
+size_t lobe_builtin_scene_count(void);
+/// NULL for an index out of range.
+const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
+
+/// Opens `scene`: the name of a built-in scene, or the path of a .gltf or .glb file.
+/// Unsupported parts of a file are named in one warning. A missing camera or light is added,
+/// with a notice. On failure `*result` is NULL and the log has one line that names the file and
+/// the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
+/// _OUT_OF_MEMORY.
+lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
+
+typedef enum lobe_carrier { LOBE_CARRIER_PLANE, LOBE_CARRIER_SPHERE } lobe_carrier;
+
+/// A plane or sphere that carries the PBR maps of a folder (recognised by their file names:
+/// albedo/base/col/diff, normal/nor, rough, metal, arm/orm, ao, ...). At least one map must be
+/// found. Errors as for lobe_scene_open.
+lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier, const lobe_log *log,
+                                     lobe_scene **result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
