@@ -1,0 +1,15 @@
+#ifndef TOOLS_SUBCOMMAND_H
+#define TOOLS_SUBCOMMAND_H
+
+/// One of the things the program can do: `lobe NAME ...`.
+typedef struct subcommand {
+    const char *name;
+    const char *summary; ///< one line for `lobe --help`
+    /// argv[0] is the name, the rest its options and operands. Returns the exit status: 0 done,
+    /// 1 failed (one line on standard error said why), 2 wrong usage.
+    int (*run)(int argc, char **argv);
+} subcommand;
+
+extern const subcommand compare_subcommand;
+
+#endif
