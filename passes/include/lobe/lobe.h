@@ -1,0 +1,29 @@
+#ifndef LOBE_LOBE_H
+#define LOBE_LOBE_H
+
+/// lobe: rendering whose appearance stays true at every distance. This header brings all of it.
+
+#include <lobe/device.h>
+#include <lobe/exr.h>
+#include <lobe/filter.h>
+#include <lobe/graph.h>
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/png.h>
+#include <lobe/profile.h>
+#include <lobe/renderer.h>
+#include <lobe/result.h>
+#include <lobe/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The version of the library, for example "0.1.0".
+const char *lobe_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
