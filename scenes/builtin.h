@@ -1,0 +1,25 @@
+#ifndef SCENES_BUILTIN_H
+#define SCENES_BUILTIN_H
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+#include <lobe/scene.h>
+
+/// The scenes made by code. Each is one file, scenes/builtin_<name>.c, and one row of the table
+/// in scenes/builtin.c. They use no random source but scenes/random.h and no function of libm but
+/// sqrt, which IEEE 754 rounds correctly: every machine makes the same bytes.
+
+typedef struct builtin_scene {
+    lobe_builtin_scene description;
+    /// Makes a completed scene. On failure `*scene` is NULL.
+    lobe_result (*build)(const lobe_log *log, lobe_scene **scene);
+} builtin_scene;
+
+/// NULL where there is none of that name; not an error, nothing is logged.
+const builtin_scene *builtin_scene_find(const char *name);
+
+lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene);
+
+#endif
