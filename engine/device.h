@@ -1,0 +1,73 @@
+#ifndef ENGINE_DEVICE_H
+#define ENGINE_DEVICE_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#include <lobe/device.h>
+
+#include "engine/memory.h"
+
+/// Vulkan's features in the form they are queried and enabled.
+typedef struct engine_features {
+    VkPhysicalDeviceFeatures2 core;
+    VkPhysicalDeviceVulkan11Features vulkan_1_1;
+    VkPhysicalDeviceVulkan12Features vulkan_1_2;
+    VkPhysicalDeviceVulkan13Features vulkan_1_3;
+} engine_features;
+
+struct lobe_device {
+    lobe_log log; ///< always valid; `write` may be NULL
+    VkInstance instance;
+    VkDebugUtilsMessengerEXT messenger;
+    VkPhysicalDevice physical;
+    VkDevice vulkan;
+    VkQueue queue; ///< graphics, compute and transfer
+    uint32_t queue_family;
+    uint32_t timestamp_bits; ///< valid bits of a timestamp; 0: the queue has none
+    VkPhysicalDeviceLimits limits;
+    engine_features features; ///< what was enabled
+    VkSemaphore timeline;     ///< reaches n when the n-th submission is done
+    uint64_t submitted;       ///< submissions so far
+    VkCommandPool commands;   ///< of single-use command buffers
+    engine_memory *memory;
+    struct engine_shaders *shaders;     ///< see engine/shader.h
+    struct engine_pipelines *pipelines; ///< see engine/pipeline.h
+    uint64_t last_stamp;                ///< see engine_device_stamp
+    lobe_device_information information;
+    _Atomic uint64_t validation_count;
+    bool debug_utils; ///< labels and names reach somebody
+    PFN_vkSetDebugUtilsObjectNameEXT set_name;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
+};
+
+/// A number that was never given before on this device, above 0: what a content is known by.
+uint64_t engine_device_stamp(lobe_device *device);
+
+/// Submits a finished command buffer. `*value` is what the timeline reaches when it is done;
+/// `value` may be NULL. Submissions execute in order only where barriers say so.
+lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands, uint64_t *value);
+/// Waits until the timeline has reached `value`.
+lobe_result engine_device_wait(lobe_device *device, uint64_t value);
+/// Waits for all submissions.
+lobe_result engine_device_wait_all(lobe_device *device);
+
+/// A command buffer in recording state, for single use. `purpose` is for the error line.
+lobe_result engine_device_begin_commands(lobe_device *device, const char *purpose,
+                                         VkCommandBuffer *commands);
+/// Ends, submits, waits and frees what engine_device_begin_commands gave, failure or not.
+lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
+                                          VkCommandBuffer commands);
+
+/// Debug names and labels; nothing happens where the debug utilities are absent.
+void engine_device_name(const lobe_device *device, VkObjectType type, uint64_t handle,
+                        const char *name);
+void engine_device_begin_label(const lobe_device *device, VkCommandBuffer commands,
+                               const char *name);
+void engine_device_end_label(const lobe_device *device, VkCommandBuffer commands);
+
+#endif
