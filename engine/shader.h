@@ -54,7 +54,7 @@ typedef struct engine_shader_code {
 
 /// The shaders embedded in the library, from shaders/.
 extern const engine_shader_code engine_embedded_shaders[];
-extern const size_t engine_embedded_shader_count;
+extern const size_t engine_embedded_shaders_count;
 
 /// The shaders a device knows.
 typedef struct engine_shaders engine_shaders;

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Compiles the GLSL passes of a folder to SPIR-V and writes them as one C table.
+
+Each *.vert, *.frag and *.comp directly in the folder is a pass. One that includes "filter.glsl"
+is compiled for each file of filters/ in its stead, without and with the macro AOV: shading.frag
+and filters/lobes.glsl give shading_lobes.frag and shading_lobes_aov.frag. The table says what each
+entry was made from, so that the library can compile it again at run time.
+"""
+
+import argparse
+import concurrent.futures
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+STAGES = (".vert", ".frag", ".comp")
+FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Shader:
+    name: str
+    source: str
+    definitions: tuple = ()
+    substitute: str = ""
+
+
+def variants(folder, path):
+    """The shaders that one source file stands for."""
+    if not FILTER_INCLUDE.search(path.read_text()):
+        return [Shader(path.name, path.name)]
+    found = []
+    for filter_file in sorted((folder / "filters").glob("*.glsl")):
+        for suffix, definitions in (("", ()), ("_aov", ("AOV",))):
+            name = f"{path.stem}_{filter_file.stem}{suffix}{path.suffix}"
+            found.append(Shader(name, path.name, definitions, f"filters/{filter_file.name}"))
+    return found
+
+
+def compile_shader(compiler, folder, includes, shader, scratch):
+    """Gives the SPIR-V words of one shader, or raises with the compiler's own words."""
+    output = Path(scratch) / (shader.name + ".spv")
+    substitutes = Path(scratch) / (shader.name + ".include")
+    substitutes.mkdir()
+    if shader.substitute:
+        (substitutes / "filter.glsl").write_text(f'#include "{shader.substitute}"\n')
+    command = [compiler, "-V", "--quiet", "--target-env", "vulkan1.3"]
+    command += [f"-I{path}" for path in (substitutes, *includes)]
+    command += [f"-D{definition}" for definition in shader.definitions]
+    command += ["-o", str(output), str(folder / shader.source)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{shader.name}:\n{done.stdout}")
+    code = output.read_bytes()
+    return struct.unpack(f"<{len(code) // 4}I", code)
+
+
+def table_text(table, shaders, codes):
+    """The C source of the table."""
+    lines = ["/* Made by shaders/embed.py from GLSL. */", '#include "engine/shader.h"', ""]
+    for index, words in enumerate(codes):
+        lines.append(f"static const uint32_t words_{index}[] = {{")
+        lines += ["    " + "".join(f"0x{word:08x}," for word in words[start:start + 8])
+                  for start in range(0, len(words), 8)]
+        lines.append("};")
+    lines.append(f"const engine_shader_code {table}[] = {{")
+    for index, shader in enumerate(shaders):
+        definitions = " ".join(shader.definitions)
+        lines.append(f'    {{"{shader.name}", "{shader.source}", "{definitions}", '
+                     f'"{shader.substitute}", words_{index}, sizeof words_{index}}},')
+    # C has no empty arrays: the entry that ends the table is not counted.
+    lines += ["    {0},", "};", f"const size_t {table}_count = {len(shaders)};", ""]
+    return "\n".join(lines)
+
+
+def dependencies(folders):
+    """Every file, and every folder: adding or removing a file changes the folder's time."""
+    found = [Path(__file__)]
+    for folder in folders:
+        found.append(folder)
+        found += [path for path in sorted(folder.rglob("*")) if "__pycache__" not in path.parts]
+    return found
+
+
+def write_dependencies(path, target, folders):
+    names = [str(name).replace(" ", "\\ ") for name in dependencies(folders)]
+    path.write_text(f"{target}: " + " ".join(names) + "\n")
+
+
+def replace_file(path, text):
+    temporary = path.with_name(path.name + ".new")
+    temporary.write_text(text)
+    os.replace(temporary, path)
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--compiler", required=True, help="glslangValidator")
+    parser.add_argument("--folder", required=True, type=Path, help="where the passes are")
+    parser.add_argument("--include", action="append", default=[], type=Path,
+                        help="folder to look for includes in, after --folder itself")
+    parser.add_argument("--table", required=True, help="name of the C array")
+    parser.add_argument("--output", required=True, type=Path)
+    parser.add_argument("--depfile", required=True, type=Path)
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    folders = [arguments.folder.resolve(), *(path.resolve() for path in arguments.include)]
+    sources = [path for path in sorted(folders[0].iterdir()) if path.suffix in STAGES]
+    shaders = [shader for path in sources for shader in variants(folders[0], path)]
+    with tempfile.TemporaryDirectory() as scratch, \
+            concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        futures = [pool.submit(compile_shader, arguments.compiler, folders[0], folders, shader,
+                               scratch) for shader in shaders]
+        failures = [str(future.exception()) for future in futures if future.exception()]
+        if failures:
+            print("\n".join(failures), file=sys.stderr)
+            return 1
+        codes = [future.result() for future in futures]
+    replace_file(arguments.output, table_text(arguments.table, shaders, codes))
+    write_dependencies(arguments.depfile, arguments.output, folders)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
