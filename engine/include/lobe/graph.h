@@ -191,7 +191,10 @@ typedef struct lobe_draw {
     size_t binding_count;
 } lobe_draw;
 
-/// Adds a draw of triangles, in order.
+/// Adds a draw of triangles, in order. Clip space is Vulkan's own, without a flip: x to the right,
+/// y *down*, -w to w each; 0 <= z <= w with reversed depth (z = w at the near plane). A projection
+/// for a world with y up therefore negates y. Viewport and scissor are the attachments' extent.
+/// The front of a triangle is where its corners are counter-clockwise as seen in the picture.
 void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
 
 /// Transfer passes: copies one image (same extent, format size and range shape) or buffer.
