@@ -25,11 +25,12 @@ lobe_result mesh_compute_normals(lobe_mesh *mesh, const lobe_log *log);
 /// finite, and brings the others to unit length. `*repaired` counts the recomputed ones.
 lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *repaired);
 
-/// Tangents along increasing u, orthonormal to the (unit) normals; w is the handedness of the
-/// coordinates. `use` says which set of coordinates and how it is transformed before the fetch,
-/// so that a normal map's x axis is the tangent; NULL: the first set as it is. Where coordinates
-/// are missing or degenerate: any direction orthogonal to the normal, w = 1. A vertex whose
-/// triangles disagree about the handedness is split in two, so vertices may be appended.
+/// Tangents along increasing u, orthonormal to the (unit) normals; w is such that the bitangent
+/// w * cross(normal, tangent) runs up the image, against v, as +Y normal maps ask for. `use` says
+/// which set of coordinates and how it is transformed before the fetch, so that a normal map's x
+/// axis is the tangent; NULL: the first set as it is. Where coordinates are missing or
+/// degenerate: any direction orthogonal to the normal, w = 1. A vertex whose triangles disagree
+/// about w is split in two, so vertices may be appended.
 lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                   const lobe_log *log);
 

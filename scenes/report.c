@@ -1,0 +1,32 @@
+#include "scenes/report.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void write_line(const lobe_log *log, lobe_log_level level, const char *format,
+                       va_list arguments) {
+    if (!log || !log->write)
+        return;
+    char line[1024];
+    vsnprintf(line, sizeof line, format, arguments);
+    for (char *c = line; *c; c++) {
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    }
+    log->write(log->user, level, line);
+}
+
+void scene_report(const lobe_log *log, lobe_log_level level, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(log, level, format, arguments);
+    va_end(arguments);
+}
+
+lobe_result scene_report_error(const lobe_log *log, lobe_result result, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(log, LOBE_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return result;
+}
