@@ -9,6 +9,7 @@
 
 #include <lobe/device.h>
 
+#include "engine/instance.h"
 #include "engine/memory.h"
 
 /// Vulkan's features in the form they are queried and enabled.
@@ -21,8 +22,8 @@ typedef struct engine_features {
 
 struct lobe_device {
     lobe_log log; ///< always valid; `write` may be NULL
-    VkInstance instance;
-    VkDebugUtilsMessengerEXT messenger;
+    engine_validation validation;
+    engine_instance instance;
     VkPhysicalDevice physical;
     VkDevice vulkan;
     VkQueue queue; ///< graphics, compute and transfer
@@ -39,7 +40,8 @@ struct lobe_device {
     uint64_t last_stamp;                ///< see engine_device_stamp
     lobe_device_information information;
     _Atomic uint64_t validation_count;
-    bool debug_utils; ///< labels and names reach somebody
+    bool memory_budget; ///< VK_EXT_memory_budget is enabled
+    // Debug utilities; NULL where they are absent.
     PFN_vkSetDebugUtilsObjectNameEXT set_name;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label;
@@ -62,6 +64,9 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
 /// Ends, submits, waits and frees what engine_device_begin_commands gave, failure or not.
 lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
                                           VkCommandBuffer commands);
+
+/// Looks up the functions of the debug utilities, once.
+void engine_debug_labels_load(lobe_device *device);
 
 /// Debug names and labels; nothing happens where the debug utilities are absent.
 void engine_device_name(const lobe_device *device, VkObjectType type, uint64_t handle,

@@ -1,0 +1,29 @@
+#ifndef ENGINE_DEVICE_SELECTION_H
+#define ENGINE_DEVICE_SELECTION_H
+
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#include <lobe/device.h>
+
+/// A device of this machine, used or not.
+typedef struct engine_candidate {
+    VkPhysicalDevice physical;
+    /// `features` is allocated; free with engine_candidates_free.
+    lobe_device_information information;
+    uint32_t queue_family; ///< with graphics and compute; UINT32_MAX: none
+    uint32_t timestamp_bits;
+} engine_candidate;
+
+/// Lists all devices. LOBE_ERROR_NO_DEVICE where there is none, LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,
+                                   engine_candidate **candidates, size_t *count);
+void engine_candidates_free(engine_candidate **candidates, size_t count);
+
+/// Gives the index of the device that `select` (see lobe_device_parameters) asks for.
+/// LOBE_ERROR_NO_DEVICE: nothing matches, or what matches lacks something required.
+lobe_result engine_candidates_select(const engine_candidate *candidates, size_t count,
+                                     const char *select, const lobe_log *log, size_t *selected);
+
+#endif

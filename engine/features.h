@@ -1,0 +1,28 @@
+#ifndef ENGINE_FEATURES_H
+#define ENGINE_FEATURES_H
+
+#include <stddef.h>
+
+#include <vulkan/vulkan.h>
+
+#include <lobe/device.h>
+
+#include "engine/device.h"
+
+#define ENGINE_FEATURE_COUNT 12
+
+/// Fills the list of what lobe knows about from what the device has. The device may be older than
+/// Vulkan 1.3: what its version lacks is absent.
+void engine_features_query(VkPhysicalDevice physical,
+                           lobe_device_feature features[ENGINE_FEATURE_COUNT]);
+
+/// The structures that enable all features of the list that are present, chained for
+/// VkDeviceCreateInfo.pNext; `enable` must stay where it is while they are used.
+void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_COUNT],
+                            engine_features *enable);
+
+/// The first that is required but absent; NULL where nothing is missing.
+const lobe_device_feature *
+engine_features_missing(const lobe_device_feature features[ENGINE_FEATURE_COUNT]);
+
+#endif

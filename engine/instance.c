@@ -1,0 +1,135 @@
+#include "engine/instance.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/text.h"
+#include "engine/vulkan_check.h"
+
+#define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
+
+/// Whether `name` is an extension of the loader and drivers, or of `layer` where that is given.
+static bool has_extension(const char *layer, const char *name) {
+    uint32_t count = 0;
+    if (vkEnumerateInstanceExtensionProperties(layer, &count, NULL) != VK_SUCCESS || count == 0)
+        return false;
+    VkExtensionProperties *extensions = calloc(count, sizeof *extensions);
+    bool found = false;
+    if (extensions &&
+        vkEnumerateInstanceExtensionProperties(layer, &count, extensions) >= VK_SUCCESS)
+        for (uint32_t i = 0; i < count && !found; i++)
+            found = !strcmp(extensions[i].extensionName, name);
+    free(extensions);
+    return found;
+}
+
+static bool has_layer(const char *name) {
+    uint32_t count = 0;
+    if (vkEnumerateInstanceLayerProperties(&count, NULL) != VK_SUCCESS || count == 0)
+        return false;
+    VkLayerProperties *layers = calloc(count, sizeof *layers);
+    bool found = false;
+    if (layers && vkEnumerateInstanceLayerProperties(&count, layers) >= VK_SUCCESS)
+        for (uint32_t i = 0; i < count && !found; i++)
+            found = !strcmp(layers[i].layerName, name);
+    free(layers);
+    return found;
+}
+
+static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
+    VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
+    const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
+    (void)types;
+    const engine_validation *validation = user;
+    const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    atomic_fetch_add(validation->count, 1);
+    engine_log(validation->log, LOBE_LOG_ERROR, "Vulkan validation %s: %s",
+               error ? "error" : "warning", data->pMessage);
+    return VK_FALSE;
+}
+
+static VkDebugUtilsMessengerCreateInfoEXT messenger_settings(const engine_validation *validation) {
+    return (VkDebugUtilsMessengerCreateInfoEXT){
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                       VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        .pfnUserCallback = receive_message,
+        .pUserData = (void *)validation,
+    };
+}
+
+static VkResult create_plain(engine_instance *instance, const void *next, const char *layer) {
+    const VkApplicationInfo application = {
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+        .pEngineName = "lobe",
+        .apiVersion = VK_API_VERSION_1_3,
+    };
+    const char *const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const VkInstanceCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+        .pNext = next,
+        .pApplicationInfo = &application,
+        .enabledLayerCount = layer ? 1 : 0,
+        .ppEnabledLayerNames = &layer,
+        .enabledExtensionCount = instance->debug_utils ? 1 : 0,
+        .ppEnabledExtensionNames = &extension,
+    };
+    return vkCreateInstance(&create, NULL, &instance->vulkan);
+}
+
+static VkResult create_validated(engine_instance *instance, const engine_validation *validation) {
+    static const VkValidationFeatureEnableEXT enabled[] = {
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+    };
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_settings(validation);
+    const VkValidationFeaturesEXT features = {
+        .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+        .pNext = &messenger,
+        .enabledValidationFeatureCount = sizeof enabled / sizeof *enabled,
+        .pEnabledValidationFeatures = enabled,
+    };
+    return create_plain(instance, &features, VALIDATION_LAYER);
+}
+
+static lobe_result create_messenger(const lobe_log *log, const engine_validation *validation,
+                                    engine_instance *instance) {
+    const VkDebugUtilsMessengerCreateInfoEXT settings = messenger_settings(validation);
+    PFN_vkCreateDebugUtilsMessengerEXT create =
+        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->vulkan,
+                                                                  "vkCreateDebugUtilsMessengerEXT");
+    return VULKAN_CHECK(log, create(instance->vulkan, &settings, NULL, &instance->messenger),
+                        "validation messages");
+}
+
+lobe_result engine_instance_create(const lobe_log *log, const engine_validation *validation,
+                                   engine_instance *instance) {
+    *instance = (engine_instance){0};
+    if (validation && !has_layer(VALIDATION_LAYER))
+        return engine_fail(log, LOBE_ERROR_UNSUPPORTED,
+                           "validation: the layer " VALIDATION_LAYER " is not installed");
+    instance->debug_utils =
+        validation != NULL || has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    const VkResult created =
+        validation ? create_validated(instance, validation) : create_plain(instance, NULL, NULL);
+    if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
+        return engine_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
+    lobe_result result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");
+    if (result == LOBE_OK && validation)
+        result = create_messenger(log, validation, instance);
+    if (result != LOBE_OK)
+        engine_instance_destroy(instance);
+    return result;
+}
+
+void engine_instance_destroy(engine_instance *instance) {
+    if (instance->messenger) {
+        PFN_vkDestroyDebugUtilsMessengerEXT destroy =
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                instance->vulkan, "vkDestroyDebugUtilsMessengerEXT");
+        destroy(instance->vulkan, instance->messenger, NULL);
+    }
+    vkDestroyInstance(instance->vulkan, NULL);
+    *instance = (engine_instance){0};
+}
