@@ -1,0 +1,30 @@
+#ifndef LIB_LOBE_CLUSTER_GLSL
+#define LIB_LOBE_CLUSTER_GLSL
+
+// The partition of directions about the pole (0, 0, 1) into clusters of lobes: Xu, Wang, Zhao,
+// Bao, 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Subdivision 0 has one cluster,
+// subdivision 1 has 4 sectors of longitude, subdivision 2 splits each by latitude: cluster j of
+// subdivision 2 lies in sector j/2 (Algorithm 1 means children 2i and 2i + 1).
+//
+// Sectors are centred on +x, +y, -x, -y and meet on the diagonals: what is woven or tiled along the
+// axes of a texture leans along them, and such lobes should not be torn apart by noise.
+
+const uint CLUSTER_COUNT = 8u;
+const uint SECTOR_COUNT = 4u;
+
+// Cosine of the tilt that splits a sector. Half the hemisphere would be 0.5, but normals of real
+// maps stay near the pole.
+const float LATITUDE_SPLIT = 0.9;
+
+uint sector_of(vec3 direction) {
+    bool along_x = abs(direction.x) >= abs(direction.y);
+    bool negative = (along_x ? direction.x : direction.y) < 0.0;
+    return (along_x ? 0u : 1u) + (negative ? 2u : 0u);
+}
+
+// Cluster of subdivision 2 [0, 8), of a unit direction. Even: near the pole; odd: tilted.
+uint cluster_of(vec3 direction) {
+    return 2u * sector_of(direction) + (direction.z < LATITUDE_SPLIT ? 1u : 0u);
+}
+
+#endif
