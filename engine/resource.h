@@ -71,6 +71,13 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
                                  VkBufferUsageFlags usage, VkBuffer *buffer,
                                  VkMemoryRequirements *requirements);
 
+/// The same with memory of its own, bound. On failure both are all zero.
+lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, VkDeviceSize size,
+                                        VkBufferUsageFlags usage, engine_memory_place place,
+                                        VkBuffer *buffer, engine_allocation *allocation);
+void engine_buffer_destroy_placed(lobe_device *device, VkBuffer *buffer,
+                                  engine_allocation *allocation);
+
 /// A buffer in mapped memory, for transfers between host and device. All zero: none.
 typedef struct engine_staging {
     VkBuffer buffer;
@@ -80,7 +87,8 @@ typedef struct engine_staging {
 } engine_staging;
 
 /// `place` is ENGINE_MEMORY_UPLOAD or ENGINE_MEMORY_READ_BACK. Usage: transfer source and
-/// destination, and uniform and storage for small uploads that shaders read in place.
+/// destination, and uniform and (up to the device's limit) storage for small uploads that shaders
+/// read in place.
 lobe_result engine_staging_create(lobe_device *device, const char *name, VkDeviceSize size,
                                   engine_memory_place place, engine_staging *staging);
 /// The device must have finished with it. One that is all zero is fine.
