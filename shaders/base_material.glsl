@@ -1,0 +1,106 @@
+#ifndef BASE_MATERIAL_GLSL
+#define BASE_MATERIAL_GLSL
+
+// A material at one point of its maps, and its reflectance: what `direct` and the reference
+// evaluate, and what all filters are to average.
+
+#include "lib/angle.glsl"
+#include "lib/base_lobe.glsl"
+#include "lib/half_vector_lobe.glsl"
+#include "lib/microfacet.glsl"
+#include "lib/normal_map.glsl"
+#include "lib/von_mises_fisher.glsl"
+#include "surface.glsl"
+
+struct base_material {
+    vec3 normal;   // in the tangent frame
+    vec3 diffuse;  // albedo of the Lambert part
+    vec3 specular; // microfacets: F0; half-vector lobes: factor of every lobe's colour
+    float width;   // microfacets: the distribution's parameter; lobes: factor of their widths
+};
+
+// A lobe's parameter with the spread of normals inside a texel.
+float convolved(float parameter) {
+    return NORMAL_CONCENTRATION
+               ? convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration)
+               : parameter;
+}
+
+// The material's constants times the texels of its maps, white where it has none.
+base_material assemble_material(surface_point surface, vec3 normal, vec4 base_colour, vec4 width,
+                                vec3 specular) {
+    base_material base;
+    vec3 albedo = material.base_colour.rgb * base_colour.rgb;
+    if (VERTEX_COLOUR)
+        albedo *= surface.colour.rgb;
+    base.normal = normal;
+    if (MODEL == MODEL_MICROFACET) {
+        float metallic = material.metallic * width.b;
+        // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
+        base.diffuse = albedo * (1.0 - metallic);
+        base.specular = mix(vec3(0.04), albedo, metallic);
+        base.width = convolved(microfacet_parameter(DISTRIBUTION, material.roughness * width.g));
+    } else {
+        base.diffuse = albedo;
+        base.specular = specular;
+        base.width = width.r;
+    }
+    return base;
+}
+
+float half_vector_lobe_parameter(int i, float factor) {
+    return convolved(base_lobe_parameter(DISTRIBUTION, material.lobe_direction[i].w * factor));
+}
+
+float evaluate_half_vector_lobe(vec3 half_vector, vec3 axis, float parameter) {
+    return BASE_AS_LOBE ? von_mises_fisher(half_vector, axis,
+                                           base_lobe_concentration(DISTRIBUTION, parameter))
+                        : half_vector_lobe(DISTRIBUTION, half_vector, axis, parameter);
+}
+
+float evaluate_normal_distribution(vec3 normal, vec3 half_vector, float parameter) {
+    return BASE_AS_LOBE
+               ? distribution_von_mises_fisher(normal, half_vector,
+                                               base_lobe_concentration(DISTRIBUTION, parameter))
+               : normal_distribution(DISTRIBUTION, normal, half_vector, parameter);
+}
+
+// The microfacet frame around any distribution of half vectors. `mean_normal` may be shorter than
+// one: its product with the incoming direction is the mean of the texels' cosines.
+vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distribution,
+                          vec3 half_vector, vec3 outgoing, vec3 incoming) {
+    float incoming_cosine = dot(base.normal, incoming);
+    float outgoing_cosine = dot(base.normal, outgoing);
+    if (incoming_cosine <= 0.0 || outgoing_cosine <= 0.0)
+        return vec3(0.0);
+    vec3 fresnel = fresnel_schlick(base.specular, vec3(1.0), dot(incoming, half_vector));
+    float shadowing = masking_shadowing(DISTRIBUTION, incoming_cosine, outgoing_cosine, base.width);
+    return microfacet_specular(fresnel, distribution, shadowing, outgoing_cosine) +
+           microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
+}
+
+// Reflectance times cosine, for unit directions in the tangent frame. Nothing reaches a point
+// from below the macro-surface.
+vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
+    if (incoming.z <= 0.0)
+        return vec3(0.0);
+    vec3 halfway = half_vector(incoming, outgoing);
+    if (MODEL == MODEL_MICROFACET) {
+        float distribution = evaluate_normal_distribution(base.normal, halfway, base.width);
+        return evaluate_microfacets(base, base.normal, distribution, halfway, outgoing,
+                                    incoming);
+    }
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
+        sum += material.lobe_colour[i].rgb *
+               evaluate_half_vector_lobe(halfway, axis,
+                                         half_vector_lobe_parameter(i, base.width));
+    }
+    sum *= base.specular;
+    if (DIFFUSE)
+        sum += microfacet_diffuse(base.diffuse, vec3(0.0), dot(base.normal, incoming));
+    return sum;
+}
+
+#endif

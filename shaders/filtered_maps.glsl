@@ -1,0 +1,93 @@
+#ifndef FILTERED_MAPS_GLSL
+#define FILTERED_MAPS_GLSL
+
+// Reading maps over a pixel's footprint. A filtered map holds levels 1 and up of its base map (its
+// own level 0 has half the base map's size); level 0 is the base map itself.
+
+#include "interface/mixture.h"
+#include "lib/footprint.glsl"
+#include "unfiltered_maps.glsl"
+
+layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1;
+layout(constant_id = SPECIALISE_LEVEL_BIAS) const float LEVEL_BIAS = 0.0;
+layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
+
+layout(set = 0, binding = 17) uniform sampler2D base_colour_filtered;
+layout(set = 0, binding = 18) uniform sampler2D width_filtered;
+layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
+layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
+
+// Where and how widely a map is read.
+struct map_area {
+    vec2 centre; // texture coordinates
+    vec2 stride; // from probe to probe, along the major axis
+    float level; // of the base map, at least 0
+};
+
+// `size`: texels of the base map.
+map_area area_of(int map, vec2 size, surface_point surface) {
+    footprint pixel =
+        footprint_of(map_coordinates(map, surface.coordinates_dx, 0.0) * size,
+                     map_coordinates(map, surface.coordinates_dy, 0.0) * size);
+    map_area area;
+    area.centre = map_coordinates(map, surface.coordinates, 1.0);
+    area.stride = pixel.direction * (pixel.major_axis / float(PROBES)) / size;
+    area.level = max(level_of(pixel, float(PROBES)) + LEVEL_BIAS, 0.0);
+    return area;
+}
+
+vec2 probe_position(map_area area, uint probe) {
+    return area.centre + area.stride * (float(probe) - 0.5 * float(PROBES - 1u));
+}
+
+vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface) {
+    if (!has_map(map))
+        return vec4(1.0);
+    map_area area = area_of(map, vec2(textureSize(base, 0)), surface);
+    if ((COLOUR_MAPS & (1u << map)) == 0u)
+        return textureLod(base, area.centre, 0.0);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < PROBES; ++i) {
+        vec2 position = probe_position(area, i);
+        vec4 value = vec4(0.0);
+        if (area.level < 1.0)
+            value = textureLod(base, position, 0.0);
+        if (area.level > 0.0)
+            value = mix(value, textureLod(filtered, position, max(area.level - 1.0, 0.0)),
+                        min(area.level, 1.0));
+        sum += value;
+    }
+    return sum / float(PROBES);
+}
+
+vec4 filtered_base_colour(surface_point surface) {
+    return filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface);
+}
+
+vec3 filtered_emission(surface_point surface) {
+    return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface).rgb;
+}
+
+base_material filtered_material(surface_point surface, vec3 normal) {
+    return assemble_material(
+        surface, normal, filtered_base_colour(surface),
+        filtered_texel(MAP_WIDTH, width_map, width_filtered, surface),
+        filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface).rgb);
+}
+
+// The larger of the maps that lobes come from, in texels.
+vec2 lobe_map_size() {
+    vec2 size = vec2(1.0);
+    if (has_map(MAP_NORMAL))
+        size = max(size, vec2(textureSize(normal_map, 0)));
+    if (has_map(MAP_WIDTH))
+        size = max(size, vec2(textureSize(width_map, 0)));
+    return size;
+}
+
+// The lobes' footprint follows the normal map, or where there is none the width map.
+map_area lobe_area(surface_point surface) {
+    return area_of(has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH, lobe_map_size(), surface);
+}
+
+#endif

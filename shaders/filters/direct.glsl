@@ -1,0 +1,32 @@
+// One unfiltered sample of the maps: what every filter is to average, and the sample of which the
+// reference takes many.
+
+#include "unfiltered_maps.glsl"
+
+struct appearance {
+    base_material base;
+    vec3 emission;
+    float alpha;
+    vec3 normal;      // in the tangent frame
+    float lobe_count; // lobes evaluated for one light
+    float level;      // MIP level, 0: the maps themselves
+};
+
+appearance fetch_appearance(surface_point surface) {
+    appearance result;
+    result.base = unfiltered_material(surface);
+    result.normal = result.base.normal;
+    result.alpha = 1.0;
+    if (ALPHA_MASK)
+        result.alpha = unfiltered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
+    result.emission = vec3(0.0);
+    if (EMISSION)
+        result.emission = unfiltered_texel(MAP_EMISSIVE, emissive_map, surface).rgb;
+    result.lobe_count = float(LOBE_COUNT);
+    result.level = 0.0;
+    return result;
+}
+
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming) {
+    return evaluate_base_material(fetched.base, surface.outgoing, incoming);
+}

@@ -1,0 +1,25 @@
+#ifndef INTERFACE_CLUSTERING_H
+#define INTERFACE_CLUSTERING_H
+
+#include "types.h"
+
+// Push constants of lobe_clustering and parameter_averaging.
+struct clustering_constants {
+    uint width; // of the base maps, texels: the larger of the normal and the width map
+    uint height;
+};
+INTERFACE_SIZE(clustering_constants, 8)
+
+// Push constants of lobe_clustering_atlas.
+struct atlas_constants {
+    float4 rotation[3]; // rows: from the space of the atlas to that of the mixtures
+    float4 eye;         // in the space of the atlas; w: 1 perspective (a position), 0 orthographic
+                        // (a direction), -1: surfaces that face away are kept
+    uint width;
+    uint height;
+    uint padding_0;
+    uint padding_1;
+};
+INTERFACE_SIZE(atlas_constants, 80)
+
+#endif

@@ -1,0 +1,21 @@
+#ifndef INTERFACE_FRAME_H
+#define INTERFACE_FRAME_H
+
+#include "types.h"
+
+// What all draws of a frame share (uniform block, std140).
+struct frame_constants {
+    float4x4 world_to_clip;   // reversed depth; clip space as in lobe/graph.h
+    float4x4 world_to_camera; // rotation only: x right, y up, z towards the viewer
+    float4 eye;               // world position; w = 1. Orthographic: direction to the viewer, w = 0
+    float4 axis;              // unit view direction; w: its product with the eye's position
+    uint directional_count;   // lights are sorted: directional, point, spot
+    uint point_count;
+    uint spot_count;
+    uint padding;
+};
+INTERFACE_SIZE(frame_constants, 176)
+INTERFACE_OFFSET(frame_constants, eye, 128)
+INTERFACE_OFFSET(frame_constants, directional_count, 160)
+
+#endif

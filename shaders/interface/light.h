@@ -1,0 +1,15 @@
+#ifndef INTERFACE_LIGHT_H
+#define INTERFACE_LIGHT_H
+
+#include "types.h"
+
+// A punctual light (std430).
+struct light {
+    float4 position;  // world; w: 1 / range^2, 0 for unlimited
+    float4 direction; // unit, towards the light for directional ones, else where a spot points
+    float4 intensity; // linear RGB, candela or lux
+    float4 cone;      // spot: x scale, y offset of the angular attenuation
+};
+INTERFACE_SIZE(light, 64)
+
+#endif

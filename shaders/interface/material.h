@@ -1,0 +1,36 @@
+#ifndef INTERFACE_MATERIAL_H
+#define INTERFACE_MATERIAL_H
+
+#include "types.h"
+
+#define MATERIAL_MAXIMUM_LOBES 4
+
+// A material's maps.
+#define MAP_BASE_COLOUR 0
+#define MAP_NORMAL      1
+#define MAP_WIDTH       2 // metallic-roughness, or the width of half-vector lobes
+#define MAP_SPECULAR    3
+#define MAP_EMISSIVE    4
+#define MAP_COUNT       5
+
+// A material's constants (uniform block, std140). Which parts are read depends on the
+// specialisation of the shader.
+struct material_constants {
+    float4 base_colour; // linear RGB, alpha
+    float4 emissive;    // linear RGB, w: alpha cutoff
+    float metallic;
+    float roughness;
+    float normal_scale;
+    float normal_concentration;                    // kappa_N, 0: none
+    float4 lobe_direction[MATERIAL_MAXIMUM_LOBES]; // in the frame of the normal; w: width
+    float4 lobe_colour[MATERIAL_MAXIMUM_LOBES];    // linear RGB; w: share of the sum's luminance
+    // Where each map is read: two rows (u, v) of an affine transform of the texture coordinates.
+    float4 transforms[2 * MAP_COUNT];
+};
+INTERFACE_SIZE(material_constants, 336)
+INTERFACE_OFFSET(material_constants, metallic, 32)
+INTERFACE_OFFSET(material_constants, lobe_direction, 48)
+INTERFACE_OFFSET(material_constants, lobe_colour, 112)
+INTERFACE_OFFSET(material_constants, transforms, 176)
+
+#endif

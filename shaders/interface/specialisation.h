@@ -1,0 +1,41 @@
+#ifndef INTERFACE_SPECIALISATION_H
+#define INTERFACE_SPECIALISATION_H
+
+// Identifiers of specialisation constants. What a material, a light set or a user does not need
+// is compiled out.
+
+// The material.
+#define SPECIALISE_MODEL                0  // uint, MODEL_...
+#define SPECIALISE_DISTRIBUTION         1  // uint, DISTRIBUTION_...
+#define SPECIALISE_LOBE_COUNT           2  // uint, half-vector lobes
+#define SPECIALISE_MAPS                 3  // uint, bit MAP_...: the material has this map
+#define SPECIALISE_SECOND_COORDINATES   4  // uint, bit MAP_...: the map uses the second set
+#define SPECIALISE_DIFFUSE              5  // bool, half-vector lobes: there is a Lambert part
+#define SPECIALISE_NORMAL_CONCENTRATION 6  // bool, kappa_N is given
+#define SPECIALISE_ALPHA_MASK           7  // bool
+#define SPECIALISE_EMISSION             8  // bool
+#define SPECIALISE_VERTEX_COLOUR        9  // bool
+#define SPECIALISE_LINEAR_MAPS          10 // uint, bit MAP_...: texels are interpolated
+// The lights.
+#define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
+#define SPECIALISE_POINT_LIGHTS       17 // bool
+#define SPECIALISE_SPOT_LIGHTS        18 // bool
+// The user.
+#define SPECIALISE_VIEW         24 // uint, VIEW_...
+#define SPECIALISE_BASE_AS_LOBE 25 // bool: base lobes are turned into von Mises-Fisher lobes first
+// A filter's own, see shaders/filters.
+#define SPECIALISE_FILTER 32
+
+#define MODEL_MICROFACET        0
+#define MODEL_HALF_VECTOR_LOBES 1
+
+#define DISTRIBUTION_GGX         0
+#define DISTRIBUTION_BECKMANN    1
+#define DISTRIBUTION_BLINN_PHONG 2
+#define DISTRIBUTION_VMF         3
+
+#define VIEW_RADIANCE 0
+#define VIEW_LOBES    1
+#define VIEW_LEVEL    2
+
+#endif
