@@ -1,0 +1,68 @@
+#include <lobe/image.h>
+
+#include <stdlib.h>
+
+#include "engine/text.h"
+
+typedef struct format_information {
+    const char *name;
+    uint8_t size; ///< bytes of a texel
+    uint8_t channels;
+} format_information;
+
+static const format_information *describe(lobe_format format) {
+    static const format_information formats[LOBE_FORMAT_COUNT] = {
+        [LOBE_FORMAT_NONE] = {"NONE", 0, 0},
+        [LOBE_FORMAT_R8_UNORM] = {"R8_UNORM", 1, 1},
+        [LOBE_FORMAT_RG8_UNORM] = {"RG8_UNORM", 2, 2},
+        [LOBE_FORMAT_RGBA8_UNORM] = {"RGBA8_UNORM", 4, 4},
+        [LOBE_FORMAT_RGBA8_SRGB] = {"RGBA8_SRGB", 4, 4},
+        [LOBE_FORMAT_RGBA16_UNORM] = {"RGBA16_UNORM", 8, 4},
+        [LOBE_FORMAT_RGBA16_SNORM] = {"RGBA16_SNORM", 8, 4},
+        [LOBE_FORMAT_R16_FLOAT] = {"R16_FLOAT", 2, 1},
+        [LOBE_FORMAT_RG16_FLOAT] = {"RG16_FLOAT", 4, 2},
+        [LOBE_FORMAT_RGBA16_FLOAT] = {"RGBA16_FLOAT", 8, 4},
+        [LOBE_FORMAT_R32_FLOAT] = {"R32_FLOAT", 4, 1},
+        [LOBE_FORMAT_RG32_FLOAT] = {"RG32_FLOAT", 8, 2},
+        [LOBE_FORMAT_RGBA32_FLOAT] = {"RGBA32_FLOAT", 16, 4},
+        [LOBE_FORMAT_D32_FLOAT] = {"D32_FLOAT", 4, 1},
+    };
+    return &formats[(unsigned)format < LOBE_FORMAT_COUNT ? format : LOBE_FORMAT_NONE];
+}
+
+size_t lobe_format_size(lobe_format format) {
+    return describe(format)->size;
+}
+
+uint32_t lobe_format_channels(lobe_format format) {
+    return describe(format)->channels;
+}
+
+const char *lobe_format_name(lobe_format format) {
+    return describe(format)->name;
+}
+
+lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
+                                uint32_t height, const lobe_log *log) {
+    *image = (lobe_image){0};
+    size_t size = lobe_format_size(format);
+    if (size == 0)
+        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "image: no texel format was given");
+    if (width == 0 || height == 0 || width > LOBE_IMAGE_MAXIMUM_EXTENT ||
+        height > LOBE_IMAGE_MAXIMUM_EXTENT)
+        return engine_fail(log, LOBE_ERROR_LIMIT, "image: %ux%u texels is outside 1x1 to %ux%u",
+                           width, height, LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
+    void *texels = calloc((size_t)width * height, size);
+    if (texels == NULL)
+        return engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "image: no memory for %ux%u texels of %s",
+                           width, height, lobe_format_name(format));
+    *image = (lobe_image){format, width, height, texels};
+    return LOBE_OK;
+}
+
+void lobe_image_free(lobe_image *image) {
+    if (image == NULL)
+        return;
+    free(image->texels);
+    *image = (lobe_image){0};
+}
