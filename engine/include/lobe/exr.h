@@ -1,0 +1,86 @@
+#ifndef LOBE_EXR_H
+#define LOBE_EXR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// OpenEXR files: scene-referred linear RGB, several layers of one extent in one file.
+
+typedef enum lobe_exr_depth {
+    LOBE_EXR_HALF,  ///< 16 bits; finite values beyond +-65504 are clamped, with a warning
+    LOBE_EXR_FLOAT, ///< 32 bits; every value is kept as it is, NaN and infinity too
+} lobe_exr_depth;
+
+typedef struct lobe_exr_layer {
+    /// NULL: the main layer, whose channels have plain names (R, G, B, A). Otherwise the channels
+    /// are called "NAME.CHANNEL", for example "normal.X" or "lobes.count".
+    const char *name;
+    /// A name for each channel of the image; NULL leaves that channel out. All NULL: R, G, B, A
+    /// for an image of four channels, X, Y for two, Y for one.
+    const char *channels[4];
+    const lobe_image *image; ///< one of the formats R/RG/RGBA of 16_FLOAT or 32_FLOAT
+    lobe_exr_depth depth;
+} lobe_exr_layer;
+
+typedef enum lobe_exr_attribute_type {
+    LOBE_EXR_TEXT,
+    LOBE_EXR_NUMBER,
+    LOBE_EXR_INTEGER,
+} lobe_exr_attribute_type;
+
+/// Something to know about the image, kept in the file's header.
+typedef struct lobe_exr_attribute {
+    const char *name; ///< 1 to 255 bytes; not one of the format's own, such as "channels"
+    lobe_exr_attribute_type type;
+    const char *text; ///< UTF-8
+    float number;
+    int32_t integer;
+} lobe_exr_attribute;
+
+typedef struct lobe_exr_parameters {
+    const lobe_exr_layer *layers; ///< at least one; all images of the same extent
+    size_t layer_count;
+    const lobe_exr_attribute *attributes;
+    size_t attribute_count;
+} lobe_exr_parameters;
+
+/// Writes one part of scan lines, ZIP-compressed, with the chromaticities of Rec. 709 (white point
+/// D65). Equal parameters give equal bytes. The file appears whole or not at all.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, another format, a channel or
+/// attribute twice or without a name), LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
+                           const lobe_log *log);
+
+/// Most texels that lobe_exr_read takes (4 GiB of memory).
+#define LOBE_EXR_MAXIMUM_TEXELS ((uint64_t)1 << 28)
+
+/// Reads one layer into an RGBA32_FLOAT image; half and unsigned integer channels become float.
+/// `layer` NULL: the main layer, of the first part that has one. The image's extent is the display
+/// window; what the data window does not cover is 0 (alpha too), what lies outside is cut off.
+///
+/// A layer's channels are placed so: R, G, B (and A) as they are; else X, Y, Z into R, G, B; else
+/// Y, or the only channel, into R, G and B alike. Without a channel A, alpha is 1. Scan lines and
+/// tiles, single and multi-part files, every compression but DWAA and DWAB; of several resolutions
+/// the finest.
+///
+/// `image` is overwritten; free it with lobe_image_free.
+/// Errors: LOBE_ERROR_NOT_FOUND (no file, or no layer of that name), LOBE_ERROR_READ,
+/// LOBE_ERROR_MALFORMED (damaged or truncated), LOBE_ERROR_UNSUPPORTED (deep data, no suitable
+/// channels, subsampled colour, DWAA or DWAB), LOBE_ERROR_LIMIT (too large),
+/// LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *log,
+                          lobe_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
