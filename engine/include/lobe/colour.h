@@ -1,0 +1,59 @@
+#ifndef LOBE_COLOUR_H
+#define LOBE_COLOUR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// From scene-referred linear RGB (Rec. 709 primaries, white point D65) to pictures for looking at.
+
+/// The sRGB curve of IEC 61966-2-1: linear below 0.0031308, a power of 2.4 above. Takes [0, 1] to
+/// [0, 1]; what lies outside is clamped, NaN becomes 0.
+float lobe_srgb_encode(float linear);
+/// The inverse; takes [0, 1] to [0, 1], clamps likewise.
+float lobe_srgb_decode(float encoded);
+
+/// Luminance of linear RGB, Rec. 709 (rounded to four digits): 0.2126 R + 0.7152 G + 0.0722 B.
+float lobe_luminance(const float rgb[3]);
+
+typedef enum lobe_tone_map {
+    /// Keeps what is at most half of the maximum and rolls off above it, so that no highlight is
+    /// clipped: with m the largest channel, m' = m for m <= 1/2, else m' = 1 - 1/(4 m). All
+    /// channels are scaled by m'/m, which keeps the hue.
+    LOBE_TONE_MAP_SHOULDER,
+    LOBE_TONE_MAP_NONE, ///< clamp each channel to [0, 1]
+} lobe_tone_map;
+
+typedef struct lobe_display_parameters {
+    float exposure; ///< stops: radiance is multiplied by 2^exposure before the tone map
+    lobe_tone_map tone_map;
+    bool keep_alpha; ///< false: the picture is opaque
+} lobe_display_parameters;
+
+/// Turns a linear RGBA32_FLOAT image into an RGBA8_SRGB picture of the same extent: exposure, tone
+/// map, sRGB curve, rounding to nearest. Negative and NaN channels become 0, infinite ones the
+/// largest there is.
+/// With `keep_alpha`, colour is taken as premultiplied and stored as straight, as PNG wants it.
+/// `parameters` may be NULL. `picture` is overwritten; free it with lobe_image_free.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
+                                const lobe_log *log, lobe_image *picture);
+
+/// Colour of a value [0, 1] for heat maps (clamped; NaN is black), as sRGB-encoded bytes. From
+/// near black over violet, red and orange to pale yellow: equal steps of the value look about
+/// equally large, and lightness alone tells the order, so the map survives colour blindness and
+/// printing in grey.
+void lobe_heat_colour(float value, uint8_t srgb[3]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef LOBE_PNG_H
+#define LOBE_PNG_H
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Writes an RGBA8_SRGB or RGBA8_UNORM image as it is, as RGB where every texel is opaque, else as
+/// RGBA. Equal images give equal bytes. The file appears whole or not at all.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_WRITE,
+/// LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log);
+
+/// Reads any PNG: into RGBA16_UNORM where it has 16 bits a channel, else into RGBA8_SRGB. Grey is
+/// spread to R, G and B, palettes are looked up, missing alpha is opaque. Values are as stored: of
+/// colour chunks such as gAMA nothing is applied. `image` is overwritten; free it with
+/// lobe_image_free.
+/// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (damaged or truncated),
+/// LOBE_ERROR_LIMIT (too large), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_png_read(const char *path, const lobe_log *log, lobe_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
