@@ -19,6 +19,7 @@ layout(constant_id = SPECIALISE_NORMAL_CONCENTRATION) const bool NORMAL_CONCENTR
 layout(constant_id = SPECIALISE_ALPHA_MASK) const bool ALPHA_MASK = false;
 layout(constant_id = SPECIALISE_EMISSION) const bool EMISSION = false;
 layout(constant_id = SPECIALISE_VERTEX_COLOUR) const bool VERTEX_COLOUR = false;
+layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_DIRECTIONAL_LIGHTS) const bool DIRECTIONAL_LIGHTS = false;
 layout(constant_id = SPECIALISE_POINT_LIGHTS) const bool POINT_LIGHTS = false;
 layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
@@ -62,7 +63,7 @@ surface_point read_surface() {
     surface.world_position = interpolated_position;
     mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
     // The back of a surface has all axes reversed (glTF 2.0, section 3.9.6).
-    surface.world_from_tangent = gl_FrontFacing ? from_tangent : -from_tangent;
+    surface.world_from_tangent = gl_FrontFacing != MIRRORED ? from_tangent : -from_tangent;
     vec3 world_outgoing = normalize(frame.eye.xyz - interpolated_position * frame.eye.w);
     surface.outgoing = world_outgoing * surface.world_from_tangent;
     surface.coordinates = interpolated_coordinates;

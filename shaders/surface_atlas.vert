@@ -21,7 +21,7 @@ void main() {
     vec3 set = atlas.second_coordinates != 0u
                    ? vec3(v.texture_coordinates[2], v.texture_coordinates[3], 1.0)
                    : vec3(v.texture_coordinates[0], v.texture_coordinates[1], 1.0);
-    // Row 0 of the map is v = 0; y points up in clip space.
+    // Row 0 of the map is v = 0, at the top; y points down in clip space.
     vec2 uv = vec2(dot(atlas.u.xyz, set), dot(atlas.v.xyz, set));
-    gl_Position = vec4(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y, 0.5, 1.0);
+    gl_Position = vec4(2.0 * uv - 1.0, 0.5, 1.0);
 }

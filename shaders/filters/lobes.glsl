@@ -158,8 +158,9 @@ appearance fetch_appearance(surface_point surface) {
         if (result.base_share < 1.0)
             fetch_mixture(result, surface, area);
     }
-    result.filtered =
-        filtered_material(surface, mean_direction(result.mean_normal, vec3(0.0, 0.0, 1.0)));
+    vec3 normal = MIXTURE ? mean_direction(result.mean_normal, vec3(0.0, 0.0, 1.0))
+                          : unfiltered_normal(surface);
+    result.filtered = filtered_material(surface, normal);
     if (!MIXTURE)
         result.base = result.filtered;
     result.normal = result.base_share > 0.5 ? result.base.normal : result.filtered.normal;

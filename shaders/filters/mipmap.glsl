@@ -34,7 +34,7 @@ float width_from_average(float average) {
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     result.level = 0.0;
-    vec3 normal = vec3(0.0, 0.0, 1.0);
+    vec3 normal = unfiltered_normal(surface);
     float width = 0.0;
     if (AVERAGED) {
         map_area area = lobe_area(surface);

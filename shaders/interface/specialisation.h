@@ -15,7 +15,7 @@
 #define SPECIALISE_ALPHA_MASK           7  // bool
 #define SPECIALISE_EMISSION             8  // bool
 #define SPECIALISE_VERTEX_COLOUR        9  // bool
-#define SPECIALISE_LINEAR_MAPS          10 // uint, bit MAP_...: texels are interpolated
+#define SPECIALISE_MIRRORED             10 // bool, the transform turns left into right
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool

@@ -20,6 +20,13 @@ typedef struct lobe_log {
     void *user; ///< handed to `write` unchanged
 } lobe_log;
 
+/// Formats one line as printf does (cut at 1023 bytes) and sends it. `log` may be NULL.
+void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
 #ifdef __cplusplus
 }
 #endif

@@ -52,6 +52,13 @@ typedef struct lobe_render_parameters {
     void *user;
 } lobe_render_parameters;
 
+/// Device time of all passes of one name.
+typedef struct lobe_pass_time {
+    char name[64];
+    double milliseconds;
+    uint32_t count; ///< how many of the name ran
+} lobe_pass_time;
+
 /// A finished frame. Images are owned by the frame; free with lobe_frame_free.
 typedef struct lobe_frame {
     lobe_image radiance; ///< RGBA32_FLOAT, linear RGB radiance and coverage
@@ -61,8 +68,10 @@ typedef struct lobe_frame {
     /// RG32_FLOAT: lobes evaluated, and MIP level of the filtered maps (0: the maps themselves).
     /// Empty unless asked for.
     lobe_image lobes_level;
-    double milliseconds;  ///< device time of all submissions
-    uint32_t submissions; ///< how many frames of the graph it took
+    double milliseconds;    ///< device time of all submissions
+    uint32_t submissions;   ///< how many frames of the graph it took
+    lobe_pass_time *passes; ///< those that ran, in order of their first run
+    size_t pass_count;
     /// Size of the maps that the filter built: device bytes, and texels of the base maps they
     /// stand for. Their ratio is the memory a filter costs a texel.
     uint64_t filtered_bytes, base_texels;

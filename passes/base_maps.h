@@ -1,0 +1,10 @@
+#ifndef PASSES_BASE_MAPS_H
+#define PASSES_BASE_MAPS_H
+
+#include "passes/filter.h"
+
+/// Binds what shaders/base_maps.glsl reads: a material's constants, normal and width map.
+void base_maps_read(const filter_context *context, const device_material *material,
+                    lobe_pass *pass);
+
+#endif

@@ -1,0 +1,320 @@
+#include "passes/device_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cglm/cglm.h>
+
+#include "shaders/interface/vertex.h"
+
+static_assert(sizeof(struct vertex) == sizeof(lobe_scene_vertex), "one vertex, two descriptions");
+
+static const lobe_texture_use *material_map(const lobe_material *material, uint32_t map) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    const lobe_texture_use *use = NULL;
+    switch (map) {
+    case MAP_BASE_COLOUR:
+        use = &material->base_colour_map;
+        break;
+    case MAP_NORMAL:
+        use = &material->normal_map;
+        break;
+    case MAP_WIDTH:
+        use = microfacet ? &material->metallic_roughness_map : &material->width_map;
+        break;
+    case MAP_SPECULAR:
+        use = microfacet ? NULL : &material->specular_map;
+        break;
+    case MAP_EMISSIVE:
+        use = &material->emissive_map;
+        break;
+    }
+    return use && use->image >= 0 ? use : NULL;
+}
+
+static float luminance(const float colour[3]) {
+    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
+static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
+    float sum = 0;
+    for (uint32_t i = 0; i < material->lobe_count; ++i)
+        sum += luminance(material->lobes[i].colour);
+    for (uint32_t i = 0; i < material->lobe_count; ++i) {
+        const lobe_base_lobe *lobe = &material->lobes[i];
+        memcpy(constants->lobe_direction[i], lobe->direction, sizeof lobe->direction);
+        constants->lobe_direction[i][3] = lobe->width;
+        memcpy(constants->lobe_colour[i], lobe->colour, sizeof lobe->colour);
+        constants->lobe_colour[i][3] =
+            sum > 0 ? luminance(lobe->colour) / sum : 1.0f / (float)material->lobe_count;
+    }
+}
+
+static void fill_constants(const device_material *material, struct material_constants *constants) {
+    const lobe_material *source = material->material;
+    memset(constants, 0, sizeof *constants);
+    memcpy(constants->base_colour, source->base_colour, sizeof source->base_colour);
+    memcpy(constants->emissive, source->emissive, sizeof source->emissive);
+    constants->emissive[3] = source->alpha_cutoff;
+    constants->metallic = source->metallic;
+    constants->roughness = source->roughness;
+    constants->normal_scale = source->normal_scale;
+    constants->normal_concentration = source->normal_concentration;
+    if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        fill_lobes(source, constants);
+    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+        for (int row = 0; material->maps[map].use && row < 2; ++row)
+            memcpy(constants->transforms[2 * map + (uint32_t)row],
+                   material->maps[map].use->transform[row],
+                   sizeof material->maps[map].use->transform[row]);
+    }
+}
+
+static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index) {
+    if (result->images[index])
+        return LOBE_OK;
+    const lobe_scene_image *image = &result->scene->images[index];
+    return lobe_texture_create(
+        device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
+        &result->images[index]);
+}
+
+static bool lobe_widths_differ(const lobe_material *material) {
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        return false;
+    for (uint32_t i = 1; i < material->lobe_count; ++i) {
+        if (material->lobes[i].width != material->lobes[0].width)
+            return true;
+    }
+    return false;
+}
+
+static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
+                                   const lobe_log *log) {
+    device_material *material = &result->materials[index];
+    if (material->constants)
+        return LOBE_OK;
+    material->material = &result->scene->materials[index];
+    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+        const lobe_texture_use *use = material_map(material->material, map);
+        if (!use)
+            continue;
+        if ((size_t)use->image >= result->scene->image_count) {
+            lobe_log_print(log, LOBE_LOG_ERROR, "%s: material '%s' uses image %d of %zu",
+                           result->scene->name, material->material->name, use->image,
+                           result->scene->image_count);
+            return LOBE_ERROR_MALFORMED;
+        }
+        lobe_result status = upload_image(device, result, use->image);
+        if (status != LOBE_OK)
+            return status;
+        const lobe_image *image = &result->scene->images[use->image].image;
+        material->maps[map] = (device_map){use, image->width, image->height};
+        material->map_bits |= 1u << map;
+        if (use->texture_coordinates)
+            material->second_coordinates |= 1u << map;
+    }
+    material->widths_differ = lobe_widths_differ(material->material);
+    struct material_constants constants;
+    fill_constants(material, &constants);
+    return lobe_buffer_create(device,
+                              &(lobe_buffer_parameters){.name = material->material->name,
+                                                        .size = sizeof constants,
+                                                        .data = &constants},
+                              &material->constants);
+}
+
+static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32_t index,
+                               const lobe_log *log) {
+    if (result->vertices[index])
+        return LOBE_OK;
+    const lobe_mesh *mesh = &result->scene->meshes[index];
+    for (size_t i = 0; i < mesh->index_count; ++i) {
+        if (mesh->indices[i] >= mesh->vertex_count) {
+            lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
+                           result->scene->name, mesh->name, i, mesh->indices[i],
+                           mesh->vertex_count);
+            return LOBE_ERROR_MALFORMED;
+        }
+    }
+    if (mesh->vertex_count == 0 || mesh->index_count < 3) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s' has no triangles", result->scene->name,
+                       mesh->name);
+        return LOBE_ERROR_MALFORMED;
+    }
+    lobe_result status = lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){.name = mesh->name,
+                                  .size = mesh->vertex_count * sizeof *mesh->vertices,
+                                  .data = mesh->vertices},
+        &result->vertices[index]);
+    if (status != LOBE_OK)
+        return status;
+    return lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){.name = mesh->name,
+                                  .size = mesh->index_count * sizeof *mesh->indices,
+                                  .data = mesh->indices},
+        &result->indices[index]);
+}
+
+static void transformed_coordinates(const lobe_texture_use *use, const lobe_scene_vertex *vertex,
+                                    float uv[2]) {
+    const float *set = vertex->texture_coordinates[use->texture_coordinates];
+    for (int i = 0; i < 2; ++i)
+        uv[i] =
+            use->transform[i][0] * set[0] + use->transform[i][1] * set[1] + use->transform[i][2];
+}
+
+/// Whether a map's texels each belong to one place of the mesh: all coordinates within the map,
+/// and triangles that do not cover more of it than there is.
+static bool is_atlas(const lobe_mesh *mesh, const lobe_texture_use *use) {
+    if (!mesh->has_texture_coordinates[use->texture_coordinates])
+        return false;
+    const float slack = 1e-3f;
+    double area = 0;
+    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
+        float uv[3][2];
+        for (int corner = 0; corner < 3; ++corner) {
+            transformed_coordinates(use, &mesh->vertices[mesh->indices[i + (size_t)corner]],
+                                    uv[corner]);
+            for (int axis = 0; axis < 2; ++axis) {
+                if (uv[corner][axis] < -slack || uv[corner][axis] > 1 + slack)
+                    return false;
+            }
+        }
+        area += 0.5 * fabs((double)(uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
+                           (double)(uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+    }
+    return area <= 1 + 10 * slack;
+}
+
+static bool mirrors(const float transform[16]) {
+    mat4 matrix;
+    memcpy(matrix, transform, sizeof matrix);
+    mat3 linear;
+    glm_mat4_pick3(matrix, linear);
+    return glm_mat3_det(linear) < 0;
+}
+
+static lobe_result upload_instance(lobe_device *device, device_scene *result, size_t index,
+                                   const lobe_log *log) {
+    const lobe_scene *scene = result->scene;
+    const lobe_instance *source = &scene->instances[index];
+    if (source->mesh >= scene->mesh_count || source->material >= scene->material_count) {
+        lobe_log_print(log, LOBE_LOG_ERROR,
+                       "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
+                       index, source->mesh, scene->mesh_count, source->material,
+                       scene->material_count);
+        return LOBE_ERROR_MALFORMED;
+    }
+    lobe_result status = upload_mesh(device, result, source->mesh, log);
+    if (status == LOBE_OK)
+        status = upload_material(device, result, source->material, log);
+    if (status != LOBE_OK)
+        return status;
+    const device_material *material = &result->materials[source->material];
+    const lobe_texture_use *use = material->maps[MAP_NORMAL].use ? material->maps[MAP_NORMAL].use
+                                                                 : material->maps[MAP_WIDTH].use;
+    result->instances[index] = (device_instance){
+        .mesh = source->mesh,
+        .material = source->material,
+        .mirrored = mirrors(source->transform),
+        .is_atlas = use && is_atlas(&scene->meshes[source->mesh], use),
+    };
+    return LOBE_OK;
+}
+
+static lobe_result upload_white(lobe_device *device, device_scene *result) {
+    uint8_t texel[4] = {255, 255, 255, 255};
+    lobe_image image = {LOBE_FORMAT_RGBA8_UNORM, 1, 1, texel};
+    return lobe_texture_create(device, &(lobe_texture_parameters){.name = "white", .image = &image},
+                               &result->white);
+}
+
+static bool allocate_tables(device_scene *result) {
+    const lobe_scene *scene = result->scene;
+    result->images = calloc(scene->image_count + 1, sizeof *result->images);
+    result->materials = calloc(scene->material_count + 1, sizeof *result->materials);
+    result->vertices = calloc(scene->mesh_count + 1, sizeof *result->vertices);
+    result->indices = calloc(scene->mesh_count + 1, sizeof *result->indices);
+    result->instances = calloc(scene->instance_count + 1, sizeof *result->instances);
+    return result->images && result->materials && result->vertices && result->indices &&
+           result->instances;
+}
+
+lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
+                                device_scene **result) {
+    lobe_result status = LOBE_ERROR_OUT_OF_MEMORY;
+    *result = calloc(1, sizeof **result);
+    if (*result)
+        (*result)->scene = scene;
+    if (!*result || !allocate_tables(*result)) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
+        goto fail;
+    }
+    if (scene->instance_count == 0) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "%s: there is nothing to draw", scene->name);
+        status = LOBE_ERROR_MALFORMED;
+        goto fail;
+    }
+    status = upload_white(device, *result);
+    for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; ++i)
+        status = upload_instance(device, *result, i, log);
+    if (status == LOBE_OK)
+        return LOBE_OK;
+fail:
+    device_scene_destroy(result);
+    return status;
+}
+
+void device_scene_destroy(device_scene **scene) {
+    device_scene *s = scene ? *scene : NULL;
+    if (!s)
+        return;
+    for (size_t i = 0; s->images && i < s->scene->image_count; ++i)
+        lobe_texture_destroy(&s->images[i]);
+    for (size_t i = 0; s->materials && i < s->scene->material_count; ++i)
+        lobe_buffer_destroy(&s->materials[i].constants);
+    for (size_t i = 0; s->vertices && s->indices && i < s->scene->mesh_count; ++i) {
+        lobe_buffer_destroy(&s->vertices[i]);
+        lobe_buffer_destroy(&s->indices[i]);
+    }
+    lobe_texture_destroy(&s->white);
+    free(s->images);
+    free(s->materials);
+    free(s->vertices);
+    free(s->indices);
+    free(s->instances);
+    free(s);
+    *scene = NULL;
+}
+
+lobe_resource device_map_import(lobe_graph *graph, const device_scene *scene,
+                                const device_material *material, uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    return lobe_graph_import_texture(graph, use ? scene->images[use->image] : scene->white);
+}
+
+static lobe_wrap_mode wrap_mode(lobe_scene_wrap wrap) {
+    switch (wrap) {
+    case LOBE_SCENE_WRAP_MIRROR:
+        return LOBE_WRAP_MIRROR;
+    case LOBE_SCENE_WRAP_CLAMP:
+        return LOBE_WRAP_CLAMP;
+    default:
+        return LOBE_WRAP_REPEAT;
+    }
+}
+
+lobe_sampler device_map_sampler(const device_material *material, uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    if (!use)
+        return (lobe_sampler){0};
+    return (lobe_sampler){
+        .texels = use->nearest ? LOBE_SAMPLE_NEAREST : LOBE_SAMPLE_LINEAR,
+        .wrap_u = wrap_mode(use->wrap_u),
+        .wrap_v = wrap_mode(use->wrap_v),
+    };
+}

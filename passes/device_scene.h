@@ -1,0 +1,56 @@
+#ifndef PASSES_DEVICE_SCENE_H
+#define PASSES_DEVICE_SCENE_H
+
+#include <lobe/device.h>
+#include <lobe/graph.h>
+#include <lobe/scene.h>
+
+#include "shaders/interface/material.h"
+
+/// A map of a material, ready to be bound.
+typedef struct device_map {
+    const lobe_texture_use *use; ///< NULL: the material has no such map
+    uint32_t width, height;      ///< texels
+} device_map;
+
+typedef struct device_material {
+    const lobe_material *material;
+    lobe_buffer *constants;
+    device_map maps[MAP_COUNT];
+    uint32_t map_bits;           ///< bit MAP_...: there is one
+    uint32_t second_coordinates; ///< bit MAP_...: it uses the second set
+    bool widths_differ;          ///< base lobes of one texel differ in width
+} device_material;
+
+typedef struct device_instance {
+    uint32_t mesh, material;
+    bool mirrored; ///< the transform turns left into right
+    /// The lobes' texture coordinates stay within [0, 1] and do not overlap: each texel belongs
+    /// to one place of the mesh.
+    bool is_atlas;
+} device_instance;
+
+/// The device's copy of a scene: only what instances use.
+typedef struct device_scene {
+    const lobe_scene *scene;
+    lobe_texture *white;   ///< one white texel, where a map is missing
+    lobe_texture **images; ///< one an image of the scene; NULL: not used
+    device_material *materials;
+    lobe_buffer **vertices; ///< one a mesh; NULL: not used
+    lobe_buffer **indices;
+    device_instance *instances;
+} device_scene;
+
+/// Uploads. `scene` must live as long as the copy. Errors: as lobe_renderer_set_scene.
+lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
+                                device_scene **result);
+/// Clears the pointer; NULL is fine.
+void device_scene_destroy(device_scene **scene);
+
+/// The texture of a material's map, or the white one.
+lobe_resource device_map_import(lobe_graph *graph, const device_scene *scene,
+                                const device_material *material, uint32_t map);
+/// How a map's texels are read, levels apart.
+lobe_sampler device_map_sampler(const device_material *material, uint32_t map);
+
+#endif

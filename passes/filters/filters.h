@@ -1,0 +1,12 @@
+#ifndef PASSES_FILTERS_FILTERS_H
+#define PASSES_FILTERS_FILTERS_H
+
+#include "passes/filter.h"
+
+// One a file beside this one.
+extern const lobe_filter filter_direct;
+extern const lobe_filter filter_mipmap;
+extern const lobe_filter filter_lobes;
+extern const lobe_filter filter_reference;
+
+#endif

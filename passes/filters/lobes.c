@@ -1,0 +1,137 @@
+#include <math.h>
+
+#include "passes/filtered_maps.h"
+#include "passes/filters/filters.h"
+#include "passes/lobe_clustering.h"
+#include "shaders/interface/mixture.h"
+#include "shaders/interface/specialisation.h"
+
+static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
+static const char *const thresholds[] = {"length", "dispersion", NULL};
+
+static const lobe_knob knobs[] = {
+    {"space", "where mixtures are built; auto: as the scene says", LOBE_KNOB_CHOICE, 0, 3, 0,
+     spaces},
+    {"subdivision", "finest level of clusters: 0, 1 or 2 for one, four or eight lobes",
+     LOBE_KNOB_INTEGER, 0, 2, 2, NULL},
+    {"threshold",
+     "what is held against epsilon: the length |r|, or the base lobes' share of the "
+     "breadth",
+     LOBE_KNOB_CHOICE, 0, 1, 0, thresholds},
+    {"epsilon0", "below it one lobe becomes four", LOBE_KNOB_NUMBER, 0, 1, 0.95, NULL},
+    {"epsilon1", "below it one of four becomes two", LOBE_KNOB_NUMBER, 0, 1, 0.85, NULL},
+    {"blend", "half width of the transition at a threshold; 0: a switch", LOBE_KNOB_NUMBER, 0, 0.5,
+     0.02, NULL},
+    FILTERED_MAP_KNOBS,
+};
+
+/// The space asked for by the user, or else by the material; tangent where the mesh's texture
+/// coordinates are no atlas.
+static lobe_map_space space_of(const filter_context *context, size_t instance) {
+    const device_instance *drawn = &context->scene->instances[instance];
+    lobe_map_space space = (lobe_map_space)filter_setting(context, "space");
+    if (space == LOBE_SPACE_AUTOMATIC)
+        space = context->scene->materials[drawn->material].material->space;
+    // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
+    return space == LOBE_SPACE_AUTOMATIC || !drawn->is_atlas ? LOBE_SPACE_TANGENT : space;
+}
+
+static bool for_each_instance(const filter_context *context, size_t instance) {
+    return space_of(context, instance) != LOBE_SPACE_TANGENT;
+}
+
+/// Without a normal map all texels of a material point the same way: one cluster has them all,
+/// but where the base lobes themselves do not.
+static uint32_t subdivision_of(const filter_context *context, const device_material *material,
+                               lobe_map_space space) {
+    bool one_direction = !material->maps[MAP_NORMAL].use && space == LOBE_SPACE_TANGENT &&
+                         (material->material->model == LOBE_MATERIAL_MICROFACET ||
+                          material->material->lobe_count == 1);
+    return one_direction ? 0 : (uint32_t)filter_setting(context, "subdivision");
+}
+
+/// Whether shading needs the mean normal or the mean length of the base lobes, and cannot have it
+/// from the mixture because their widths or directions vary.
+static bool needs_mean(const filter_context *context, const device_material *material) {
+    const lobe_material *source = material->material;
+    bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
+    bool along_normal = true;
+    for (uint32_t i = 0; !microfacet && i < source->lobe_count; ++i)
+        along_normal = along_normal && source->lobes[i].direction[2] > 0.99999f;
+    bool derivable = along_normal && !material->widths_differ && !material->maps[MAP_WIDTH].use;
+    bool diffuse =
+        source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
+    bool wanted = microfacet || diffuse || filter_setting(context, "threshold") != 0;
+    return wanted && !derivable;
+}
+
+static void specialise_mixture(const filter_context *context, const mixture_map *mixture,
+                               filtered_appearance *appearance) {
+    appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
+    appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
+    appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
+    appearance_specialise(appearance, SPECIALISE_SPACE,
+                          mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
+                          : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
+                                                                : SPACE_TANGENT);
+    appearance_specialise(appearance, SPECIALISE_THRESHOLD,
+                          (uint32_t)filter_setting(context, "threshold"));
+    appearance_specialise_number(appearance, SPECIALISE_EPSILON_0,
+                                 (float)filter_setting(context, "epsilon0"));
+    appearance_specialise_number(appearance, SPECIALISE_EPSILON_1,
+                                 (float)filter_setting(context, "epsilon1"));
+    appearance_specialise_number(appearance, SPECIALISE_BLEND,
+                                 (float)filter_setting(context, "blend"));
+}
+
+static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
+    const device_material *material =
+        &context->scene->materials[context->scene->instances[instance].material];
+    uint32_t width, height;
+    lobe_resource resource;
+    if (lobe_map_extent(material, &width, &height) && width * height > 1) {
+        lobe_map_space space = space_of(context, instance);
+        mixture_map mixture =
+            lobe_clustering(context, instance, space, subdivision_of(context, material, space),
+                            needs_mean(context, material));
+        level_reduction(context->graph, &mixture.map);
+        specialise_mixture(context, &mixture, appearance);
+        appearance->bytes = reduced_map_bytes(&mixture.map, mixture.format);
+        appearance->base_texels = (uint64_t)width * height;
+        resource = mixture.map.resource;
+    } else {
+        resource = lobe_graph_import_texture(context->graph, context->scene->white);
+    }
+    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
+    appearance_bind(appearance, "mixture_map", resource, filtered_map_sampler(material, map));
+    filtered_maps_build(context, material, appearance);
+}
+
+/// One mixture serves all lobes of a material: its colour is that of their sum.
+static const char *ignores(const lobe_material *material) {
+    if (material->model != LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        return NULL;
+    const float *first = material->lobes[0].colour;
+    for (uint32_t i = 1; i < material->lobe_count; ++i) {
+        const float *colour = material->lobes[i].colour;
+        for (int a = 0; a < 3; ++a) {
+            int b = (a + 1) % 3;
+            if (fabsf(colour[a] * first[b] - colour[b] * first[a]) >
+                1e-4f * fabsf(colour[a] * first[b]) + 1e-6f)
+                return "lobes of different hue get their mean hue";
+        }
+    }
+    return NULL;
+}
+
+const lobe_filter filter_lobes = {
+    .name = "lobes",
+    .summary = "MIP-mapped mixtures of lobes, subdivided where a pixel needs it",
+    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
+    .shading = "lobes",
+    .knobs = knobs,
+    .knob_count = sizeof knobs / sizeof *knobs,
+    .for_each_instance = for_each_instance,
+    .build = build,
+    .ignores = ignores,
+};

@@ -1,0 +1,9 @@
+#include "passes/filters/filters.h"
+
+const lobe_filter filter_reference = {
+    .name = "reference",
+    .summary = "the mean of many unfiltered samples: the truth, slowly",
+    .paper = "",
+    .shading = "direct",
+    .supersamples = true,
+};

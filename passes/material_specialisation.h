@@ -1,0 +1,20 @@
+#ifndef PASSES_MATERIAL_SPECIALISATION_H
+#define PASSES_MATERIAL_SPECIALISATION_H
+
+#include <lobe/graph.h>
+
+#include "passes/device_scene.h"
+
+#define MAXIMUM_SPECIALISATIONS 40
+
+typedef struct specialisation_list {
+    lobe_specialisation items[MAXIMUM_SPECIALISATIONS];
+    size_t count;
+} specialisation_list;
+
+void specialise(specialisation_list *list, uint32_t id, uint32_t bits);
+
+/// What the shaders compile out for a material: maps, lobes and features that it lacks.
+void material_specialise(const device_material *material, specialisation_list *list);
+
+#endif

@@ -1,0 +1,364 @@
+#include <lobe/renderer.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "passes/accumulation.h"
+#include "passes/device_scene.h"
+#include "passes/filter.h"
+#include "passes/pass_times.h"
+#include "passes/sample_pattern.h"
+#include "passes/shading.h"
+
+/// Samples of the reference a submission: few enough that one stays short on a slow device.
+#define SAMPLES_A_SUBMISSION 8
+
+struct lobe_renderer {
+    lobe_device *device;
+    lobe_log log;
+    lobe_graph *graph;
+    device_scene *scene;
+    const lobe_filter *warned; ///< the filter whose limits were told last
+    // One an instance, and one an image, of the scene.
+    filtered_appearance *appearances;
+    lobe_resource *filtered_images;
+};
+
+/// All that one call of lobe_renderer_render needs.
+typedef struct rendering {
+    lobe_renderer *renderer;
+    const lobe_render_parameters *parameters;
+    filter_context context;
+    lobe_settings settings;
+    filtered_images images;
+    uint32_t width, height, samples;
+    double *sum; ///< RGBA of all samples of the reference so far
+} rendering;
+
+lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
+                                 lobe_renderer **renderer) {
+    *renderer = calloc(1, sizeof **renderer);
+    if (!*renderer) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "renderer: out of memory");
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    }
+    (*renderer)->device = device;
+    if (log)
+        (*renderer)->log = *log;
+    lobe_result result = lobe_graph_create(device, &(*renderer)->graph);
+    if (result != LOBE_OK)
+        lobe_renderer_destroy(renderer);
+    return result;
+}
+
+static void forget_scene(lobe_renderer *renderer) {
+    device_scene_destroy(&renderer->scene);
+    free(renderer->appearances);
+    free(renderer->filtered_images);
+    renderer->appearances = NULL;
+    renderer->filtered_images = NULL;
+    renderer->warned = NULL;
+}
+
+void lobe_renderer_destroy(lobe_renderer **renderer) {
+    if (!renderer || !*renderer)
+        return;
+    lobe_graph_destroy(&(*renderer)->graph);
+    forget_scene(*renderer);
+    free(*renderer);
+    *renderer = NULL;
+}
+
+lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene) {
+    // Retained maps of the former scene must not pass for maps of the new one.
+    lobe_graph_destroy(&renderer->graph);
+    forget_scene(renderer);
+    lobe_result result = lobe_graph_create(renderer->device, &renderer->graph);
+    if (result != LOBE_OK || !scene)
+        return result;
+    result = device_scene_create(renderer->device, scene, &renderer->log, &renderer->scene);
+    if (result != LOBE_OK)
+        return result;
+    renderer->appearances = calloc(scene->instance_count, sizeof *renderer->appearances);
+    renderer->filtered_images = calloc(scene->image_count + 1, sizeof *renderer->filtered_images);
+    if (renderer->appearances && renderer->filtered_images)
+        return LOBE_OK;
+    lobe_log_print(&renderer->log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
+    forget_scene(renderer);
+    return LOBE_ERROR_OUT_OF_MEMORY;
+}
+
+lobe_graph *lobe_renderer_graph(lobe_renderer *renderer) {
+    return renderer->graph;
+}
+
+void lobe_frame_free(lobe_frame *frame) {
+    lobe_image_free(&frame->radiance);
+    lobe_image_free(&frame->normal_depth);
+    lobe_image_free(&frame->lobes_level);
+    free(frame->passes);
+    *frame = (lobe_frame){0};
+}
+
+// ---------------------------------------------------------------------------------------------
+// Maps
+
+static void warn_of_limits(rendering *r) {
+    const lobe_filter *filter = r->context.filter;
+    const lobe_scene *scene = r->context.scene->scene;
+    if (!filter->ignores || r->renderer->warned == filter)
+        return;
+    for (size_t i = 0; i < scene->material_count; ++i) {
+        const char *limit = filter->ignores(&scene->materials[i]);
+        if (limit)
+            lobe_log_print(&r->renderer->log, LOBE_LOG_WARNING,
+                           "%s: material '%s', filter '%s': %s", scene->name,
+                           scene->materials[i].name, filter->name, limit);
+    }
+    r->renderer->warned = filter;
+}
+
+/// The first instance before `instance` whose maps serve it as well; `instance` where none does.
+static size_t instance_to_share_with(const filter_context *context, size_t instance) {
+    const lobe_filter *filter = context->filter;
+    if (filter->for_each_instance && filter->for_each_instance(context, instance))
+        return instance;
+    const device_instance *instances = context->scene->instances;
+    for (size_t i = 0; i < instance; ++i) {
+        if (instances[i].material == instances[instance].material &&
+            !(filter->for_each_instance && filter->for_each_instance(context, i)))
+            return i;
+    }
+    return instance;
+}
+
+static void build_maps(rendering *r, lobe_frame *frame) {
+    const lobe_scene *scene = r->context.scene->scene;
+    filtered_appearance *appearances = r->renderer->appearances;
+    memset(r->images.resources, 0, scene->image_count * sizeof *r->images.resources);
+    r->images.bytes = 0;
+    frame->filtered_bytes = frame->base_texels = 0;
+    for (size_t i = 0; i < scene->instance_count; ++i) {
+        size_t shared = instance_to_share_with(&r->context, i);
+        if (shared < i) {
+            appearances[i] = appearances[shared];
+            continue;
+        }
+        appearances[i] = (filtered_appearance){0};
+        if (r->context.filter->build)
+            r->context.filter->build(&r->context, i, &appearances[i]);
+        frame->filtered_bytes += appearances[i].bytes;
+        frame->base_texels += appearances[i].base_texels;
+    }
+    frame->filtered_bytes += r->images.bytes;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Delivery
+
+static lobe_result take_image(const rendering *r, lobe_resource resource, lobe_format format,
+                              lobe_image *image) {
+    size_t size = 0;
+    const void *data = lobe_graph_data(r->renderer->graph, resource, &size);
+    lobe_result result =
+        lobe_image_allocate(image, format, r->width, r->height, &r->renderer->log);
+    if (result == LOBE_OK && data)
+        memcpy(image->texels, data, size);
+    return result;
+}
+
+static void want(const rendering *r, lobe_resource resource) {
+    if (r->parameters->discard)
+        lobe_graph_output(r->renderer->graph, resource);
+    else
+        lobe_graph_read_back(r->renderer->graph, resource, (lobe_range){0});
+}
+
+static lobe_result out_of_memory(const rendering *r) {
+    lobe_log_print(&r->renderer->log, LOBE_LOG_ERROR, "%s: out of memory",
+                   r->context.scene->scene->name);
+    return LOBE_ERROR_OUT_OF_MEMORY;
+}
+
+static lobe_result execute(rendering *r, lobe_frame *frame) {
+    lobe_result result = lobe_graph_execute(r->renderer->graph);
+    if (result != LOBE_OK)
+        return result;
+    return pass_times_add(frame, lobe_graph_describe(r->renderer->graph)) ? LOBE_OK
+                                                                         : out_of_memory(r);
+}
+
+// ---------------------------------------------------------------------------------------------
+// One picture
+
+/// One shading pass at the pixels' centres. `outputs`: with arbitrary output variables.
+static lobe_result render_once(rendering *r, bool outputs, lobe_frame *frame) {
+    static const float centre[2] = {0.5f, 0.5f};
+    lobe_graph_begin(r->renderer->graph);
+    build_maps(r, frame);
+    shading_targets targets =
+        shading_targets_declare(r->renderer->graph, r->width, r->height, outputs);
+    shading(&r->context, r->renderer->appearances, shading_upload_lights(&r->context), centre,
+            &targets);
+    want(r, targets.radiance);
+    if (outputs) {
+        want(r, targets.normal_depth);
+        want(r, targets.lobes_level);
+    }
+    lobe_result result = execute(r, frame);
+    if (result != LOBE_OK || r->parameters->discard)
+        return result;
+    result = take_image(r, targets.radiance, LOBE_FORMAT_RGBA32_FLOAT, &frame->radiance);
+    if (result == LOBE_OK && outputs)
+        result = take_image(r, targets.normal_depth, LOBE_FORMAT_RGBA32_FLOAT,
+                            &frame->normal_depth);
+    if (result == LOBE_OK && outputs)
+        result =
+            take_image(r, targets.lobes_level, LOBE_FORMAT_RG32_FLOAT, &frame->lobes_level);
+    return result;
+}
+
+/// Adds samples [first, first + count) of every pixel to the sum.
+static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count,
+                                  lobe_frame *frame) {
+    lobe_graph *graph = r->renderer->graph;
+    lobe_graph_begin(graph);
+    build_maps(r, frame);
+    shading_targets targets = shading_targets_declare(graph, r->width, r->height, false);
+    lobe_resource lights = shading_upload_lights(&r->context);
+    lobe_resource sum =
+        lobe_graph_image(graph, &(lobe_image_description){.name = "sum of samples",
+                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                          .width = r->width,
+                                                          .height = r->height});
+    lobe_pass *clear = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
+    sum = lobe_pass_fill(clear, sum, (lobe_range){0}, (float[4]){0});
+    for (uint32_t i = 0; i < count; ++i) {
+        float sample[2];
+        sample_position(first + i, r->samples, sample);
+        shading(&r->context, r->renderer->appearances, lights, sample, &targets);
+        sum = accumulation(graph, targets.radiance, sum, r->width, r->height);
+    }
+    want(r, sum);
+    lobe_result result = execute(r, frame);
+    if (result != LOBE_OK || r->parameters->discard)
+        return result;
+    // Sums of few samples in float32, the sum of those in double: no bias at any count.
+    const float *data = lobe_graph_data(graph, sum, NULL);
+    for (size_t i = 0; data && i < (size_t)r->width * r->height * 4; ++i)
+        r->sum[i] += data[i];
+    return LOBE_OK;
+}
+
+static bool progress(const rendering *r, double part) {
+    return !r->parameters->progress || r->parameters->progress(r->parameters->user, part);
+}
+
+static lobe_result take_mean(rendering *r, lobe_frame *frame) {
+    lobe_result result = lobe_image_allocate(&frame->radiance, LOBE_FORMAT_RGBA32_FLOAT, r->width,
+                                             r->height, &r->renderer->log);
+    float *texels = frame->radiance.texels;
+    for (size_t i = 0; result == LOBE_OK && i < (size_t)r->width * r->height * 4; ++i)
+        texels[i] = (float)(r->sum[i] / r->samples);
+    return result;
+}
+
+static lobe_result render_reference(rendering *r, lobe_frame *frame) {
+    lobe_result result = LOBE_OK;
+    if (!r->parameters->discard) {
+        r->sum = calloc((size_t)r->width * r->height * 4, sizeof *r->sum);
+        if (!r->sum)
+            return out_of_memory(r);
+    }
+    if (r->parameters->arbitrary_output_variables) {
+        result = render_once(r, true, frame);
+        lobe_image_free(&frame->radiance);
+    }
+    bool goes_on = true;
+    uint32_t done = 0;
+    while (result == LOBE_OK && goes_on && done < r->samples) {
+        uint32_t left = r->samples - done;
+        uint32_t count = left < SAMPLES_A_SUBMISSION ? left : SAMPLES_A_SUBMISSION;
+        result = render_samples(r, done, count, frame);
+        done += count;
+        goes_on = result == LOBE_OK && progress(r, (double)done / r->samples);
+    }
+    if (result == LOBE_OK && !goes_on)
+        lobe_frame_free(frame);
+    else if (result == LOBE_OK && !r->parameters->discard)
+        result = take_mean(r, frame);
+    free(r->sum);
+    return result;
+}
+
+static lobe_result refuse(const lobe_log *log, lobe_result result, const char *why) {
+    lobe_log_print(log, LOBE_LOG_ERROR, "render: %s", why);
+    return result;
+}
+
+static lobe_result check(const rendering *r) {
+    const lobe_log *log = &r->renderer->log;
+    uint32_t limit = lobe_device_describe(r->renderer->device)->maximum_image_extent;
+    if (!r->renderer->scene)
+        return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set");
+    if (r->samples > LOBE_MAXIMUM_SAMPLES)
+        return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "more than 4096 samples a pixel");
+    if (r->width > limit || r->height > limit) {
+        lobe_log_print(log, LOBE_LOG_ERROR,
+                       "render: %ux%u pixels are more than the device's limit of %ux%u", r->width,
+                       r->height, limit, limit);
+        return LOBE_ERROR_LIMIT;
+    }
+    return LOBE_OK;
+}
+
+static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters *parameters,
+                           rendering *r) {
+    *r = (rendering){
+        .renderer = renderer,
+        .parameters = parameters,
+        .width = parameters->width ? parameters->width : 1280,
+        .height = parameters->height ? parameters->height : 720,
+        .samples = parameters->samples ? parameters->samples : 64,
+    };
+    lobe_result result = check(r);
+    if (result != LOBE_OK)
+        return result;
+    const lobe_filter *filter = parameters->filter;
+    if (!filter)
+        result = lobe_filter_find("lobes", &renderer->log, &filter);
+    if (result != LOBE_OK)
+        return result;
+    lobe_settings_default(filter, &r->settings);
+    if (parameters->settings)
+        r->settings = *parameters->settings;
+    r->images.resources = renderer->filtered_images;
+    r->context = (filter_context){
+        .graph = renderer->graph,
+        .settings = &r->settings,
+        .filter = filter,
+        .scene = renderer->scene,
+        .camera = parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
+        .images = &r->images,
+        .log = &renderer->log,
+    };
+    return LOBE_OK;
+}
+
+lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
+                                 lobe_frame *frame) {
+    *frame = (lobe_frame){0};
+    rendering r;
+    lobe_result result = prepare(renderer, parameters, &r);
+    if (result != LOBE_OK)
+        return result;
+    warn_of_limits(&r);
+    if (parameters->rebuild)
+        lobe_graph_invalidate(renderer->graph);
+    result = r.context.filter->supersamples
+                 ? render_reference(&r, frame)
+                 : render_once(&r, parameters->arbitrary_output_variables, frame);
+    if (result != LOBE_OK)
+        lobe_frame_free(frame);
+    return result;
+}

@@ -1,0 +1,166 @@
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "passes/filter.h"
+
+static const char *const views[] = {"radiance", "lobes", "level", NULL};
+static const char *const bases[] = {"exact", "lobe", NULL};
+
+// Knobs of every filter, after its own.
+static const lobe_knob shared_knobs[] = {
+    {"view", "what the picture shows: radiance, lobes evaluated, or MIP level", LOBE_KNOB_CHOICE, 0,
+     2, 0, views},
+    {"base", "evaluate base lobes as they are, or turned into von Mises-Fisher lobes first",
+     LOBE_KNOB_CHOICE, 0, 1, 0, bases},
+};
+static const size_t shared_knob_count = sizeof shared_knobs / sizeof *shared_knobs;
+
+size_t lobe_filter_count(void) {
+    size_t count = 0;
+    while (filter_table[count])
+        ++count;
+    return count;
+}
+
+const lobe_filter *lobe_filter_get(size_t index) {
+    return index < lobe_filter_count() ? filter_table[index] : NULL;
+}
+
+static void append(char *text, size_t size, const char *separator, const char *word) {
+    size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used ? separator : "", word);
+}
+
+lobe_result lobe_filter_find(const char *name, const lobe_log *log, const lobe_filter **filter) {
+    char names[512] = "";
+    for (size_t i = 0; filter_table[i]; ++i) {
+        if (strcmp(filter_table[i]->name, name) == 0) {
+            *filter = filter_table[i];
+            return LOBE_OK;
+        }
+        append(names, sizeof names, ", ", filter_table[i]->name);
+    }
+    *filter = NULL;
+    lobe_log_print(log, LOBE_LOG_ERROR, "no filter '%s'; there are %s", name, names);
+    return LOBE_ERROR_NOT_FOUND;
+}
+
+const char *lobe_filter_name(const lobe_filter *filter) {
+    return filter->name;
+}
+
+const char *lobe_filter_summary(const lobe_filter *filter) {
+    return filter->summary;
+}
+
+const char *lobe_filter_paper(const lobe_filter *filter) {
+    return filter->paper;
+}
+
+bool lobe_filter_supersamples(const lobe_filter *filter) {
+    return filter->supersamples;
+}
+
+size_t lobe_filter_knob_count(const lobe_filter *filter) {
+    return filter->knob_count + shared_knob_count;
+}
+
+const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index) {
+    if (index < filter->knob_count)
+        return &filter->knobs[index];
+    index -= filter->knob_count;
+    return index < shared_knob_count ? &shared_knobs[index] : NULL;
+}
+
+void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {
+    *settings = (lobe_settings){{0}};
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i)
+        settings->values[i] = lobe_filter_knob(filter, i)->initial;
+}
+
+/// Index of the knob whose name is the first `length` bytes of `name`; the count where none is.
+static size_t find_knob(const lobe_filter *filter, const char *name, size_t length) {
+    size_t count = lobe_filter_knob_count(filter);
+    for (size_t i = 0; i < count; ++i) {
+        const char *candidate = lobe_filter_knob(filter, i)->name;
+        if (strlen(candidate) == length && memcmp(candidate, name, length) == 0)
+            return i;
+    }
+    return count;
+}
+
+static lobe_result no_such_knob(const lobe_filter *filter, const char *assignment, size_t length,
+                                const lobe_log *log) {
+    char names[512] = "";
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i)
+        append(names, sizeof names, ", ", lobe_filter_knob(filter, i)->name);
+    lobe_log_print(log, LOBE_LOG_ERROR, "filter '%s' has no knob '%.*s'; it has %s", filter->name,
+                   (int)length, assignment, names);
+    return LOBE_ERROR_NOT_FOUND;
+}
+
+static lobe_result set_choice(const lobe_knob *knob, const char *text, double *value,
+                              const lobe_log *log) {
+    char choices[256] = "";
+    for (size_t i = 0; knob->choices[i]; ++i) {
+        if (strcmp(knob->choices[i], text) == 0) {
+            *value = (double)i;
+            return LOBE_OK;
+        }
+        append(choices, sizeof choices, ", ", knob->choices[i]);
+    }
+    lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is one of %s", knob->name,
+                   text, choices);
+    return LOBE_ERROR_INVALID_ARGUMENT;
+}
+
+static lobe_result set_number(const lobe_knob *knob, const char *text, double *value,
+                              const lobe_log *log) {
+    char *end = NULL;
+    double number = strtod(text, &end);
+    bool whole = knob->kind == LOBE_KNOB_INTEGER;
+    if (*text == '\0' || *end != '\0' || !isfinite(number) || number < knob->minimum ||
+        number > knob->maximum || (whole && number != floor(number))) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is a %s from %g to %g",
+                       knob->name, text, whole ? "whole number" : "number", knob->minimum,
+                       knob->maximum);
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    *value = number;
+    return LOBE_OK;
+}
+
+lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
+                              const char *assignment, const lobe_log *log) {
+    const char *equals = strchr(assignment, '=');
+    if (!equals) {
+        lobe_log_print(log, LOBE_LOG_ERROR, "'%s' sets no knob; write NAME=VALUE", assignment);
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    size_t length = (size_t)(equals - assignment);
+    size_t index = find_knob(filter, assignment, length);
+    const lobe_knob *knob = lobe_filter_knob(filter, index);
+    if (!knob)
+        return no_such_knob(filter, assignment, length, log);
+    double *value = &settings->values[index];
+    return knob->kind == LOBE_KNOB_CHOICE ? set_choice(knob, equals + 1, value, log)
+                                          : set_number(knob, equals + 1, value, log);
+}
+
+double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
+                         const char *name) {
+    size_t index = find_knob(filter, name, strlen(name));
+    return index < lobe_filter_knob_count(filter) ? settings->values[index] : 0;
+}
+
+void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings, size_t knob,
+                         char *text, size_t size) {
+    const lobe_knob *description = lobe_filter_knob(filter, knob);
+    double value = settings->values[knob];
+    if (description->kind == LOBE_KNOB_CHOICE)
+        snprintf(text, size, "%s", description->choices[(size_t)value]);
+    else
+        snprintf(text, size, "%g", value);
+}

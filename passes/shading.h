@@ -1,0 +1,27 @@
+#ifndef PASSES_SHADING_H
+#define PASSES_SHADING_H
+
+#include "passes/filter.h"
+
+/// What the shading pass draws into. Images are declared by shading_targets_declare; each shading
+/// pass clears them and leaves new versions here.
+typedef struct shading_targets {
+    uint32_t width, height;
+    lobe_resource radiance;     ///< RGBA32_FLOAT: linear RGB radiance, coverage
+    lobe_resource depth;        ///< D32_FLOAT
+    lobe_resource normal_depth; ///< RGBA32_FLOAT; none without arbitrary output variables
+    lobe_resource lobes_level;  ///< RG32_FLOAT; none without arbitrary output variables
+} shading_targets;
+
+shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
+                                        bool arbitrary_output_variables);
+
+/// Uploads the scene's lights, sorted by type, once for all shading passes of a frame.
+lobe_resource shading_upload_lights(const filter_context *context);
+
+/// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
+/// `sample`: where in each pixel, [0, 1] each.
+void shading(const filter_context *context, const filtered_appearance *appearances,
+             lobe_resource lights, const float sample[2], shading_targets *targets);
+
+#endif
