@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/device_features.h"
 #include "engine/device_selection.h"
-#include "engine/features.h"
 #include "engine/instance.h"
 #include "engine/pipeline.h"
 #include "engine/shader.h"
@@ -164,7 +164,7 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
 
 static void destroy_vulkan(lobe_device *device) {
     vkDeviceWaitIdle(device->vulkan);
-    engine_pipelines_destroy(&device->pipelines);
+    engine_pipelines_destroy(device, &device->pipelines);
     engine_shaders_destroy(&device->shaders);
     engine_memory_destroy(&device->memory);
     vkDestroyCommandPool(device->vulkan, device->commands, NULL);

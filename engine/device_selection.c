@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/features.h"
+#include "engine/device_features.h"
 #include "engine/text.h"
 #include "engine/vulkan_check.h"
 

@@ -217,7 +217,7 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
                                "%s: subsampled channels are not supported", reader->path);
     }
     if (find_channel(reader->channels, NULL, "RY") >= 0)
-        engine_log(reader->log, LOBE_LOG_WARNING,
+        lobe_log_print(reader->log, LOBE_LOG_WARNING,
                    "%s: colour differences RY and BY are ignored, the image is read as grey",
                    reader->path);
     return LOBE_OK;

@@ -354,7 +354,7 @@ static lobe_result finish(exr_writer *writer) {
     if (code != EXR_ERR_SUCCESS)
         return fail_from_library(writer, code, "the table of blocks");
     if (writer->clamped > 0)
-        engine_log(writer->log, LOBE_LOG_WARNING,
+        lobe_log_print(writer->log, LOBE_LOG_WARNING,
                    "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
                    writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
     return engine_file_write(writer->path, writer->output.data, writer->output.size, writer->log);

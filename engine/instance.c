@@ -43,8 +43,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
     const engine_validation *validation = user;
     const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     atomic_fetch_add(validation->count, 1);
-    engine_log(validation->log, LOBE_LOG_ERROR, "Vulkan validation %s: %s",
-               error ? "error" : "warning", data->pMessage);
+    lobe_log_print(validation->log, LOBE_LOG_ERROR, "Vulkan validation %s: %s",
+                   error ? "error" : "warning", data->pMessage);
     return VK_FALSE;
 }
 

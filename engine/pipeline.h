@@ -41,7 +41,7 @@ typedef struct engine_raster_parameters {
     const char *fragment_shader; ///< NULL: depth only
     const lobe_specialisation *specialisation;
     size_t specialisation_count;
-    lobe_cull cull; ///< counter-clockwise in framebuffer coordinates seen with y up is the front
+    lobe_cull cull; ///< counter-clockwise as seen in the picture is the front
     bool depth_test, depth_write;
     lobe_blend blend;
     lobe_format colour[ENGINE_MAXIMUM_COLOUR_ATTACHMENTS]; ///< NONE: no attachment there
@@ -55,17 +55,16 @@ typedef struct engine_pipelines engine_pipelines;
 lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines);
 /// Writes the cache file, then frees all.
-void engine_pipelines_destroy(engine_pipelines **pipelines);
+void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines);
 
 /// Gives the pipeline for these parameters, made at the first call. It lives as long as the
-/// device (with hot reload: until a call finds that a shader changed; the device is then waited
-/// for). LOBE_ERROR_SHADER: a shader is missing, is of another stage, two stages disagree about a
+/// device; with hot reload another one is given once a shader's source has changed.
+/// LOBE_ERROR_SHADER: a shader is missing, is of another stage, two stages disagree about a
 /// binding.
 lobe_result engine_pipeline_compute(lobe_device *device,
                                     const engine_compute_parameters *parameters,
                                     const engine_pipeline **pipeline);
-/// Triangle lists without vertex attributes; viewport and scissor are dynamic. The viewport is to
-/// have a negative height, so that y points up in clip space and lobe's winding holds.
+/// Triangle lists without vertex attributes; viewport and scissor are dynamic.
 lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
                                    const engine_pipeline **pipeline);
 

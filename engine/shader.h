@@ -69,9 +69,9 @@ void engine_shaders_destroy(engine_shaders **shaders);
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder);
 
-/// Finds a shader by name, ready for use. It lives as long as the device (with hot reload: until
-/// the next call finds its source changed). LOBE_ERROR_SHADER where there is none of that name or
-/// it does not compile; one line in the log.
+/// Finds a shader by name, ready for use. It lives as long as the device; with hot reload another
+/// one, with another version, is given once its source has changed. LOBE_ERROR_SHADER where there
+/// is none of that name or its source does not compile.
 lobe_result engine_shader_find(lobe_device *device, const char *name, const engine_shader **shader);
 
 #endif

@@ -14,26 +14,12 @@ char *engine_text(const char *format, ...) {
     return length < 0 ? NULL : text;
 }
 
-static void log_line(const lobe_log *log, lobe_log_level level, const char *format,
-                     va_list arguments) {
-    if (!log || !log->write)
-        return;
-    char line[LINE_SIZE];
-    vsnprintf(line, sizeof line, format, arguments);
-    log->write(log->user, level, line);
-}
-
-void engine_log(const lobe_log *log, lobe_log_level level, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    log_line(log, level, format, arguments);
-    va_end(arguments);
-}
-
 lobe_result engine_fail(const lobe_log *log, lobe_result result, const char *format, ...) {
+    char line[LINE_SIZE];
     va_list arguments;
     va_start(arguments, format);
-    log_line(log, LOBE_LOG_ERROR, format, arguments);
+    vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    lobe_log_print(log, LOBE_LOG_ERROR, "%s", line);
     return result;
 }

@@ -7,10 +7,6 @@
 /// printf into fresh memory, to free() by the caller. NULL without memory.
 char *engine_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/// Sends one line to the log. `log` may be NULL. Longer lines are cut at 1023 bytes.
-void engine_log(const lobe_log *log, lobe_log_level level, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
 /// Sends the line that explains a failure, at level error, and returns `result`:
 /// `return engine_fail(log, LOBE_ERROR_LIMIT, "texture '%s': ...", name);`
 lobe_result engine_fail(const lobe_log *log, lobe_result result, const char *format, ...)

@@ -1,5 +1,5 @@
-#ifndef ENGINE_FEATURES_H
-#define ENGINE_FEATURES_H
+#ifndef ENGINE_DEVICE_FEATURES_H
+#define ENGINE_DEVICE_FEATURES_H
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-#include "engine/features.h"
+#include "engine/device_features.h"
 
 #include <string.h>
 

@@ -1,0 +1,213 @@
+#include "engine/shader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/device.h"
+#include "engine/reflection.h"
+#include "engine/shader_words.h"
+#include "engine/text.h"
+#include "engine/vulkan_check.h"
+
+typedef struct shader_table {
+    struct shader_table *next;
+    const engine_shader_code *codes;
+    size_t count;
+    char *folder; ///< of the sources; NULL where none is known
+} shader_table;
+
+typedef struct loaded_shader {
+    struct loaded_shader *next;
+    engine_shader shader;
+    engine_shader_words words;
+    const engine_shader_code *code;
+} loaded_shader;
+
+struct engine_shaders {
+    lobe_device *device;
+    shader_table *tables;  ///< the last added first
+    loaded_shader *loaded; ///< the last loaded first
+};
+
+// ---------------------------------------------------------------------------------------------
+// Tables
+
+static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *codes, size_t count,
+                             const char *folder) {
+    shader_table *table = calloc(1, sizeof *table);
+    if (!table || (folder && !(table->folder = strdup(folder)))) {
+        free(table);
+        return engine_fail(&shaders->device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                           "shaders: no host memory");
+    }
+    table->codes = codes;
+    table->count = count;
+    table->next = shaders->tables;
+    shaders->tables = table;
+    return LOBE_OK;
+}
+
+static const engine_shader_code *find_code(const engine_shaders *shaders, const char *name,
+                                           const shader_table **of) {
+    for (const shader_table *table = shaders->tables; table; table = table->next)
+        for (size_t i = 0; i < table->count; i++)
+            if (!strcmp(table->codes[i].name, name)) {
+                *of = table;
+                return &table->codes[i];
+            }
+    return NULL;
+}
+
+/// The first table added is the library's own.
+static const shader_table *library_table(const engine_shaders *shaders) {
+    const shader_table *table = shaders->tables;
+    while (table->next)
+        table = table->next;
+    return table;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Loading
+
+static void free_loaded(lobe_device *device, loaded_shader *loaded) {
+    vkDestroyShaderModule(device->vulkan, loaded->shader.module, NULL);
+    engine_reflection_free(&loaded->shader);
+    engine_shader_words_free(&loaded->words);
+    free(loaded);
+}
+
+static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
+    const VkShaderModuleCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+        .codeSize = loaded->words.count * sizeof *loaded->words.words,
+        .pCode = loaded->words.words,
+    };
+    const lobe_result result = VULKAN_CHECK(
+        &device->log, vkCreateShaderModule(device->vulkan, &create, NULL, &loaded->shader.module),
+        "shader '%s'", loaded->shader.name);
+    if (result == LOBE_OK)
+        engine_device_name(device, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)loaded->shader.module,
+                           loaded->shader.name);
+    return result;
+}
+
+/// Makes a shader of words; takes them over, in failure too.
+static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
+                        engine_shader_words *words, loaded_shader **result_shader) {
+    lobe_device *device = shaders->device;
+    loaded_shader *loaded = calloc(1, sizeof *loaded);
+    if (!loaded) {
+        engine_shader_words_free(words);
+        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                           code->name);
+    }
+    loaded->words = *words;
+    loaded->code = code;
+    loaded->shader.name = code->name;
+    loaded->shader.version = engine_device_stamp(device);
+    lobe_result result = engine_reflect(&device->log, words->words, words->count, &loaded->shader);
+    if (result == LOBE_OK)
+        result = create_module(device, loaded);
+    if (result != LOBE_OK) {
+        free_loaded(device, loaded);
+        return result;
+    }
+    loaded->next = shaders->loaded;
+    shaders->loaded = loaded;
+    *result_shader = loaded;
+    return LOBE_OK;
+}
+
+static loaded_shader *find_loaded(const engine_shaders *shaders, const engine_shader_code *code) {
+    loaded_shader *loaded = shaders->loaded;
+    while (loaded && loaded->code != code)
+        loaded = loaded->next;
+    return loaded;
+}
+
+/// Loads a shader for the first time.
+static lobe_result load_first(engine_shaders *shaders, const engine_shader_code *code,
+                              const engine_shader_folders *folders, loaded_shader **loaded) {
+    engine_shader_words words;
+    const lobe_result result =
+        engine_shader_words_get(&shaders->device->log, LOBE_LOG_ERROR, folders, code, &words);
+    if (result != LOBE_OK) {
+        engine_shader_words_free(&words);
+        return result;
+    }
+    return load(shaders, code, &words, loaded);
+}
+
+/// Loads a shader whose source has changed. While the new source does not compile the old shader
+/// goes on, and the next try is when the source changes again.
+static lobe_result load_again(engine_shaders *shaders, const engine_shader_code *code,
+                              const engine_shader_folders *folders, loaded_shader **loaded) {
+    engine_shader_words words;
+    const lobe_result result =
+        engine_shader_words_get(&shaders->device->log, LOBE_LOG_WARNING, folders, code, &words);
+    if (result == LOBE_OK)
+        return load(shaders, code, &words, loaded);
+    engine_source_files *old = (*loaded)->words.files;
+    (*loaded)->words.files = words.files;
+    words.files = old;
+    engine_shader_words_free(&words);
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// For others
+
+lobe_result engine_shaders_create(lobe_device *device, const char *folder,
+                                  engine_shaders **shaders) {
+    *shaders = calloc(1, sizeof **shaders);
+    if (!*shaders)
+        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
+    (*shaders)->device = device;
+    const lobe_result result =
+        add_table(*shaders, engine_embedded_shaders, engine_embedded_shaders_count,
+                  folder ? folder : engine_shader_words_folder());
+    if (result != LOBE_OK)
+        engine_shaders_destroy(shaders);
+    return result;
+}
+
+void engine_shaders_destroy(engine_shaders **shaders) {
+    if (!*shaders)
+        return;
+    for (loaded_shader *loaded = (*shaders)->loaded, *next; loaded; loaded = next) {
+        next = loaded->next;
+        free_loaded((*shaders)->device, loaded);
+    }
+    for (shader_table *table = (*shaders)->tables, *next; table; table = next) {
+        next = table->next;
+        free(table->folder);
+        free(table);
+    }
+    free(*shaders);
+    *shaders = NULL;
+}
+
+lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
+                               const char *folder) {
+    return add_table(device->shaders, codes, count, folder);
+}
+
+lobe_result engine_shader_find(lobe_device *device, const char *name,
+                               const engine_shader **shader) {
+    engine_shaders *shaders = device->shaders;
+    const shader_table *table = NULL;
+    const engine_shader_code *code = find_code(shaders, name, &table);
+    *shader = NULL;
+    if (!code)
+        return engine_fail(&device->log, LOBE_ERROR_SHADER, "there is no shader '%s'", name);
+    const engine_shader_folders folders = {table->folder, library_table(shaders)->folder};
+    loaded_shader *loaded = find_loaded(shaders, code);
+    lobe_result result = LOBE_OK;
+    if (!loaded)
+        result = load_first(shaders, code, &folders, &loaded);
+    else if (engine_shader_words_are_stale(&loaded->words))
+        result = load_again(shaders, code, &folders, &loaded);
+    if (result == LOBE_OK)
+        *shader = &loaded->shader;
+    return result;
+}
