@@ -1,0 +1,159 @@
+#include "scenes/gltf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/file.h"
+#include "scenes/gltf_container.h"
+#include "scenes/gltf_schema.h"
+#include "scenes/report.h"
+#include "scenes/scene.h"
+
+// ---------------------------------------------------------------------------------------------
+// From the file to the document
+
+// What happened to a buffer's file, of which tinygltf only hears that it cannot be read.
+typedef struct buffer_reader {
+    const char *path;
+    const lobe_log *log;
+    lobe_result result;
+} buffer_reader;
+
+static void *read_buffer(void *user, const char *path, size_t *size) {
+    buffer_reader *reader = user;
+    void *bytes = NULL;
+    reader->result = scene_read_file(path, reader->path, reader->log, &bytes, size);
+    return bytes;
+}
+
+static lobe_result parse(const gltf_container *container, const char *path, const lobe_log *log,
+                         const gltf_document **document) {
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("");
+    if (!folder)
+        return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    char message[256];
+    buffer_reader reader = {path, log, LOBE_OK};
+    gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
+                          .size = container->binary ? container->size : container->json_size,
+                          .binary = container->binary,
+                          .folder = folder,
+                          .read = read_buffer,
+                          .user = &reader};
+    *document = gltf_document_parse(&source, message, sizeof message);
+    free(folder);
+    if (*document)
+        return LOBE_OK;
+    if (reader.result != LOBE_OK)
+        return reader.result; // scene_read_file has logged it
+    bool malformed = *message != 0;
+    return scene_report_error(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY,
+                              "%s: %s", path, malformed ? message : "out of memory");
+}
+
+static lobe_result read_document(const char *path, const lobe_log *log,
+                                 const gltf_document **document) {
+    gltf_container container = {0};
+    void *bytes = NULL;
+    lobe_result result = scene_read_file(path, NULL, log, &bytes, &container.size);
+    container.bytes = bytes;
+    if (result == LOBE_OK)
+        result = gltf_container_open(&container, path, log);
+    if (result == LOBE_OK)
+        result = gltf_schema_check(path, container.json, container.json_size, log);
+    if (result == LOBE_OK)
+        result = parse(&container, path, log, document);
+    free(bytes);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// From the document to the scene
+
+static int64_t *allocate_unconverted(size_t count) {
+    int64_t *states = malloc(count * sizeof *states);
+    for (size_t i = 0; states && i < count; i++)
+        states[i] = GLTF_NOT_CONVERTED;
+    return states;
+}
+
+static bool allocate_primitives(gltf_import *import) {
+    const gltf_document *document = import->document;
+    size_t count = 0;
+    import->first_primitives = calloc(document->mesh_count + 1, sizeof *import->first_primitives);
+    if (!import->first_primitives)
+        return false;
+    for (size_t i = 0; i < document->mesh_count; i++) {
+        import->first_primitives[i] = count;
+        count += document->meshes[i].primitive_count;
+    }
+    import->primitives = malloc((count + 1) * sizeof *import->primitives);
+    for (size_t i = 0; import->primitives && i < count; i++)
+        import->primitives[i] =
+            (gltf_primitive_state){GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED};
+    return import->primitives != NULL;
+}
+
+static lobe_result allocate_states(gltf_import *import) {
+    const gltf_document *document = import->document;
+    import->materials = allocate_unconverted(document->material_count + 1);
+    import->images[0] = allocate_unconverted(document->image_count + 1);
+    import->images[1] = allocate_unconverted(document->image_count + 1);
+    if (allocate_primitives(import) && import->materials && import->images[0] && import->images[1])
+        return LOBE_OK;
+    return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              import->path);
+}
+
+static void free_states(gltf_import *import) {
+    free(import->first_primitives);
+    free(import->primitives);
+    free(import->materials);
+    free(import->images[0]);
+    free(import->images[1]);
+}
+
+static void note_extensions(gltf_import *import) {
+    const gltf_document *document = import->document;
+    for (size_t i = 0; i < document->extension_count; i++) {
+        const char *name = document->extensions[i];
+        if (!gltf_extension_supported(name))
+            gltf_note_unsupported(import, name);
+        if (strcmp(name, "KHR_mesh_quantization") == 0)
+            import->quantised = true;
+    }
+    if (document->animation_count > 0)
+        gltf_note_unsupported(import, "animations");
+}
+
+static lobe_result convert(gltf_import *import) {
+    lobe_result result = allocate_states(import);
+    if (result != LOBE_OK)
+        return result;
+    note_extensions(import);
+    result = gltf_convert_nodes(import);
+    if (result != LOBE_OK)
+        return result;
+    gltf_report_notes(import);
+    result = scene_complete(import->scene, import->log);
+    if (result == LOBE_OK && import->scene->has_camera)
+        gltf_aim_camera(import->scene);
+    return result;
+}
+
+lobe_result gltf_open(const char *path, const lobe_log *log, lobe_scene **scene) {
+    gltf_import import = {.path = path, .log = log};
+    *scene = NULL;
+    lobe_result result = read_document(path, log, &import.document);
+    if (result == LOBE_OK)
+        result = scene_allocate(path, log, &import.scene);
+    if (result == LOBE_OK)
+        result = convert(&import);
+    if (result == LOBE_OK)
+        *scene = import.scene;
+    else
+        lobe_scene_destroy(&import.scene);
+    free_states(&import);
+    gltf_document_free(import.document);
+    return result;
+}

@@ -1,0 +1,118 @@
+#ifndef SCENES_GLTF_H
+#define SCENES_GLTF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+#include <lobe/scene.h>
+
+#include "third_party/tinygltf.h"
+
+/// Import of a glTF 2.0 file into a scene. Only what the scene's nodes reach is imported: meshes,
+/// materials and images are converted when they are first met.
+
+/// Opens a .gltf or .glb file; told apart by content. See lobe_scene_open.
+lobe_result gltf_open(const char *path, const lobe_log *log, lobe_scene **scene);
+
+// ---------------------------------------------------------------------------------------------
+// Between the files of the import
+
+/// Limits that keep a small file from asking for a large machine.
+#define GLTF_MAXIMUM_VERTICES      ((size_t)1 << 26) ///< of a scene
+#define GLTF_MAXIMUM_INDICES       ((size_t)1 << 28) ///< of a scene
+#define GLTF_MAXIMUM_INSTANCES     ((size_t)1 << 20) ///< of a scene
+#define GLTF_MAXIMUM_TEXELS        ((size_t)1 << 29) ///< of a scene
+#define GLTF_MAXIMUM_ZERO_ELEMENTS ((size_t)1 << 20) ///< of an accessor without a buffer view
+
+/// What is left out, or was mended: collected during the import, said once at its end.
+typedef struct gltf_notes {
+    const char *unsupported[32];
+    size_t unsupported_count;
+    size_t degenerate_triangles, repaired_normals, repaired_tangents, clamped_factors;
+    size_t flat_instances, missing_coordinates;
+} gltf_notes;
+
+/// Index into the scene of what was converted already, or one of these.
+enum { GLTF_NOT_CONVERTED = -1, GLTF_NOTHING_TO_DRAW = -2 };
+
+typedef struct gltf_primitive_state {
+    int64_t mesh, mirrored_mesh;
+    int64_t material;
+} gltf_primitive_state;
+
+typedef struct gltf_import {
+    const char *path;
+    const lobe_log *log;
+    const gltf_document *document;
+    lobe_scene *scene;
+    bool quantised;                   ///< KHR_mesh_quantization is in use
+    size_t *first_primitives;         ///< for each mesh, its first in `primitives`
+    gltf_primitive_state *primitives; ///< of all meshes
+    int64_t *materials;               ///< for each and one more: the default material
+    int64_t *images[2];               ///< for each scene_image_use and image
+    size_t vertices, indices, texels; ///< so far, against the limits
+    gltf_notes notes;
+} gltf_import;
+
+/// Remembers a feature that is left out, by its name, which must outlive the import.
+void gltf_note_unsupported(gltf_import *import, const char *feature);
+/// Sends what was collected to the log.
+void gltf_report_notes(const gltf_import *import);
+
+/// The elements of an accessor, checked: reading one within `count` touches valid memory only.
+typedef struct gltf_elements {
+    const uint8_t *bytes; ///< NULL: all zero
+    size_t count, stride;
+    int component;
+    unsigned channels;
+    bool normalised;
+    const uint8_t *sparse_indices, *sparse_values;
+    size_t sparse_count;
+    int sparse_component;
+} gltf_elements;
+
+/// `what` names the use of the accessor in messages. Errors: LOBE_ERROR_MALFORMED (index or
+/// range outside the file, or an unknown type), LOBE_ERROR_LIMIT.
+lobe_result gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
+                               gltf_elements *elements);
+/// Element `i` as numbers, normalised where the accessor says so; writes `elements->channels`
+/// values.
+void gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]);
+/// Element `i` of unsigned integers.
+uint32_t gltf_read_index(const gltf_elements *elements, size_t i);
+/// The bytes of a buffer view. LOBE_ERROR_MALFORMED where they are not there.
+lobe_result gltf_open_view(const gltf_import *import, int view, const char *what,
+                           const uint8_t **bytes, size_t *length, size_t *stride);
+
+/// The triangles of a primitive as a list of indices into its accessors' elements; strips and
+/// fans are unrolled. `element_count` is that of its positions. The caller frees `*indices`.
+lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
+                                const char *name, size_t element_count, uint32_t **indices,
+                                size_t *index_count);
+
+/// Converts primitive `primitive` of mesh `mesh` where that has not been done yet. `*state` then
+/// holds its mesh and material, or GLTF_NOTHING_TO_DRAW.
+lobe_result gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
+                                   gltf_primitive_state **state);
+/// Makes `state->mirrored_mesh`: the mesh reflected in x.
+lobe_result gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state);
+
+/// `material` of -1: the default material of glTF.
+lobe_result gltf_convert_material(gltf_import *import, int material, int64_t *converted);
+
+/// The index of an image in the scene, decoded where it was not yet, or -1.
+lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted);
+
+/// Places instances, lights and the camera by walking through the nodes.
+lobe_result gltf_convert_nodes(gltf_import *import);
+/// `world` is column-major.
+lobe_result gltf_convert_light(gltf_import *import, int light, const double world[16]);
+lobe_result gltf_convert_camera(gltf_import *import, int camera, const double world[16]);
+/// Moves the camera's target to the depth of the middle of the scene, for those who turn about
+/// it.
+void gltf_aim_camera(lobe_scene *scene);
+
+#endif
