@@ -309,7 +309,7 @@ static int complete(parser *parser) {
 static int check_operand_count(const parser *parser) {
     size_t count = parser->operands != NULL ? parser->operands->count : 0;
     if (count < parser->table->minimum_operands)
-        return options_usage_error(parser->table, "too few operands (%s)", parser->table->operands);
+        return options_usage_error(parser->table, "operands are missing: %s", parser->table->operands);
     return 0;
 }
 

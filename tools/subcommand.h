@@ -10,6 +10,11 @@ typedef struct subcommand {
     int (*run)(int argc, char **argv);
 } subcommand;
 
+extern const subcommand render_subcommand;
+extern const subcommand bench_subcommand;
 extern const subcommand compare_subcommand;
+extern const subcommand scenes_subcommand;
+extern const subcommand filters_subcommand;
+extern const subcommand info_subcommand;
 
 #endif
