@@ -18,6 +18,24 @@ typedef struct builtin_scene {
 /// NULL where there is none of that name; not an error, nothing is logged.
 const builtin_scene *builtin_scene_find(const char *name);
 
+/// One step of building: adds its part to the scene.
+typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_log *log);
+
+/// Runs the steps, ended by NULL, on an empty scene, and completes it.
+lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, const lobe_log *log,
+                                   lobe_scene **scene);
+
+/// Sets the camera: where it stands, what it looks at, its vertical field of view in degrees.
+void builtin_scene_look(lobe_scene *scene, const float eye[3], const float target[3],
+                        float degrees);
+
+/// Adds `count` lights.
+lobe_result builtin_scene_add_lights(lobe_scene *scene, const lobe_light *lights, size_t count,
+                                     const lobe_log *log);
+
+/// The whole of an image, repeated.
+lobe_texture_use builtin_scene_texture(uint32_t image);
+
 lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene);
