@@ -1,0 +1,251 @@
+#include "tools/bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lobe/lobe.h>
+
+#include "tools/console.h"
+#include "tools/device_options.h"
+#include "tools/output_file.h"
+#include "tools/subcommand.h"
+
+typedef struct bench_request {
+    option_list scenes;
+    const char *filters;     ///< "a,b,c"; NULL: all there are
+    option_list assignments; ///< "KNOB=VALUE"
+    const char *json;
+    device_options device;
+    bench_job job;
+} bench_request;
+
+// ---------------------------------------------------------------------------------------------
+// Usage
+
+static int add_filter(const option_table *table, bench_job *job, const char *name,
+                      const lobe_log *log) {
+    if (job->filter_count == BENCH_MAXIMUM_FILTERS)
+        return options_usage_error(table, "--filters: more than %d", BENCH_MAXIMUM_FILTERS);
+    bench_filter *filter = &job->filters[job->filter_count++];
+    if (lobe_filter_find(name, log, &filter->filter) != LOBE_OK)
+        return 2;
+    lobe_settings_default(filter->filter, &filter->settings);
+    return 0;
+}
+
+static int choose_filters(const option_table *table, bench_request *request, const lobe_log *log) {
+    int status = 0;
+    for (size_t i = 0; !request->filters && status == 0 && i < lobe_filter_count(); ++i)
+        status = add_filter(table, &request->job, lobe_filter_name(lobe_filter_get(i)), log);
+    const char *rest = request->filters;
+    while (rest && status == 0) {
+        size_t length = strcspn(rest, ",");
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)length, rest);
+        status = add_filter(table, &request->job, name, log);
+        rest = rest[length] == ',' ? rest + length + 1 : NULL;
+    }
+    return status;
+}
+
+static bool has_knob(const lobe_filter *filter, const char *assignment) {
+    size_t length = strcspn(assignment, "=");
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+        const char *name = lobe_filter_knob(filter, i)->name;
+        if (strlen(name) == length && memcmp(name, assignment, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/// A knob is set in every filter that has it; one at least must.
+static int set_knob(bench_job *job, const char *assignment, const lobe_log *log) {
+    bool known = false;
+    for (size_t i = 0; i < job->filter_count; ++i) {
+        bench_filter *filter = &job->filters[i];
+        if (!has_knob(filter->filter, assignment))
+            continue;
+        known = true;
+        if (lobe_settings_set(filter->filter, &filter->settings, assignment, log) != LOBE_OK)
+            return 2;
+    }
+    if (known)
+        return 0;
+    if (strchr(assignment, '='))
+        lobe_log_print(log, LOBE_LOG_ERROR, "--set %s: none of these filters has that knob",
+                       assignment);
+    else
+        lobe_log_print(log, LOBE_LOG_ERROR, "--set %s: write NAME=VALUE", assignment);
+    return 2;
+}
+
+/// The truth shares the user's knobs, but how it takes base lobes is what the two truths differ in.
+static int choose_truths(bench_request *request, const lobe_log *log) {
+    const lobe_filter *reference;
+    bench_job *job = &request->job;
+    if (lobe_filter_find("reference", log, &reference) != LOBE_OK)
+        return 1;
+    lobe_settings_default(reference, &job->truth);
+    for (size_t i = 0; i < request->assignments.count; ++i) {
+        const char *assignment = request->assignments.values[i];
+        if (has_knob(reference, assignment) &&
+            lobe_settings_set(reference, &job->truth, assignment, log) != LOBE_OK)
+            return 2;
+    }
+    job->truth_lobe_base = job->truth;
+    return lobe_settings_set(reference, &job->truth_lobe_base, "base=lobe", log) == LOBE_OK ? 0 : 1;
+}
+
+static int check_usage(const option_table *table, bench_request *request, const lobe_log *log) {
+    const uint32_t *size = request->job.size;
+    if (size[0] == 0 || size[1] == 0)
+        return options_usage_error(table, "--size: no pixels in %ux%u", size[0], size[1]);
+    int status = choose_filters(table, request, log);
+    for (size_t i = 0; status == 0 && i < request->assignments.count; ++i)
+        status = set_knob(&request->job, request->assignments.values[i], log);
+    return status == 0 ? choose_truths(request, log) : status;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Work
+
+static lobe_result measure_scene(const bench_request *request, const char *name,
+                                 bench_result *results) {
+    lobe_scene *scene;
+    lobe_result result = lobe_scene_open(name, request->job.log, &scene);
+    if (result == LOBE_OK)
+        result = bench_measure(&request->job, scene, name, results);
+    lobe_scene_destroy(&scene);
+    return result;
+}
+
+static lobe_result write_json(const bench_request *request, const bench_result *results,
+                              size_t count) {
+    if (!request->json)
+        return LOBE_OK;
+    char *text = bench_describe(&request->job, results, count);
+    lobe_result result = LOBE_ERROR_OUT_OF_MEMORY;
+    if (text)
+        result = output_file_write(request->json, text, request->job.log);
+    else
+        lobe_log_print(request->job.log, LOBE_LOG_ERROR, "%s: out of memory", request->json);
+    free(text);
+    return result;
+}
+
+static lobe_result measure_all(const bench_request *request, bench_result *results) {
+    const bench_job *job = &request->job;
+    size_t count = request->scenes.count * job->filter_count;
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < request->scenes.count; ++i)
+        result = measure_scene(request, request->scenes.values[i], &results[i * job->filter_count]);
+    progress_end(job->progress);
+    if (result == LOBE_OK)
+        result = device_options_check(job->device, job->log);
+    if (result == LOBE_OK)
+        result = write_json(request, results, count);
+    if (result == LOBE_OK)
+        bench_print(job, results, count);
+    for (size_t i = 0; i < count; ++i)
+        bench_result_free(&results[i]);
+    return result;
+}
+
+static lobe_result bench(bench_request *request) {
+    bench_job *job = &request->job;
+    lobe_result result = output_file_check(request->json, job->log);
+    if (result == LOBE_OK)
+        result = device_options_open(&request->device, job->log, &job->device);
+    if (result != LOBE_OK)
+        return result;
+    bench_result *results = calloc(request->scenes.count * job->filter_count, sizeof *results);
+    if (results) {
+        result = measure_all(request, results);
+    } else {
+        lobe_log_print(job->log, LOBE_LOG_ERROR, "bench: out of memory");
+        result = LOBE_ERROR_OUT_OF_MEMORY;
+    }
+    free(results);
+    lobe_device_destroy(&job->device);
+    return result;
+}
+
+static int run_request(const option_table *table, bench_request *request) {
+    const lobe_log log = console_log(false);
+    progress progress = progress_begin(true);
+    request->job.log = &log;
+    request->job.progress = &progress;
+    int status = check_usage(table, request, &log);
+    if (status != 0)
+        return status;
+    return bench(request) == LOBE_OK ? 0 : 1;
+}
+
+static int run(int argc, char **argv) {
+    bench_request request = {0};
+    const option options[] = {
+        {.name = "filters",
+         .kind = OPTION_TEXT,
+         .argument = "A,B,C",
+         .summary = "filters to measure, see 'lobe filters' (default: all)",
+         .target = &request.filters},
+        {.name = "frames",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "frames timed of each filter, after a warm-up; of the filter reference at most "
+                    "3",
+         .target = &request.job.frames,
+         .fallback = "20",
+         .minimum = 1,
+         .maximum = 10000},
+        {.name = "size",
+         .kind = OPTION_SIZE,
+         .argument = "WxH",
+         .summary = "pixels; the device sets the limit",
+         .target = request.job.size,
+         .fallback = "1280x720"},
+        {.name = "samples",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "samples a pixel of the reference that errors are measured against",
+         .target = &request.job.samples,
+         .fallback = "256",
+         .minimum = 1,
+         .maximum = LOBE_MAXIMUM_SAMPLES},
+        {.name = "set",
+         .kind = OPTION_LIST,
+         .argument = "KNOB=VALUE",
+         .summary = "sets a knob in every filter that has it",
+         .target = &request.assignments},
+        {.name = "json",
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "writes all results as JSON",
+         .target = &request.json},
+        device_option_select(&request.device),
+        device_option_validation(&request.device),
+    };
+    const option_table table = {
+        .program = "lobe bench",
+        .operands = "SCENE...",
+        .summary =
+            "Measures filters in scenes: milliseconds of each pass, of frames in which every map\n"
+            "is built again and of frames that find their maps ready; memory; and the error\n"
+            "against a reference of many samples, once as the scene is, and once with its base\n"
+            "lobes turned into von Mises-Fisher lobes, which leaves the error of filtering alone.\n"
+            "Frames of the filters take turns. Where the filter reference is measured itself, it\n"
+            "takes 64 samples a pixel.",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .minimum_operands = 1,
+        .maximum_operands = 64,
+    };
+    int status;
+    if (options_parse(&table, argc, argv, &request.scenes, &status))
+        status = run_request(&table, &request);
+    options_free(&table, &request.scenes);
+    return status;
+}
+
+const subcommand bench_subcommand = {"bench", "measure times, memory and errors of filters", run};

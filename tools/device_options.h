@@ -1,0 +1,28 @@
+#ifndef TOOLS_DEVICE_OPTIONS_H
+#define TOOLS_DEVICE_OPTIONS_H
+
+#include <stdbool.h>
+
+#include <lobe/device.h>
+
+#include "tools/options.h"
+
+/// The options of every subcommand that needs a device.
+typedef struct device_options {
+    const char *select; ///< NULL: the environment variable LOBE_DEVICE, or else the best suited
+    bool validation;
+} device_options;
+
+/// Entries for an option table.
+option device_option_select(device_options *options);
+option device_option_validation(device_options *options);
+
+/// Opens the device, with a pipeline cache in the user's cache folder ($XDG_CACHE_HOME/lobe or
+/// ~/.cache/lobe) where there is one.
+lobe_result device_options_open(const device_options *options, const lobe_log *log,
+                                lobe_device **device);
+
+/// LOBE_ERROR_UNSUPPORTED with a line where the validation layer found fault, else LOBE_OK.
+lobe_result device_options_check(const lobe_device *device, const lobe_log *log);
+
+#endif

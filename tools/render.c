@@ -1,0 +1,373 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <lobe/lobe.h>
+
+#include "tools/capture.h"
+#include "tools/console.h"
+#include "tools/device_options.h"
+#include "tools/output_file.h"
+#include "tools/progress.h"
+#include "tools/subcommand.h"
+#include "tools/view_options.h"
+
+/// What the command line asks for.
+typedef struct render_request {
+    const char *scene;  ///< NULL where a material folder is given
+    const char *output; ///< ends in .exr or .png
+    const char *material;
+    uint32_t carrier;
+    const char *filter_name;
+    option_list assignments; ///< "KNOB=VALUE"
+    uint32_t size[2];
+    uint32_t samples, frames;
+    const char *graph;
+    uint32_t depth;
+    bool outputs; ///< arbitrary output variables
+    double exposure;
+    bool has_carrier, has_samples, has_depth, has_exposure;
+    view_options view;
+    lobe_light *lights;
+    device_options device;
+
+    const lobe_filter *filter;
+    lobe_settings settings;
+} render_request;
+
+/// What is made on the way.
+typedef struct render_state {
+    lobe_log log;
+    lobe_scene *scene;
+    lobe_device *device;
+    lobe_renderer *renderer;
+    lobe_frame frame;
+    timing timing;
+    progress progress;
+} render_state;
+
+// ---------------------------------------------------------------------------------------------
+// Usage
+
+static bool is_png(const render_request *request) {
+    return output_file_has_ending(request->output, ".png");
+}
+
+static int check_usage(const option_table *table, const render_request *request) {
+    if (!request->scene && !request->material)
+        return options_usage_error(table, "no SCENE, and no --material either");
+    if (request->scene && request->material)
+        return options_usage_error(table, "SCENE '%s' and --material exclude each other",
+                                   request->scene);
+    if (request->has_carrier && !request->material)
+        return options_usage_error(table, "--carrier goes with --material");
+    if (!request->output)
+        return options_usage_error(table, "no output: give -o FILE.exr or -o FILE.png");
+    if (!is_png(request) && !output_file_has_ending(request->output, ".exr"))
+        return options_usage_error(table, "output '%s' ends neither in .exr nor in .png",
+                                   request->output);
+    if (request->size[0] == 0 || request->size[1] == 0)
+        return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
+                                   request->size[1]);
+    return 0;
+}
+
+static int choose_filter(render_request *request, const lobe_log *log) {
+    if (lobe_filter_find(request->filter_name, log, &request->filter) != LOBE_OK)
+        return 2;
+    lobe_settings_default(request->filter, &request->settings);
+    for (size_t i = 0; i < request->assignments.count; ++i) {
+        if (lobe_settings_set(request->filter, &request->settings, request->assignments.values[i],
+                              log) != LOBE_OK)
+            return 2;
+    }
+    return 0;
+}
+
+static void warn_of_what_is_ignored(const render_request *request, const lobe_log *log) {
+    const char *png = "is for .exr outputs; ignored", *exr = "is for .png outputs; ignored";
+    if (is_png(request) && request->has_depth)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--depth %s", png);
+    if (is_png(request) && request->outputs)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--aov %s", png);
+    if (!is_png(request) && request->has_exposure)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--exposure %s", exr);
+    if (request->has_samples && !lobe_filter_supersamples(request->filter))
+        lobe_log_print(log, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
+}
+
+// ---------------------------------------------------------------------------------------------
+// Work
+
+static lobe_result open_scene(const render_request *request, render_state *state) {
+    lobe_result result =
+        request->material
+            ? lobe_scene_open_material(request->material, (lobe_carrier)request->carrier,
+                                       &state->log, &state->scene)
+            : lobe_scene_open(request->scene, &state->log, &state->scene);
+    return result;
+}
+
+static lobe_result open_renderer(const render_request *request, render_state *state) {
+    lobe_result result = device_options_open(&request->device, &state->log, &state->device);
+    if (result == LOBE_OK)
+        result = lobe_renderer_create(state->device, &state->log, &state->renderer);
+    if (result == LOBE_OK)
+        result = lobe_renderer_set_scene(state->renderer, state->scene);
+    return result;
+}
+
+static uint32_t samples_of(const render_request *request) {
+    return lobe_filter_supersamples(request->filter) ? request->samples : 1;
+}
+
+static lobe_result render_frame(const render_request *request, render_state *state) {
+    lobe_frame_free(&state->frame);
+    lobe_result result =
+        lobe_renderer_render(state->renderer,
+                             &(lobe_render_parameters){
+                                 .filter = request->filter,
+                                 .settings = &request->settings,
+                                 .width = request->size[0],
+                                 .height = request->size[1],
+                                 .samples = request->samples,
+                                 .arbitrary_output_variables = request->outputs && !is_png(request),
+                                 .progress = progress_part,
+                                 .user = &state->progress,
+                             },
+                             &state->frame);
+    if (result == LOBE_OK && !timing_add(&state->timing, &state->frame)) {
+        lobe_log_print(&state->log, LOBE_LOG_ERROR, "render: out of memory");
+        result = LOBE_ERROR_OUT_OF_MEMORY;
+    }
+    return result;
+}
+
+/// The first frame builds the maps, later ones find them ready.
+static lobe_result render_frames(const render_request *request, render_state *state) {
+    lobe_result result = LOBE_OK;
+    for (uint32_t i = 0; result == LOBE_OK && i < request->frames; ++i) {
+        progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
+                      request->frames);
+        result = render_frame(request, state);
+    }
+    progress_end(&state->progress);
+    return result == LOBE_OK ? device_options_check(state->device, &state->log) : result;
+}
+
+static lobe_result write_graph(const render_request *request, render_state *state) {
+    if (!request->graph)
+        return LOBE_OK;
+    lobe_graph *graph = lobe_renderer_graph(state->renderer);
+    char *text = output_file_has_ending(request->graph, ".txt") ? lobe_graph_dump_text(graph)
+                                                                : lobe_graph_dump_graphviz(graph);
+    lobe_result result = LOBE_ERROR_OUT_OF_MEMORY;
+    if (text)
+        result = output_file_write(request->graph, text, &state->log);
+    else
+        lobe_log_print(&state->log, LOBE_LOG_ERROR, "%s: out of memory", request->graph);
+    free(text);
+    return result;
+}
+
+static lobe_result write_image(const render_request *request, render_state *state) {
+    const capture capture = {
+        .frame = &state->frame,
+        .scene = state->scene->name,
+        .filter = request->filter,
+        .settings = &request->settings,
+        .samples = samples_of(request),
+        .device = lobe_device_describe(state->device),
+        .timing = &state->timing,
+        .depth = (lobe_exr_depth)request->depth,
+        .exposure = request->exposure,
+    };
+    return is_png(request) ? capture_write_png(request->output, &capture, &state->log)
+                           : capture_write_exr(request->output, &capture, &state->log);
+}
+
+static void print_times(const render_request *request, const render_state *state) {
+    const lobe_device_information *device = lobe_device_describe(state->device);
+    const timing *timing = &state->timing;
+    printf("%s, filter %s, %ux%u, %u sample%s a pixel, on %s%s\n", state->scene->name,
+           lobe_filter_name(request->filter), request->size[0], request->size[1],
+           samples_of(request), samples_of(request) == 1 ? "" : "s", device->name,
+           device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
+                                           : "");
+    printf("  %-36s %8s %12s\n", "pass", "frames", "median ms");
+    for (size_t i = 0; i < timing->pass_count; ++i)
+        printf("  %-36s %8zu %12.3f\n", timing->passes[i].name, timing->passes[i].samples.count,
+               timing_quantile(&timing->passes[i].samples, 0.5));
+    printf("  %-36s %8zu %12.3f\n", "whole frame", timing->frames.count,
+           timing_quantile(&timing->frames, 0.5));
+}
+
+/// Outputs are looked at first: nobody should wait minutes to learn of a misspelt folder.
+static lobe_result render(render_request *request, render_state *state) {
+    lobe_result result = output_file_check(request->output, &state->log);
+    if (result == LOBE_OK)
+        result = output_file_check(request->graph, &state->log);
+    if (result == LOBE_OK)
+        result = open_scene(request, state);
+    if (result != LOBE_OK)
+        return result;
+    if (!view_options_apply(&request->view, request->lights, state->scene)) {
+        lobe_log_print(&state->log, LOBE_LOG_ERROR,
+                       "camera: eye and target are the same point, it looks nowhere");
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    request->lights = NULL; // the scene's now
+    result = open_renderer(request, state);
+    if (result == LOBE_OK)
+        result = render_frames(request, state);
+    if (result == LOBE_OK)
+        result = write_graph(request, state);
+    if (result == LOBE_OK)
+        result = write_image(request, state);
+    if (result == LOBE_OK)
+        print_times(request, state);
+    return result;
+}
+
+static void free_state(render_state *state) {
+    timing_free(&state->timing);
+    lobe_frame_free(&state->frame);
+    lobe_renderer_destroy(&state->renderer);
+    lobe_device_destroy(&state->device);
+    lobe_scene_destroy(&state->scene);
+}
+
+static int run_request(const option_table *table, render_request *request) {
+    render_state state = {.log = console_log(false), .progress = progress_begin(false)};
+    int status = check_usage(table, request);
+    if (status == 0)
+        status = choose_filter(request, &state.log);
+    if (status == 0)
+        status = view_options_parse_lights(table, &request->view, &request->lights);
+    if (status != 0)
+        return status;
+    warn_of_what_is_ignored(request, &state.log);
+    lobe_result result = render(request, &state);
+    free_state(&state);
+    free(request->lights);
+    return result == LOBE_OK ? 0 : 1;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Options
+
+static const char *const carriers[] = {"plane", "sphere", NULL};
+static const char *const depths[] = {"half", "float", NULL};
+
+static int run(int argc, char **argv) {
+    render_request request = {0};
+    option_list operands = {0};
+    const option options[] = {
+        {.name = "output",
+         .letter = 'o',
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "what to write: FILE.exr holds linear radiance and all there is to know about "
+                    "the rendering, FILE.png is tone-mapped for looking at",
+         .target = &request.output},
+        {.name = "filter",
+         .kind = OPTION_TEXT,
+         .argument = "NAME",
+         .summary = "how appearance is filtered, see 'lobe filters'",
+         .target = &request.filter_name,
+         .fallback = "lobes"},
+        {.name = "set",
+         .kind = OPTION_LIST,
+         .argument = "KNOB=VALUE",
+         .summary = "sets a knob of the filter, see 'lobe filters'",
+         .target = &request.assignments},
+        {.name = "size",
+         .kind = OPTION_SIZE,
+         .argument = "WxH",
+         .summary = "pixels; the device sets the limit",
+         .target = request.size,
+         .fallback = "1280x720"},
+        {.name = "samples",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "samples a pixel, of the filter reference alone",
+         .target = &request.samples,
+         .fallback = "64",
+         .minimum = 1,
+         .maximum = LOBE_MAXIMUM_SAMPLES,
+         .given = &request.has_samples},
+        view_option_eye(&request.view),
+        view_option_target(&request.view),
+        view_option_field_of_view(&request.view),
+        view_option_light(&request.view),
+        {.name = "frames",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "renders the still scene so many times and writes the last: the first frame "
+                    "builds the maps, later ones find them ready",
+         .target = &request.frames,
+         .fallback = "1",
+         .minimum = 1,
+         .maximum = 100000},
+        {.name = "material",
+         .kind = OPTION_TEXT,
+         .argument = "DIR",
+         .summary = "instead of SCENE: a folder of PBR maps, put on a carrier",
+         .target = &request.material},
+        {.name = "carrier",
+         .kind = OPTION_CHOICE,
+         .argument = "SHAPE",
+         .summary = "what carries the material",
+         .target = &request.carrier,
+         .fallback = "plane",
+         .choices = carriers,
+         .given = &request.has_carrier},
+        {.name = "depth",
+         .kind = OPTION_CHOICE,
+         .argument = "DEPTH",
+         .summary = "numbers in which the .exr keeps radiance",
+         .target = &request.depth,
+         .fallback = "half",
+         .choices = depths,
+         .given = &request.has_depth},
+        {.name = "aov",
+         .kind = OPTION_FLAG,
+         .summary = "adds layers to the .exr: normal, depth, lobes (their count), level; in float",
+         .target = &request.outputs},
+        {.name = "exposure",
+         .kind = OPTION_NUMBER,
+         .argument = "STOPS",
+         .summary = "brightens the .png",
+         .target = &request.exposure,
+         .fallback = "0",
+         .minimum = -100,
+         .maximum = 100,
+         .given = &request.has_exposure},
+        {.name = "graph",
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "writes the compiled render graph of the last frame: as text where the name "
+                    "ends in .txt, else as Graphviz",
+         .target = &request.graph},
+        device_option_select(&request.device),
+        device_option_validation(&request.device),
+    };
+    const option_table table = {
+        .program = "lobe render",
+        .operands = "SCENE -o FILE",
+        .summary =
+            "Renders a picture of SCENE, which is the name of a built-in scene (see 'lobe\n"
+            "scenes') or the path of a .gltf or .glb file, and prints the time of each pass.",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .maximum_operands = 1,
+    };
+    int status;
+    if (options_parse(&table, argc, argv, &operands, &status)) {
+        request.scene = operands.count > 0 ? operands.values[0] : NULL;
+        status = run_request(&table, &request);
+    }
+    options_free(&table, &operands);
+    return status;
+}
+
+const subcommand render_subcommand = {"render", "render a scene to an OpenEXR or PNG file", run};
