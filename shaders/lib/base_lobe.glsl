@@ -10,7 +10,8 @@
 
 // Burley, 2012, Physically-Based Shading at Disney, section 5.4: alpha = roughness^2.
 float alpha_from_roughness(float roughness) {
-    return max(roughness * roughness, ALPHA_MINIMUM);
+    float clamped = clamp(roughness, 0.0, 1.0);
+    return max(clamped * clamped, ALPHA_MINIMUM);
 }
 
 // Wang, Ren, Gong, Snyder, Guo, 2009, All-Frequency Rendering of Dynamic, Spatially-Varying

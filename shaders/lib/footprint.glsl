@@ -21,7 +21,8 @@ footprint footprint_of(vec2 dx, vec2 dy) {
     float radius = sqrt(difference * difference + xy * xy);
     footprint result;
     result.major_axis = sqrt(mean + radius);
-    result.minor_axis = sqrt(max(mean - radius, 0.0));
+    // The product of the axes is |det J|; mean - radius would cancel for long, thin footprints.
+    result.minor_axis = abs(dx.x * dy.y - dx.y * dy.x) / max(result.major_axis, 1e-30);
     // An eigenvector, from the row that does not cancel.
     vec2 eigenvector = difference > 0.0 ? vec2(difference + radius, xy)
                                         : vec2(xy, radius - difference);

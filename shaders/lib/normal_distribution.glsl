@@ -8,7 +8,8 @@
 #include "lib/von_mises_fisher.glsl"
 
 // Distributions D(h) of microfacet normals about n, per steradian, normalised so that the
-// projected area is one: integral over the hemisphere of D(h) <n, h> dh = 1. Zero below the horizon.
+// projected area is one: integral over the hemisphere of D(h) <n, h> dh = 1. Zero below the
+// horizon.
 // All angles through |n - h|^2 (lib/angle.glsl): accurate for alpha from 1e-4 up.
 
 // Walter, Marschner, Li, Torrance, 2007, Microfacet Models for Refraction through Rough Surfaces,

@@ -11,6 +11,7 @@
 //   kappa / (-2 pi expm1(-2 kappa)) exp(-kappa/2 |mu - omega|^2)
 // (Eq. 7 leaves out expm1, which is 14 % wrong at kappa = 1.)
 // Per steradian; the integral over the sphere is 1. kappa >= 0.
+
 // Its value at the mean direction, where the exponential is 1.
 float von_mises_fisher_peak(float concentration) {
     // The quotient tends to 1/(4 pi) for small kappa; 1e-20 keeps it off 0/0.
