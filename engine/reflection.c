@@ -100,11 +100,9 @@ static lobe_format format_of(SpvImageFormat format) {
     }
 }
 
-/// `readonly` and `writeonly` are on the variable for images, on every member for blocks.
-static bool is_decorated(const reflection *reflection, const spvc_reflected_resource *resource,
-                         SpvDecoration decoration) {
-    if (spvc_compiler_has_decoration(reflection->compiler, resource->id, decoration))
-        return true;
+/// For blocks `readonly` and `writeonly` are on every member.
+static bool block_is_decorated(const reflection *reflection,
+                               const spvc_reflected_resource *resource, SpvDecoration decoration) {
     const SpvDecoration *decorations = NULL;
     size_t count = 0;
     if (spvc_compiler_get_buffer_block_decorations(reflection->compiler, resource->id, &decorations,
@@ -116,12 +114,22 @@ static bool is_decorated(const reflection *reflection, const spvc_reflected_reso
     return false;
 }
 
+static bool is_decorated(const reflection *reflection, const spvc_reflected_resource *resource,
+                         VkDescriptorType type, SpvDecoration decoration) {
+    return type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+               ? block_is_decorated(reflection, resource, decoration)
+               : spvc_compiler_has_decoration(reflection->compiler, resource->id, decoration);
+}
+
 static void reflect_access(const reflection *reflection, const spvc_reflected_resource *resource,
                            engine_shader_binding *binding) {
-    const bool storage = binding->type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ||
-                         binding->type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    binding->reads = !storage || !is_decorated(reflection, resource, SpvDecorationNonReadable);
-    binding->writes = storage && !is_decorated(reflection, resource, SpvDecorationNonWritable);
+    const VkDescriptorType type = binding->type;
+    const bool storage =
+        type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    binding->reads =
+        !storage || !is_decorated(reflection, resource, type, SpvDecorationNonReadable);
+    binding->writes =
+        storage && !is_decorated(reflection, resource, type, SpvDecorationNonWritable);
 }
 
 static uint32_t array_count(spvc_type type) {
@@ -281,10 +289,8 @@ static void reflect_local_size(const reflection *reflection) {
     spvc_compiler_get_work_group_size_specialization_constants(reflection->compiler, &ids[0],
                                                                &ids[1], &ids[2]);
     for (unsigned i = 0; i < 3; i++) {
-        const SpvExecutionMode mode =
-            ids[i].id ? SpvExecutionModeLocalSizeId : SpvExecutionModeLocalSize;
-        shader->local_size[i] =
-            spvc_compiler_get_execution_mode_argument_by_index(reflection->compiler, mode, i);
+        shader->local_size[i] = spvc_compiler_get_execution_mode_argument_by_index(
+            reflection->compiler, SpvExecutionModeLocalSize, i);
         shader->local_size_ids[i] = ids[i].id ? ids[i].constant_id : UINT32_MAX;
     }
 }

@@ -1,0 +1,16 @@
+#version 460
+
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform constants_block {
+    float offset;
+    uint count;
+};
+layout(set = 0, binding = 0) readonly buffer source_block { float source[]; };
+layout(set = 0, binding = 1) writeonly buffer target_block { float target[]; };
+
+void main() {
+    uint n = gl_GlobalInvocationID.x;
+    if (n < count)
+        target[n] = source[n] + offset;
+}
