@@ -223,8 +223,11 @@ uint32_t engine_access_subresource(const engine_dependency_graph *graph,
 
 engine_stamp engine_dependency_content(const engine_dependency_graph *graph, uint32_t writer,
                                        uint32_t resource, uint32_t subresource) {
-    if (writer == ENGINE_DEPENDENCY_NONE)
-        return engine_stamp_mix(graph->resources[resource].identity, subresource);
+    if (writer == ENGINE_DEPENDENCY_NONE) {
+        const engine_dependency_resource *start = &graph->resources[resource];
+        engine_stamp held = start->recorded ? start->recorded[subresource] : start->identity;
+        return engine_stamp_mix(held, subresource);
+    }
     const engine_dependency_pass *pass = &graph->passes[graph->accesses[writer].pass];
     uint32_t ordinal = 0; // of the access within its pass
     for (uint32_t access = pass->first_access; access != writer;

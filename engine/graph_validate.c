@@ -58,12 +58,19 @@ static bool pass_reads(const history *past, const subresource_history *subresour
     return false;
 }
 
+/// From the host, or from the frame before.
+static bool has_content_at_start(const engine_dependency_resource *resource, uint32_t subresource) {
+    return resource->imported || (resource->retained && resource->recorded &&
+                                  resource->recorded[subresource] != ENGINE_STAMP_NONE);
+}
+
 static bool link_read(engine_dependency_graph *graph, history *past,
                       const engine_dependency_access *access, uint32_t subresource) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
     subresource_history *now = &past->subresources[resource->first_subresource + subresource];
     if (now->writer == ENGINE_DEPENDENCY_NONE)
-        return resource->imported || fail(graph, ENGINE_FAULT_NEVER_WRITTEN, access, subresource);
+        return has_content_at_start(resource, subresource) ||
+               fail(graph, ENGINE_FAULT_NEVER_WRITTEN, access, subresource);
     uint32_t producer = graph->accesses[now->writer].pass;
     if (producer == access->pass)
         return fail(graph, ENGINE_FAULT_CONFLICT, access, subresource);

@@ -71,7 +71,9 @@ typedef struct lobe_image_description {
     uint32_t levels;        ///< MIP levels; 0 means 1; at most floor(log2(max extent)) + 1
     uint32_t samples;       ///< 0 or 1: no multisampling; else 2 or 4, single level and layer
     /// Keep the content for the next frame. Passes that write only retained resources are
-    /// skipped while nothing they depend on changes. Memory of others is shared (aliased).
+    /// skipped while nothing they depend on changes. Where the next frame declares the same name
+    /// and description, it may also start from that content: reading or modifying it before any
+    /// pass has written it (sums over frames). Memory of others is shared (aliased).
     bool retained;
 } lobe_image_description;
 
@@ -81,7 +83,8 @@ typedef struct lobe_buffer_description {
     bool retained;
 } lobe_buffer_description;
 
-/// Declares an image or buffer that passes of this frame write; it has no content before that.
+/// Declares an image or buffer that passes of this frame write; it has no content before that,
+/// unless it is retained and a former frame left it some.
 lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description);
 lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description);
 
@@ -200,7 +203,8 @@ void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
 /// Transfer passes: copies one image (same extent, format size and range shape) or buffer.
 lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range source_range,
                              lobe_resource target, lobe_range target_range);
-/// Transfer passes: fills with a constant.
+/// Transfer passes: fills with a constant. Depth uses the first value; a buffer is filled with the
+/// bits of the first.
 lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
                              const float value[4]);
 

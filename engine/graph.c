@@ -1,0 +1,187 @@
+#include "engine/graph.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "engine/graph_binding.h"
+#include "engine/graph_memory.h"
+#include "engine/graph_raster.h"
+#include "engine/graph_record.h"
+#include "engine/graph_report.h"
+#include "engine/graph_retain.h"
+#include "engine/graph_signature.h"
+#include "engine/text.h"
+#include "engine/vulkan_check.h"
+
+#define LINE_SIZE 1024
+
+// ---------------------------------------------------------------------------------------------
+// Failures
+
+lobe_result engine_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
+    if (graph->result != LOBE_OK)
+        return graph->result;
+    char line[LINE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    graph->result = engine_fail(&graph->device->log, result, "%s", line);
+    return result;
+}
+
+lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result) {
+    if (graph->result == LOBE_OK)
+        graph->result = result;
+    return graph->result;
+}
+
+lobe_result engine_graph_fail_memory(lobe_graph *graph) {
+    return engine_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
+}
+
+lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
+    char line[LINE_SIZE];
+    if (graph->dependencies.fault.kind == ENGINE_FAULT_MEMORY)
+        return engine_graph_fail_memory(graph);
+    engine_dependency_explain(&graph->dependencies, line, sizeof line);
+    return engine_graph_fail(graph, LOBE_ERROR_GRAPH, "%s", line);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Life
+
+static lobe_result create_commands(lobe_graph *graph) {
+    lobe_device *device = graph->device;
+    const VkCommandPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+        .queueFamilyIndex = device->queue_family,
+    };
+    lobe_result result = VULKAN_CHECK(
+        &device->log, vkCreateCommandPool(device->vulkan, &pool, NULL, &graph->command_pool),
+        "render graph");
+    if (result != LOBE_OK)
+        return result;
+    const VkCommandBufferAllocateInfo commands = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = graph->command_pool,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 1,
+    };
+    return VULKAN_CHECK(&device->log,
+                        vkAllocateCommandBuffers(device->vulkan, &commands, &graph->commands),
+                        "render graph");
+}
+
+lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
+    *graph = NULL;
+    lobe_graph *created = calloc(1, sizeof *created);
+    if (!created)
+        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
+    created->device = device;
+    created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
+    lobe_result result = create_commands(created);
+    if (result != LOBE_OK)
+        lobe_graph_destroy(&created);
+    *graph = created;
+    return result;
+}
+
+/// What lives for one frame on the device: views of imports.
+static void forget_frame(lobe_graph *graph) {
+    engine_graph_forget_imports(graph);
+    engine_dependency_graph_reset(&graph->dependencies);
+    engine_arena_reset(&graph->arena);
+    graph->report = (lobe_graph_report){0};
+    graph->result = LOBE_OK;
+    graph->phase = ENGINE_GRAPH_DECLARING;
+}
+
+void lobe_graph_destroy(lobe_graph **graph) {
+    lobe_graph *gone = *graph;
+    if (!gone)
+        return;
+    // A device that was lost has finished, too.
+    if (gone->submission)
+        engine_device_wait(gone->device, gone->submission);
+    forget_frame(gone);
+    engine_graph_free_retained(gone);
+    engine_graph_free_memory(gone);
+    engine_graph_free_recording(gone);
+    vkDestroyCommandPool(gone->device->vulkan, gone->command_pool, NULL);
+    engine_dependency_graph_free(&gone->dependencies);
+    engine_arena_free(&gone->arena);
+    free(gone->resources);
+    free(gone->passes);
+    free(gone->pass_reports);
+    free(gone);
+    *graph = NULL;
+}
+
+void lobe_graph_begin(lobe_graph *graph) {
+    lobe_result result = LOBE_OK;
+    if (graph->submission)
+        result = engine_device_wait(graph->device, graph->submission);
+    forget_frame(graph);
+    engine_graph_begin_retained(graph);
+    engine_graph_propagate(graph, result);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Compilation
+
+static lobe_result analyse(lobe_graph *graph) {
+    engine_dependency_graph *dependencies = &graph->dependencies;
+    if (!engine_dependency_link(dependencies) || !engine_dependency_order(dependencies) ||
+        !engine_dependency_cull(dependencies))
+        return engine_graph_fail_dependency(graph);
+    engine_dependency_lifetimes(dependencies);
+    return LOBE_OK;
+}
+
+static lobe_result derive_barriers(lobe_graph *graph) {
+    return engine_dependency_barriers(&graph->dependencies) ? LOBE_OK
+                                                            : engine_graph_fail_dependency(graph);
+}
+
+typedef struct compile_step {
+    lobe_result (*run)(lobe_graph *graph);
+} compile_step;
+
+static const compile_step compile_steps[] = {
+    {engine_graph_check_rasters},    // attachments fit each other
+    {engine_graph_resolve_bindings}, // names meet shaders: how each resource is used
+    {engine_graph_check_retained},   // kept objects fit these uses
+    {engine_graph_sign_passes},      // what would make a pass compute something else
+    {analyse},                       // sources, order, what runs, lifetimes
+    {engine_graph_release_retained}, // what this frame does not know any more
+    {engine_graph_find_pipelines},   // of what runs
+    {engine_graph_place_retained},   // memory of their own
+    {engine_graph_place_transients}, // memory shared between those not alive together
+    {derive_barriers},               // transitions, and waits for former tenants of the memory
+    {engine_graph_report_compiled},
+};
+
+lobe_result lobe_graph_compile(lobe_graph *graph) {
+    if (graph->phase != ENGINE_GRAPH_DECLARING || graph->result != LOBE_OK)
+        return graph->result;
+    for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
+        lobe_result result = compile_steps[n].run(graph);
+        if (result != LOBE_OK)
+            return engine_graph_propagate(graph, result);
+    }
+    graph->phase = ENGINE_GRAPH_COMPILED;
+    return LOBE_OK;
+}
+
+lobe_result lobe_graph_execute(lobe_graph *graph) {
+    if (graph->phase == ENGINE_GRAPH_EXECUTED)
+        return engine_graph_fail(graph, LOBE_ERROR_GRAPH,
+                                 "render graph: executed twice; begin a new frame in between");
+    lobe_result result = lobe_graph_compile(graph);
+    if (result == LOBE_OK)
+        result = engine_graph_run(graph);
+    return engine_graph_propagate(graph, result);
+}
