@@ -27,7 +27,7 @@ static void print_help(FILE *stream) {
 }
 
 static int usage_error(const char *what, const char *text) {
-    fprintf(stderr, "lobe: %s '%s'\nTry 'lobe --help'.\n", what, text);
+    fprintf(stderr, "lobe: %s '%s' (see 'lobe --help')\n", what, text);
     return 2;
 }
 

@@ -77,7 +77,7 @@ static bool list_append(option_list *list, const char *text) {
 static void print_mistake(const option_table *table, const char *format, va_list arguments) {
     fprintf(stderr, "%s: ", table->program);
     vfprintf(stderr, format, arguments);
-    fprintf(stderr, "\nTry '%s --help'.\n", table->program);
+    fprintf(stderr, " (see '%s --help')\n", table->program);
 }
 
 int options_usage_error(const option_table *table, const char *format, ...) {

@@ -54,7 +54,7 @@ typedef struct option_table {
 
 /// Reads argv[1] to argv[argc - 1] into the targets. `operands` may be NULL where the table allows
 /// none. Returns true to go on. Returns false when the subcommand is to return `*status` at once:
-/// 0 after `--help` (printed on standard output), 2 after a mistake (one line and a hint on
+/// 0 after `--help` (printed on standard output), 2 after a mistake (one line on
 /// standard error), 1 when out of memory. Call options_free in all cases.
 bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
                    int *status);
@@ -65,7 +65,7 @@ void options_free(const option_table *table, option_list *operands);
 /// Writes what `--help` shows.
 void options_print_help(const option_table *table, FILE *stream);
 
-/// For mistakes that only the subcommand can see: prints "PROGRAM: MESSAGE" and the hint on
+/// For mistakes that only the subcommand can see: prints "PROGRAM: MESSAGE (see ...)" on
 /// standard error, returns 2.
 int options_usage_error(const option_table *table, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

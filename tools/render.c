@@ -13,8 +13,8 @@
 
 /// What the command line asks for.
 typedef struct render_request {
-    const char *scene;  ///< NULL where a material folder is given
-    const char *output; ///< ends in .exr or .png
+    const char *scene;   ///< NULL where a material folder is given
+    option_list outputs; ///< names that end in .exr or .png
     const char *material;
     uint32_t carrier;
     const char *filter_name;
@@ -23,7 +23,7 @@ typedef struct render_request {
     uint32_t samples, frames;
     const char *graph;
     uint32_t depth;
-    bool outputs; ///< arbitrary output variables
+    bool layers; ///< of arbitrary output variables
     double exposure;
     bool has_carrier, has_samples, has_depth, has_exposure;
     view_options view;
@@ -48,8 +48,28 @@ typedef struct render_state {
 // ---------------------------------------------------------------------------------------------
 // Usage
 
-static bool is_png(const render_request *request) {
-    return output_file_has_ending(request->output, ".png");
+static bool is_png(const char *path) {
+    return output_file_has_ending(path, ".png");
+}
+
+/// Whether an output is a picture (`png`), or holds radiance.
+static bool writes(const render_request *request, bool png) {
+    for (size_t i = 0; i < request->outputs.count; ++i) {
+        if (is_png(request->outputs.values[i]) == png)
+            return true;
+    }
+    return false;
+}
+
+static int check_outputs(const option_table *table, const render_request *request) {
+    if (request->outputs.count == 0)
+        return options_usage_error(table, "no output: give -o FILE.exr or -o FILE.png");
+    for (size_t i = 0; i < request->outputs.count; ++i) {
+        const char *path = request->outputs.values[i];
+        if (!is_png(path) && !output_file_has_ending(path, ".exr"))
+            return options_usage_error(table, "output '%s' ends neither in .exr nor in .png", path);
+    }
+    return 0;
 }
 
 static int check_usage(const option_table *table, const render_request *request) {
@@ -60,15 +80,10 @@ static int check_usage(const option_table *table, const render_request *request)
                                    request->scene);
     if (request->has_carrier && !request->material)
         return options_usage_error(table, "--carrier goes with --material");
-    if (!request->output)
-        return options_usage_error(table, "no output: give -o FILE.exr or -o FILE.png");
-    if (!is_png(request) && !output_file_has_ending(request->output, ".exr"))
-        return options_usage_error(table, "output '%s' ends neither in .exr nor in .png",
-                                   request->output);
     if (request->size[0] == 0 || request->size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
                                    request->size[1]);
-    return 0;
+    return check_outputs(table, request);
 }
 
 static int choose_filter(render_request *request, const lobe_log *log) {
@@ -84,13 +99,12 @@ static int choose_filter(render_request *request, const lobe_log *log) {
 }
 
 static void warn_of_what_is_ignored(const render_request *request, const lobe_log *log) {
-    const char *png = "is for .exr outputs; ignored", *exr = "is for .png outputs; ignored";
-    if (is_png(request) && request->has_depth)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--depth %s", png);
-    if (is_png(request) && request->outputs)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--aov %s", png);
-    if (!is_png(request) && request->has_exposure)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--exposure %s", exr);
+    if (!writes(request, false) && request->has_depth)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--depth is for .exr outputs; ignored");
+    if (!writes(request, false) && request->layers)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
+    if (!writes(request, true) && request->has_exposure)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
     if (request->has_samples && !lobe_filter_supersamples(request->filter))
         lobe_log_print(log, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
 }
@@ -122,19 +136,19 @@ static uint32_t samples_of(const render_request *request) {
 
 static lobe_result render_frame(const render_request *request, render_state *state) {
     lobe_frame_free(&state->frame);
-    lobe_result result =
-        lobe_renderer_render(state->renderer,
-                             &(lobe_render_parameters){
-                                 .filter = request->filter,
-                                 .settings = &request->settings,
-                                 .width = request->size[0],
-                                 .height = request->size[1],
-                                 .samples = request->samples,
-                                 .arbitrary_output_variables = request->outputs && !is_png(request),
-                                 .progress = progress_part,
-                                 .user = &state->progress,
-                             },
-                             &state->frame);
+    lobe_result result = lobe_renderer_render(
+        state->renderer,
+        &(lobe_render_parameters){
+            .filter = request->filter,
+            .settings = &request->settings,
+            .width = request->size[0],
+            .height = request->size[1],
+            .samples = request->samples,
+            .arbitrary_output_variables = request->layers && writes(request, false),
+            .progress = progress_part,
+            .user = &state->progress,
+        },
+        &state->frame);
     if (result == LOBE_OK && !timing_add(&state->timing, &state->frame)) {
         lobe_log_print(&state->log, LOBE_LOG_ERROR, "render: out of memory");
         result = LOBE_ERROR_OUT_OF_MEMORY;
@@ -169,7 +183,7 @@ static lobe_result write_graph(const render_request *request, render_state *stat
     return result;
 }
 
-static lobe_result write_image(const render_request *request, render_state *state) {
+static lobe_result write_images(const render_request *request, render_state *state) {
     const capture capture = {
         .frame = &state->frame,
         .scene = state->scene->name,
@@ -181,8 +195,13 @@ static lobe_result write_image(const render_request *request, render_state *stat
         .depth = (lobe_exr_depth)request->depth,
         .exposure = request->exposure,
     };
-    return is_png(request) ? capture_write_png(request->output, &capture, &state->log)
-                           : capture_write_exr(request->output, &capture, &state->log);
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i) {
+        const char *path = request->outputs.values[i];
+        result = is_png(path) ? capture_write_png(path, &capture, &state->log)
+                              : capture_write_exr(path, &capture, &state->log);
+    }
+    return result;
 }
 
 static void print_times(const render_request *request, const render_state *state) {
@@ -201,11 +220,16 @@ static void print_times(const render_request *request, const render_state *state
            timing_quantile(&timing->frames, 0.5));
 }
 
-/// Outputs are looked at first: nobody should wait minutes to learn of a misspelt folder.
+/// Nobody should wait minutes to learn of a misspelt folder.
+static lobe_result check_files(const render_request *request, const lobe_log *log) {
+    lobe_result result = output_file_check(request->graph, log);
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i)
+        result = output_file_check(request->outputs.values[i], log);
+    return result;
+}
+
 static lobe_result render(render_request *request, render_state *state) {
-    lobe_result result = output_file_check(request->output, &state->log);
-    if (result == LOBE_OK)
-        result = output_file_check(request->graph, &state->log);
+    lobe_result result = check_files(request, &state->log);
     if (result == LOBE_OK)
         result = open_scene(request, state);
     if (result != LOBE_OK)
@@ -222,7 +246,7 @@ static lobe_result render(render_request *request, render_state *state) {
     if (result == LOBE_OK)
         result = write_graph(request, state);
     if (result == LOBE_OK)
-        result = write_image(request, state);
+        result = write_images(request, state);
     if (result == LOBE_OK)
         print_times(request, state);
     return result;
@@ -264,11 +288,11 @@ static int run(int argc, char **argv) {
     const option options[] = {
         {.name = "output",
          .letter = 'o',
-         .kind = OPTION_TEXT,
+         .kind = OPTION_LIST,
          .argument = "FILE",
          .summary = "what to write: FILE.exr holds linear radiance and all there is to know about "
                     "the rendering, FILE.png is tone-mapped for looking at",
-         .target = &request.output},
+         .target = &request.outputs},
         {.name = "filter",
          .kind = OPTION_TEXT,
          .argument = "NAME",
@@ -332,7 +356,7 @@ static int run(int argc, char **argv) {
         {.name = "aov",
          .kind = OPTION_FLAG,
          .summary = "adds layers to the .exr: normal, depth, lobes (their count), level; in float",
-         .target = &request.outputs},
+         .target = &request.layers},
         {.name = "exposure",
          .kind = OPTION_NUMBER,
          .argument = "STOPS",
