@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Counts the test cases in Meson's logs and prints one line, "N passed, N failed". A program that
+speaks TAP counts with each of its cases, any other as one case. A program that dies, or that hands
+back fewer cases than it planned, has one failure at least. Fails where a case failed or none ran."""
+
+import json
+import re
+import sys
+
+RESULT = re.compile(r"^(not ok|ok)\b([^#]*)(?:#\s*(\w+))?", re.IGNORECASE)
+PLAN = re.compile(r"^1\.\.(\d+)")
+
+
+def count_cases(text):
+    """Returns how many cases of a TAP text passed, failed and were skipped, and how many were
+    planned."""
+    passed = failed = skipped = planned = 0
+    for line in text.splitlines():
+        plan, result = PLAN.match(line), RESULT.match(line)
+        if plan:
+            planned += int(plan[1])
+        elif result and (result[3] or "").upper().startswith("SKIP"):
+            skipped += 1
+        elif result and result[1].lower() == "ok":
+            passed += 1
+        elif result:
+            failed += 1
+    return passed, failed, skipped, planned
+
+
+def count_program(entry):
+    """Returns passed and failed cases of one program of the log."""
+    passed, failed, skipped, planned = count_cases(entry.get("stdout") or "")
+    good = entry["result"] in ("OK", "EXPECTEDFAIL")
+    if passed + failed + skipped == 0:
+        return (0, 0) if entry["result"] == "SKIP" else (int(good), int(not good))
+    lost = passed + failed + skipped < planned
+    if (lost or (not good and entry["result"] != "SKIP")) and failed == 0:
+        failed = 1
+    return passed, failed
+
+
+def main():
+    passed = failed = 0
+    for path in sys.argv[1:]:
+        try:
+            with open(path, encoding="utf-8") as log:
+                entries = [json.loads(line) for line in log if line.strip()]
+        except OSError as error:
+            print(f"{path}: {error.strerror}: its tests did not run", file=sys.stderr)
+            entries = []
+        if not entries:
+            failed += 1
+        for entry in entries:
+            one_passed, one_failed = count_program(entry)
+            passed, failed = passed + one_passed, failed + one_failed
+            if one_failed:
+                print(f"failed: {entry['name']}: {one_failed} of {one_passed + one_failed}",
+                      file=sys.stderr)
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed or not passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
