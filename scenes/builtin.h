@@ -6,8 +6,8 @@
 #include <lobe/scene.h>
 
 /// The scenes made by code. Each is one file, scenes/builtin_<name>.c, and one row of the table
-/// in scenes/builtin.c. They use no random source but scenes/random.h and no function of libm but
-/// sqrt, which IEEE 754 rounds correctly: every machine makes the same bytes.
+/// in scenes/builtin.c. They use no random source but scenes/random.h, and of libm only what IEEE
+/// 754 defines to the last bit (sqrt, floor, fmin): every machine makes the same bytes.
 
 typedef struct builtin_scene {
     lobe_builtin_scene description;
@@ -24,17 +24,6 @@ typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_log *log);
 /// Runs the steps, ended by NULL, on an empty scene, and completes it.
 lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, const lobe_log *log,
                                    lobe_scene **scene);
-
-/// Sets the camera: where it stands, what it looks at, its vertical field of view in degrees.
-void builtin_scene_look(lobe_scene *scene, const float eye[3], const float target[3],
-                        float degrees);
-
-/// Adds `count` lights.
-lobe_result builtin_scene_add_lights(lobe_scene *scene, const lobe_light *lights, size_t count,
-                                     const lobe_log *log);
-
-/// The whole of an image, repeated.
-lobe_texture_use builtin_scene_texture(uint32_t image);
 
 lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);

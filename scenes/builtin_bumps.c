@@ -6,6 +6,7 @@
 #include "scenes/normal_map.h"
 #include "scenes/random.h"
 #include "scenes/scene.h"
+#include "scenes/scene_view.h"
 #include "scenes/shape.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 bottom and section 5.2: hemispherical
@@ -18,8 +19,8 @@ enum { MAP_EXTENT = 1024, BUMP_COLUMNS = 32, BUMP_ROWS = 36 };
 static const double column_pitch = (double)MAP_EXTENT / BUMP_COLUMNS; // texels
 static const double row_pitch = (double)MAP_EXTENT / BUMP_ROWS;
 
-// The slope at the rim is that of a hemisphere cut at this sine: the last degrees before the
-// horizon would fit no normal map of eight bits.
+// Sine of the tilt at a bump's rim. A whole hemisphere would end in normals along the plane,
+// which neither eight bits nor a view from above shows.
 static const double rim_sine = 0.85;
 
 typedef struct bump {
@@ -137,9 +138,9 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     lobe_material material;
     lobe_material_default(&material);
     material.metallic = 1;
-    material.normal_map = builtin_scene_texture(normal_map);
-    material.base_colour_map = builtin_scene_texture(colour_map);
-    material.metallic_roughness_map = builtin_scene_texture(roughness_map);
+    material.normal_map.image = (int32_t)normal_map;
+    material.base_colour_map.image = (int32_t)colour_map;
+    material.metallic_roughness_map.image = (int32_t)roughness_map;
     status = scene_add_material(scene, "bumps", &material, log, NULL);
 cleanup:
     lobe_image_free(&maps.normals);
@@ -166,9 +167,9 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
         {.type = LOBE_LIGHT_POINT, .position = {1.8f, 1.6f, -2.6f}, .intensity = {9, 6, 3.6f}},
         {.type = LOBE_LIGHT_POINT, .position = {-2.6f, 2.2f, -6}, .intensity = {6, 11, 18}},
     };
-    builtin_scene_look(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
+    scene_look(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return builtin_scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
 }
 
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene) {

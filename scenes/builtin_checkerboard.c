@@ -2,6 +2,7 @@
 
 #include "scenes/mesh.h"
 #include "scenes/scene.h"
+#include "scenes/scene_view.h"
 #include "scenes/shape.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 top: two base BRDFs in a
@@ -60,8 +61,8 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     material.lobes[0] =
         (lobe_base_lobe){.direction = {0, 0, 1}, .width = 1, .colour = {0.06f, 0.06f, 0.06f}};
     material.lobe_count = 1;
-    material.width_map = builtin_scene_texture(width_map);
-    material.base_colour_map = builtin_scene_texture(colour_map);
+    material.width_map.image = (int32_t)width_map;
+    material.base_colour_map.image = (int32_t)colour_map;
     // Two BRDFs and none between them.
     material.width_map.nearest = material.base_colour_map.nearest = true;
     return scene_add_material(scene, "checkerboard", &material, log, NULL);
@@ -85,9 +86,9 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
         {.type = LOBE_LIGHT_POINT, .position = {2.6f, 1.4f, -4.2f}, .intensity = {8, 5.2f, 3.2f}},
         {.type = LOBE_LIGHT_POINT, .position = {-5, 3.5f, -13}, .intensity = {16, 26, 40}},
     };
-    builtin_scene_look(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
+    scene_look(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return builtin_scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
 }
 
 lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene) {

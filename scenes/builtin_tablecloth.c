@@ -7,6 +7,7 @@
 #include "scenes/noise.h"
 #include "scenes/normal_map.h"
 #include "scenes/scene.h"
+#include "scenes/scene_view.h"
 #include "scenes/shape.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 5 top and section 5.2: a cloth of two
@@ -95,8 +96,8 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
                              .width = 128,
                              .colour = {0.25f, 0.25f, 0.25f}};
     material.lobe_count = 2;
-    material.normal_map = builtin_scene_texture(normal_map);
-    material.base_colour_map = builtin_scene_texture(colour_map);
+    material.normal_map.image = (int32_t)normal_map;
+    material.base_colour_map.image = (int32_t)colour_map;
     material.double_sided = true;
     return scene_add_material(scene, "tablecloth", &material, log, NULL);
 }
@@ -170,9 +171,9 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
          .position = {-1.3f, 1.7f, -1.2f},
          .intensity = {1.4f, 2.2f, 3.2f}},
     };
-    builtin_scene_look(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
+    scene_look(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.4f;
-    return builtin_scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
 }
 
 lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene) {
