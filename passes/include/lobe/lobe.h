@@ -10,7 +10,6 @@
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/png.h>
-#include <lobe/profile.h>
 #include <lobe/renderer.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
