@@ -91,9 +91,11 @@ static bool parse_include(const char *line, size_t length, char name[PATH_MAX]) 
     return sscanf(text, " # include \"%[^\"\n]\"", name) == 1;
 }
 
-static bool exists(const char *path) {
+/// Whether the first `length` characters of `folder` and `name` make the path of a file.
+static bool names_file(const char *folder, size_t length, const char *name, char path[PATH_MAX]) {
     struct stat status;
-    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+    const int size = snprintf(path, PATH_MAX, "%.*s%s", (int)length, folder, name);
+    return size < PATH_MAX && stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
 /// Finds the file that an include means.
@@ -102,13 +104,13 @@ static bool resolve(const expansion *expansion, const char *includer, const char
     if (!strcmp(name, "filter.glsl") && expansion->code->substitute[0])
         name = expansion->code->substitute;
     const char *slash = strrchr(includer, '/');
-    snprintf(path, PATH_MAX, "%.*s%s", slash ? (int)(slash + 1 - includer) : 0, includer, name);
-    if (exists(path))
+    if (names_file(includer, slash ? (size_t)(slash + 1 - includer) : 0, name, path))
         return true;
     const char *const folders[] = {expansion->folders->own, expansion->folders->library};
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        snprintf(path, PATH_MAX, "%s/%s", folders[i] ? folders[i] : ".", name);
-        if (exists(path))
+        char in_folder[PATH_MAX];
+        if (folders[i] && snprintf(in_folder, sizeof in_folder, "%s/", folders[i]) < PATH_MAX &&
+            names_file(in_folder, strlen(in_folder), name, path))
             return true;
     }
     return false;

@@ -5,19 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/shader.h"
-
-extern const engine_shader_code engine_test_shaders[];
-extern const size_t engine_test_shaders_count;
+#include "tests/engine/test_shaders.h"
 
 int graph_fixture_open(void **state) {
     graph_fixture *fixture = calloc(1, sizeof *fixture);
     *state = fixture;
     log_recorder_start(&fixture->recorder);
-    const lobe_device_parameters parameters = {.validation = true, .log = &fixture->recorder.log};
-    return lobe_device_create(&parameters, &fixture->device) != LOBE_OK ||
-           engine_shaders_add(fixture->device, engine_test_shaders, engine_test_shaders_count,
-                              NULL) != LOBE_OK ||
+    return open_device_with_test_shaders(&fixture->recorder.log, NULL, &fixture->device) !=
+               LOBE_OK ||
            lobe_graph_create(fixture->device, &fixture->graph) != LOBE_OK;
 }
 
