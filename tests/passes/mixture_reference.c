@@ -1,0 +1,121 @@
+#include "tests/passes/mixture_reference.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/reference/base_lobe.h"
+#include "tests/reference/half_vector_lobe.h"
+#include "tests/reference/lobe_mixture.h"
+#include "tests/reference/normal_map.h"
+
+void image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]) {
+    uint32_t channels = lobe_format_channels(image->format);
+    size_t index = ((size_t)y * image->width + x) * channels;
+    texel[0] = texel[1] = texel[2] = 0;
+    texel[3] = 1;
+    for (uint32_t i = 0; i < channels; i++) {
+        if (image->format == LOBE_FORMAT_RGBA8_UNORM)
+            texel[i] = ((const uint8_t *)image->texels)[index + i] / 255.0;
+        else
+            texel[i] = (double)((const float *)image->texels)[index + i];
+    }
+}
+
+static const lobe_image *image_of(const lobe_scene *scene, const lobe_texture_use *use) {
+    return use->image >= 0 ? &scene->images[use->image].image : NULL;
+}
+
+static const lobe_image *width_image(const lobe_scene *scene, const lobe_material *material) {
+    return image_of(scene, material->model == LOBE_MATERIAL_MICROFACET
+                               ? &material->metallic_roughness_map
+                               : &material->width_map);
+}
+
+/// Maps smaller than the largest repeat their texels.
+static void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x,
+                          uint32_t y, double texel[4]) {
+    image_texel(image, (uint32_t)((uint64_t)x * image->width / size->width),
+                (uint32_t)((uint64_t)y * image->height / size->height), texel);
+}
+
+double base_lobe_concentration(const lobe_material *material, uint32_t i, const double width[4]) {
+    double parameter =
+        material->model == LOBE_MATERIAL_MICROFACET
+            ? reference_microfacet_parameter(material->distribution,
+                                             (double)material->roughness * width[1])
+            : reference_base_lobe_parameter(material->distribution,
+                                            (double)material->lobes[i].width * width[0]);
+    parameter = reference_convolved_parameter(material->distribution, parameter,
+                                              (double)material->normal_concentration);
+    return reference_base_lobe_concentration(material->distribution, parameter);
+}
+
+static double luminance(const float colour[3]) {
+    return 0.2126 * (double)colour[0] + 0.7152 * (double)colour[1] + 0.0722 * (double)colour[2];
+}
+
+static double share_of(const lobe_material *material, uint32_t i) {
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        return 1;
+    double sum = 0;
+    for (uint32_t j = 0; j < material->lobe_count; j++)
+        sum += luminance(material->lobes[j].colour);
+    return luminance(material->lobes[i].colour) / sum;
+}
+
+static void turn(double frame[3][3], const double local[3], double result[3]) {
+    for (int i = 0; i < 3; i++)
+        result[i] = frame[0][i] * local[0] + frame[1][i] * local[1] + frame[2][i] * local[2];
+}
+
+/// Adds the lobes of one texel.
+static void add_texel(const lobe_material *material, const double normal[3], const double width[4],
+                      double frame[3][3], const reference_layers *layers, uint32_t x, uint32_t y) {
+    double turned[3];
+    turn(frame, normal, turned);
+    reference_add_normal(layers, x, y, turned);
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
+        reference_lobe lobe = {.concentration = base_lobe_concentration(material, i, width),
+                               .share = share_of(material, i)};
+        double direction[3] = {0, 0, 1}, axis[3];
+        for (int j = 0; j < 3 && !microfacet; j++)
+            direction[j] = (double)material->lobes[i].direction[j];
+        reference_rotate_from_pole(normal, direction, axis);
+        turn(frame, axis, lobe.axis);
+        reference_add_lobe(layers, x, y, &lobe);
+    }
+}
+
+reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
+                                   texel_frame frame, const void *user) {
+    const lobe_image *normals = image_of(scene, &material->normal_map);
+    const lobe_image *widths = width_image(scene, material);
+    uint32_t width = normals ? normals->width : 1, height = normals ? normals->height : 1;
+    if (widths && widths->width > width)
+        width = widths->width;
+    if (widths && widths->height > height)
+        height = widths->height;
+    reference_layers layers = reference_layers_allocate(width, height, REFERENCE_MIXTURE_LAYERS);
+    for (uint32_t i = 0; i < width * height; i++) {
+        uint32_t x = i % width, y = i / width;
+        double texel[4], normal[3] = {0, 0, 1}, factor[4] = {1, 1, 1, 1};
+        double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        if (normals) {
+            nearest_texel(normals, &layers, x, y, texel);
+            reference_decode_normal(texel, (double)material->normal_scale, normal);
+        }
+        if (widths)
+            nearest_texel(widths, &layers, x, y, factor);
+        if (frame && !frame(user, (x + 0.5) / width, (y + 0.5) / height, axes))
+            continue;
+        add_texel(material, normal, factor, axes, &layers, x, y);
+    }
+    return layers;
+}
+
+uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer) {
+    return mixture->mean_layer != 0 && layer == mixture->mean_layer
+               ? (uint32_t)REFERENCE_MIXTURE_LAYER_MEAN
+               : layer;
+}

@@ -1,0 +1,29 @@
+#ifndef TESTS_PASSES_MIXTURE_REFERENCE_H
+#define TESTS_PASSES_MIXTURE_REFERENCE_H
+
+#include <lobe/scene.h>
+
+#include "passes/lobe_clustering.h"
+#include "tests/reference/layers.h"
+
+/// What lobe_clustering computes, in double precision and straight from a material's maps.
+
+/// Four channels of a texel, missing ones 0, alpha 1.
+void image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]);
+
+/// The frame of a texel as columns (tangent, bitangent, normal); false: the texel is left out.
+typedef bool (*texel_frame)(const void *user, double u, double v, double frame[3][3]);
+
+/// The mixture of every texel of the maps, all layers of tests/reference/lobe_mixture.h. `frame`
+/// NULL: tangent space. To free by the caller.
+reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
+                                   texel_frame frame, const void *user);
+
+/// Layer of the reference that a layer of a mixture map holds.
+uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer);
+
+/// Base lobe `i` of a material of half-vector lobes, or of microfacets (i = 0): its concentration
+/// where the width map's texel is `width`.
+double base_lobe_concentration(const lobe_material *material, uint32_t i, const double width[4]);
+
+#endif

@@ -1,0 +1,74 @@
+// The positions of the reference's samples within a pixel.
+
+#include "tests/passes/fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "passes/sample_pattern.h"
+
+static void one_sample_is_the_centre(void **state) {
+    (void)state;
+    float position[2];
+    sample_position(0, 1, position);
+    assert_true(position[0] == 0.5f && position[1] == 0.5f);
+}
+
+/// Every column of 1/count and every row of 1/(power of two) has its sample, all are inside, and
+/// for powers of two the mean is the centre.
+static void any_count_is_stratified(void **state) {
+    (void)state;
+    static const uint32_t counts[] = {1, 2, 3, 5, 8, 64, 100, 255, 256, 4095, 4096};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        uint32_t count = counts[i];
+        unsigned char *rows = calloc(count, 1);
+        assert_non_null(rows);
+        double mean[2] = {0, 0};
+        for (uint32_t j = 0; j < count; j++) {
+            float position[2];
+            sample_position(j, count, position);
+            for (int axis = 0; axis < 2; axis++) {
+                assert_true(position[axis] >= 0 && position[axis] < 1);
+                mean[axis] += (double)position[axis] / count;
+            }
+            assert_int_equal((uint32_t)(position[0] * (float)count), j);
+            rows[(uint32_t)(position[1] * (float)count)]++;
+        }
+        assert_true(fabs(mean[0] - 0.5) < 1e-5);
+        assert_true(fabs(mean[1] - 0.5) < 1.0 / count);
+        bool power_of_two = (count & (count - 1)) == 0;
+        for (uint32_t j = 0; j < count; j++)
+            assert_in_range(rows[j], power_of_two ? 1 : 0, power_of_two ? 1 : 3);
+        if (power_of_two)
+            assert_true(fabs(mean[1] - 0.5) < 1e-5);
+        free(rows);
+    }
+}
+
+/// Every box of area 1/64 whose sides are powers of two has one of 64 samples: errors fall faster
+/// than those of independent samples.
+static void samples_are_even_in_both_directions(void **state) {
+    (void)state;
+    enum { COUNT = 64 };
+    for (int columns = 1; columns <= COUNT; columns *= 2) {
+        int rows = COUNT / columns, found[COUNT] = {0};
+        for (uint32_t i = 0; i < COUNT; i++) {
+            float position[2];
+            sample_position(i, COUNT, position);
+            int column = (int)(position[0] * (float)columns);
+            int row = (int)(position[1] * (float)rows);
+            found[row * columns + column]++;
+        }
+        for (int i = 0; i < COUNT; i++)
+            assert_int_equal(found[i], 1);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_sample_is_the_centre),
+        cmocka_unit_test(any_count_is_stratified),
+        cmocka_unit_test(samples_are_even_in_both_directions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
