@@ -5,7 +5,7 @@
 layout(location = 0) in vec4 vertex_colour;
 
 layout(location = 0) out vec4 colour_out;
-layout(location = 1) out vec2 position_out;
+layout(location = 2) out vec2 position_out;
 
 void main() {
     colour_out = vertex_colour;
