@@ -186,22 +186,28 @@ static bool is_preferred(const engine_candidate *candidate, const engine_candida
     return rank(candidate->information.type) > rank(to->information.type);
 }
 
-/// An index selects by position, anything else by a part of the name.
-static bool matches(const engine_candidate *candidate, size_t index, const char *select) {
-    if (!select)
-        return true;
+/// The index that `select` is, of `count` devices; `count` where it is none.
+static size_t index_in(const char *select, size_t count) {
     char *end;
     const unsigned long number = strtoul(select, &end, 10);
-    if (select[0] >= '0' && select[0] <= '9' && *end == '\0')
-        return number == index;
-    return strcasestr(candidate->information.name, select) != NULL;
+    const bool is_number = select[0] >= '0' && select[0] <= '9' && *end == '\0';
+    return is_number && number < count ? number : count;
+}
+
+/// An index selects by position; anything else ("llvmpipe", "4090") by a part of the name.
+static bool matches(const engine_candidate *candidates, size_t count, size_t i,
+                    const char *select) {
+    if (!select)
+        return true;
+    const size_t index = index_in(select, count);
+    return index < count ? index == i : strcasestr(candidates[i].information.name, select) != NULL;
 }
 
 lobe_result engine_candidates_select(const engine_candidate *candidates, size_t count,
                                      const char *select, const lobe_log *log, size_t *selected) {
     size_t best = SIZE_MAX;
     for (size_t i = 0; i < count; i++)
-        if (matches(&candidates[i], i, select) &&
+        if (matches(candidates, count, i, select) &&
             (best == SIZE_MAX || is_preferred(&candidates[i], &candidates[best])))
             best = i;
     if (best == SIZE_MAX)
