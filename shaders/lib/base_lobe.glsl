@@ -15,7 +15,7 @@ float alpha_from_roughness(float roughness) {
 }
 
 // Wang, Ren, Gong, Snyder, Guo, 2009, All-Frequency Rendering of Dynamic, Spatially-Varying
-// Reflectance, section 4: lobes of equal curvature at the peak. Beckmann's exp(-tan^2/alpha^2) has
+// Reflectance: lobes of equal curvature at the peak. Beckmann's exp(-tan^2/alpha^2) has
 // it at kappa/2 = 1/alpha^2, and so has GGX, up to its longer tail.
 float concentration_from_alpha(float alpha) {
     return 2.0 / (alpha * alpha);
@@ -66,14 +66,14 @@ float base_lobe_concentration(uint distribution, float parameter) {
 
 // Convolution of a base lobe with normals that are themselves spread, Xu et al., 2017, Eq. 11.
 
-// Eq. 13 (Han, Sun, Ramamoorthi, Grinspun, 2007, Frequency Domain Normal Map Filtering,
-// section 6.1): s' = kappa_N s / (kappa_N + s).
+// Xu et al., 2017, Eq. 13, after Han, Sun, Ramamoorthi, Grinspun, 2007, Frequency Domain Normal Map
+// Filtering: s' = kappa_N s / (kappa_N + s).
 float convolved_exponent(float exponent, float normal_concentration) {
     return exponent / (1.0 + exponent / normal_concentration);
 }
 
 // The same in slopes, 1/kappa' = 1/kappa + 1/kappa_N with kappa = 2/alpha^2: variances add
-// (Olano, Baker, 2010, LEAN Mapping, section 3).
+// (Olano, Baker, 2010, LEAN Mapping).
 float convolved_alpha(float alpha, float normal_concentration) {
     return sqrt(alpha * alpha + 2.0 / normal_concentration);
 }

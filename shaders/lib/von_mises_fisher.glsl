@@ -25,7 +25,7 @@ float von_mises_fisher(vec3 direction, vec3 mean, float concentration) {
 }
 
 // Mean resultant length |E[omega]|, and its complement to 1.
-// Mardia, Jupp, 2000, Directional Statistics, Eq. 9.3.9: R(kappa) = coth kappa - 1/kappa.
+// Mardia, Jupp, 2000, Directional Statistics, section 9.3: R(kappa) = coth kappa - 1/kappa.
 //
 // Below kappa = 1: the continued fraction kappa/(3 + kappa^2/(5 + kappa^2/(7 + ...))), cut after
 // five terms, where its relative error is below 3e-9.
@@ -60,7 +60,7 @@ float mean_resultant_length(float concentration) {
 // Here kappa s / R, which is 1 at s = 0 and 3 at s = 1, is a quotient of polynomials in s with
 // the smallest maximum relative error, 6.6e-6, found by linear programming. One division and no
 // exponential: Newton's method on R(kappa) needs both in each step for the same accuracy.
-// At most CONCENTRATION_MAXIMUM.
+// At most CONCENTRATION_MAXIMUM, up to rounding.
 float concentration_from_resultant(float resultant, float complement) {
     float s = clamp(complement, 1.0 / CONCENTRATION_MAXIMUM, 1.0);
     float numerator =

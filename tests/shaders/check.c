@@ -1,12 +1,8 @@
 #include "tests/shaders/check.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
+#include "tests/engine/cmocka_all.h"
 
 // Of what was checked since the last report, the nearest to failing.
 static double worst, worst_actual, worst_expected;

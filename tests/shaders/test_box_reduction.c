@@ -1,14 +1,8 @@
 // shaders/lib/box_reduction.glsl: the weights of each texel, and that the mean is kept.
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/reference/box_reduction.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/harness.h"

@@ -1,14 +1,8 @@
 // shaders/lib/finite.glsl.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/shaders/harness.h"
 
 enum { COUNT = 12 };

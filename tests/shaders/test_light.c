@@ -1,14 +1,9 @@
 // shaders/lib/light.glsl against its double-precision twin.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/reference/light.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/harness.h"

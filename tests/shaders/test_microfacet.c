@@ -1,14 +1,10 @@
 // shaders/lib/microfacet.glsl: closed forms, reciprocity, and the weak white furnace.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/reference/microfacet.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/harness.h"

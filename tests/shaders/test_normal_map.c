@@ -1,14 +1,9 @@
 // shaders/lib/normal_map.glsl against MPFR, and its double-precision twin.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/reference/normal_map.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/harness.h"

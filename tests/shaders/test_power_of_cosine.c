@@ -1,13 +1,9 @@
 // shaders/lib/power_of_cosine.glsl against MPFR.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/harness.h"
 #include "tests/shaders/real.h"

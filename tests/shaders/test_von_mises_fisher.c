@@ -1,13 +1,9 @@
 // shaders/lib/von_mises_fisher.glsl against MPFR, and its double-precision twin.
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdint.h>
 
-#include <cmocka.h>
-
+#include "tests/engine/cmocka_all.h"
 #include "tests/reference/von_mises_fisher.h"
 #include "tests/shaders/check.h"
 #include "tests/shaders/exact.h"
