@@ -218,8 +218,8 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
     }
     if (find_channel(reader->channels, NULL, "RY") >= 0)
         lobe_log_print(reader->log, LOBE_LOG_WARNING,
-                   "%s: colour differences RY and BY are ignored, the image is read as grey",
-                   reader->path);
+                       "%s: colour differences RY and BY are ignored, the image is read as grey",
+                       reader->path);
     return LOBE_OK;
 }
 

@@ -32,6 +32,7 @@ typedef struct exr_writer {
     exr_context_t context;
     exr_encode_pipeline_t pipeline;
     bool pipeline_started;
+    exr_result_t (*compress)(exr_encode_pipeline_t *pipeline); ///< OpenEXRCore's own
     uint8_t *block;     ///< texels of one block, channel after channel
     size_t clamped;     ///< values beyond the range of half
     bool out_of_memory; ///< while growing `output`
@@ -313,6 +314,24 @@ static void connect_channels(exr_writer *writer, uint32_t row, uint32_t rows) {
     }
 }
 
+/// A block that does not shrink is stored raw, and readers know it by its size. OpenEXRCore 3.1.5
+/// overlooks that a compressed block may come out at just that size.
+static exr_result_t compress(exr_encode_pipeline_t *pipeline) {
+    const exr_writer *writer = pipeline->encoding_user_data;
+    exr_result_t code = writer->compress(pipeline);
+    if (code == EXR_ERR_SUCCESS && pipeline->compressed_bytes == pipeline->packed_bytes)
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+    return code;
+}
+
+static exr_result_t choose_routines(exr_writer *writer) {
+    exr_result_t code = exr_encoding_choose_default_routines(writer->context, 0, &writer->pipeline);
+    writer->compress = writer->pipeline.compress_fn;
+    writer->pipeline.compress_fn = compress;
+    writer->pipeline.encoding_user_data = writer;
+    return code;
+}
+
 static exr_result_t write_block(exr_writer *writer, uint32_t row, uint32_t rows) {
     exr_chunk_info_t chunk;
     exr_result_t code = exr_write_scanline_chunk_info(writer->context, 0, (int)row, &chunk);
@@ -322,7 +341,7 @@ static exr_result_t write_block(exr_writer *writer, uint32_t row, uint32_t rows)
         return code;
     connect_channels(writer, row, rows);
     if (row == 0)
-        code = exr_encoding_choose_default_routines(writer->context, 0, &writer->pipeline);
+        code = choose_routines(writer);
     if (code == EXR_ERR_SUCCESS)
         code = exr_encoding_run(writer->context, 0, &writer->pipeline);
     return code;
@@ -355,8 +374,8 @@ static lobe_result finish(exr_writer *writer) {
         return fail_from_library(writer, code, "the table of blocks");
     if (writer->clamped > 0)
         lobe_log_print(writer->log, LOBE_LOG_WARNING,
-                   "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
-                   writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
+                       "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
+                       writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
     return engine_file_write(writer->path, writer->output.data, writer->output.size, writer->log);
 }
 
