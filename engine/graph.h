@@ -21,7 +21,7 @@
 /// begin; the dependency graph holds the same passes and resources under the same indices.
 
 #define ENGINE_MAXIMUM_PUSH_CONSTANTS 128 ///< bytes; what Vulkan guarantees
-#define ENGINE_MAXIMUM_UPLOAD         ((size_t)64 << 10)
+#define ENGINE_MAXIMUM_UPLOAD         ((size_t)4 << 20)
 
 // ---------------------------------------------------------------------------------------------
 // On the device

@@ -93,7 +93,7 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
 
-/// A small buffer with content for this frame (camera, lights). Copied; at most 64 KiB. A pass
+/// A small buffer with content for this frame (camera, lights). Copied; at most 4 MiB. A pass
 /// that reads it counts as unchanged while the bytes stay the same.
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data, size_t size);
 
