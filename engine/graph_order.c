@@ -1,5 +1,7 @@
 #include "engine/dependency_graph.h"
 
+#include <string.h>
+
 #include "engine/growing_array.h"
 
 static bool reserve(engine_dependency_graph *graph) {
@@ -24,32 +26,55 @@ static void release_successors(const engine_dependency_graph *graph, uint32_t pa
             waiting[graph->edges[n].to]--;
 }
 
+static uint32_t waiting_predecessor(const engine_dependency_graph *graph, const uint32_t *waiting,
+                                    uint32_t pass) {
+    for (uint32_t n = 0; n < graph->edge_count; n++)
+        if (graph->edges[n].to == pass && waiting[graph->edges[n].from] != ENGINE_DEPENDENCY_NONE)
+            return graph->edges[n].from;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+static bool is_on_walk(const uint32_t *walk, uint32_t length, uint32_t pass) {
+    for (uint32_t n = 0; n < length; n++)
+        if (walk[n] == pass)
+            return true;
+    return false;
+}
+
 /// Every pass still waiting has a predecessor still waiting: going back along those must come
 /// round to a pass met before, and from there on the walk is the cycle, backwards.
 static void find_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
-    uint32_t pass = 0, length = 0, start = 0;
-    while (waiting[pass] == 0 || waiting[pass] == ENGINE_DEPENDENCY_NONE)
+    uint32_t *walk = graph->cycle, length = 0, pass = 0;
+    while (waiting[pass] == ENGINE_DEPENDENCY_NONE)
         pass++;
-    for (bool closed = false; !closed;) {
-        graph->cycle[length++] = pass;
-        for (uint32_t n = 0; n < graph->edge_count; n++) {
-            uint32_t before = graph->edges[n].from;
-            if (graph->edges[n].to == pass && waiting[before] != ENGINE_DEPENDENCY_NONE) {
-                pass = before;
-                break;
-            }
-        }
-        for (start = 0; start < length && !closed; start++)
-            closed = graph->cycle[start] == pass;
+    for (; !is_on_walk(walk, length, pass); pass = waiting_predecessor(graph, waiting, pass))
+        walk[length++] = pass;
+    uint32_t start = 0;
+    while (walk[start] != pass)
+        start++;
+    graph->cycle_count = length - start;
+    memmove(walk, walk + start, graph->cycle_count * sizeof *walk);
+}
+
+static void reverse(uint32_t *items, uint32_t count) {
+    for (uint32_t n = 0; n < count / 2; n++) {
+        uint32_t swapped = items[n];
+        items[n] = items[count - 1 - n];
+        items[count - 1 - n] = swapped;
     }
-    graph->cycle_count = length - (start - 1);
-    for (uint32_t n = 0; n < graph->cycle_count; n++)
-        graph->cycle[n] = graph->cycle[start - 1 + n];
-    for (uint32_t n = 0; n < graph->cycle_count / 2; n++) {
-        uint32_t swapped = graph->cycle[n];
-        graph->cycle[n] = graph->cycle[graph->cycle_count - 1 - n];
-        graph->cycle[graph->cycle_count - 1 - n] = swapped;
-    }
+}
+
+/// In order of execution, from the pass that was declared first. (Reversing all, then both parts
+/// apart, rotates.)
+static void arrange_cycle(engine_dependency_graph *graph) {
+    uint32_t *cycle = graph->cycle, count = graph->cycle_count, first = 0;
+    reverse(cycle, count);
+    for (uint32_t n = 1; n < count; n++)
+        if (cycle[n] < cycle[first])
+            first = n;
+    reverse(cycle, first);
+    reverse(cycle + first, count - first);
+    reverse(cycle, count);
 }
 
 /// A resource that two neighbours of the cycle share, for the message.
@@ -68,6 +93,7 @@ static uint32_t cycle_resource(const engine_dependency_graph *graph) {
 
 static bool fail_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
     find_cycle(graph, waiting);
+    arrange_cycle(graph);
     return engine_dependency_fail(
         graph, (engine_dependency_fault){.kind = ENGINE_FAULT_CYCLE,
                                          .pass = graph->cycle[0],
