@@ -63,32 +63,44 @@ static const char *open_binary(gltf_container *container) {
     return NULL;
 }
 
-static void open_text(gltf_container *container) {
+static const char *open_text(gltf_container *container) {
     static const char mark[] = "\xef\xbb\xbf"; // of byte order, which some editors put first
     size_t skipped = container->size >= 3 && memcmp(container->bytes, mark, 3) == 0 ? 3 : 0;
     container->json = container->bytes + skipped;
     container->json_size = container->size - skipped;
+    size_t space = 0;
+    while (space < container->json_size && memchr(" \t\r\n", container->json[space], 4))
+        space++;
+    if (space == container->json_size)
+        return "is empty";
+    return container->json[space] == '{' ? NULL : "is neither GLB nor JSON text of glTF";
+}
+
+static lobe_result check_version(const gltf_container *container, const char *path,
+                                 const lobe_log *log) {
+    uint32_t version = container->size >= 8 ? read_word(container->bytes + 4) : 2;
+    if (version == 2)
+        return LOBE_OK;
+    return scene_report_error(log, LOBE_ERROR_UNSUPPORTED,
+                              "%s: GLB version %u, lobe reads version 2", path, version);
+}
+
+static const char *open_header(gltf_container *container) {
+    if (container->size < GLB_HEADER_SIZE)
+        return "ends inside the header of a GLB file";
+    uint32_t length = read_word(container->bytes + 8);
+    if (length > container->size)
+        return "is shorter than its header says";
+    container->size = length < GLB_HEADER_SIZE ? GLB_HEADER_SIZE : length;
+    return open_binary(container);
 }
 
 lobe_result gltf_container_open(gltf_container *container, const char *path, const lobe_log *log) {
     container->binary = container->size >= 4 && memcmp(container->bytes, "glTF", 4) == 0;
-    if (!container->binary) {
-        open_text(container);
-        return LOBE_OK;
-    }
-    const char *fault = "ends inside the header of a GLB file";
-    if (container->size >= GLB_HEADER_SIZE) {
-        uint32_t version = read_word(container->bytes + 4);
-        uint32_t length = read_word(container->bytes + 8);
-        if (version != 2)
-            return scene_report_error(log, LOBE_ERROR_UNSUPPORTED,
-                                      "%s: GLB version %u, lobe reads version 2", path, version);
-        fault = "the file is shorter than its header says";
-        if (length <= container->size) {
-            container->size = length < GLB_HEADER_SIZE ? GLB_HEADER_SIZE : length;
-            fault = open_binary(container);
-        }
-    }
+    lobe_result result = container->binary ? check_version(container, path, log) : LOBE_OK;
+    if (result != LOBE_OK)
+        return result;
+    const char *fault = container->binary ? open_header(container) : open_text(container);
     if (!fault)
         return LOBE_OK;
     return scene_report_error(log, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);

@@ -169,6 +169,10 @@ OBJECT(light, {"type", &text, true}, {"color", &numbers_3, false}, {"intensity",
        {"range", &number, false}, {"spot", &spot, false}, {"name", &text, false});
 ARRAY_OF(lights, light);
 OBJECT(lights_punctual, {"lights", &lights, true});
+OBJECT(skin, {"joints", &indices, true}, {"skeleton", &integer, false},
+       {"inverseBindMatrices", &integer, false}, {"name", &text, false});
+ARRAY_OF(skins, skin);
+
 OBJECT(root_extensions, {"KHR_lights_punctual", &lights_punctual, false});
 
 OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
@@ -177,7 +181,7 @@ OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
        {"nodes", &nodes, false}, {"scenes", &scenes, false}, {"scene", &integer, false},
        {"materials", &materials, false}, {"textures", &textures, false},
        {"samplers", &samplers, false}, {"images", &images, false}, {"cameras", &cameras, false},
-       {"animations", &objects, false}, {"skins", &objects, false},
+       {"animations", &objects, false}, {"skins", &skins, false},
        {"extensions", &root_extensions, false});
 
 lobe_result gltf_schema_check(const char *path, const char *json, size_t json_size,

@@ -67,7 +67,7 @@ static void read_header(jpeg_job *job) {
     jpeg_mem_src(&job->jpeg, job->bytes, job->size);
     jpeg_read_header(&job->jpeg, TRUE);
     if (job->jpeg.num_components != 1 && job->jpeg.num_components != 3)
-        fail(job, "neither grey nor RGB");
+        fail(job, "its colours are neither grey nor RGB");
     job->extent.width = job->jpeg.image_width;
     job->extent.height = job->jpeg.image_height;
 }
