@@ -25,7 +25,7 @@ static void read_atlas(lobe_pass *pass, const surface_atlas *atlas) {
 }
 
 /// In camera space: the rotation from object to camera, and the eye in object space.
-static void camera_constants(const filter_context *context, size_t instance,
+static void camera_constants(const filter_context *context, size_t instance, bool double_sided,
                              struct atlas_constants *constants) {
     mat4 object_to_world, world_to_object;
     memcpy(object_to_world, context->scene->scene->instances[instance].transform,
@@ -44,6 +44,9 @@ static void camera_constants(const filter_context *context, size_t instance,
     vec4 eye, object_eye;
     camera_eye(context->camera, eye);
     glm_mat4_mulv(world_to_object, eye, object_eye);
+    // Of a surface with two sides nothing faces away.
+    if (double_sided)
+        object_eye[3] = -1;
     memcpy(constants->eye, object_eye, sizeof object_eye);
 }
 
@@ -98,7 +101,7 @@ mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe
     if (space != LOBE_SPACE_TANGENT) {
         read_atlas(pass, &atlas);
         if (space == LOBE_SPACE_CAMERA)
-            camera_constants(context, instance, &atlas_constants);
+            camera_constants(context, instance, material->material->double_sided, &atlas_constants);
         else
             object_constants(&atlas_constants);
         dispatch.shader = "lobe_clustering_atlas.comp";

@@ -58,12 +58,16 @@ bool has_map(int map) {
     return (MAPS & (1u << map)) != 0u;
 }
 
+bool front_side() {
+    return gl_FrontFacing != MIRRORED;
+}
+
 surface_point read_surface() {
     surface_point surface;
     surface.world_position = interpolated_position;
     mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
     // The back of a surface has all axes reversed (glTF 2.0, section 3.9.6).
-    surface.world_from_tangent = gl_FrontFacing != MIRRORED ? from_tangent : -from_tangent;
+    surface.world_from_tangent = front_side() ? from_tangent : -from_tangent;
     vec3 world_outgoing = normalize(frame.eye.xyz - interpolated_position * frame.eye.w);
     surface.outgoing = world_outgoing * surface.world_from_tangent;
     surface.coordinates = interpolated_coordinates;
