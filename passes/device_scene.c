@@ -198,6 +198,19 @@ static bool mirrors(const float transform[16]) {
     return glm_mat3_det(linear) < 0;
 }
 
+static float dot(const float a[3], const float b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether the linear part is a rotation or a reflection times a uniform scale: its columns are
+/// equally long and at right angles.
+static bool keeps_angles(const float transform[16]) {
+    const float *x = transform, *y = transform + 4, *z = transform + 8;
+    float square = dot(x, x), slack = 1e-3f * square;
+    return fabsf(dot(y, y) - square) <= slack && fabsf(dot(z, z) - square) <= slack &&
+           fabsf(dot(x, y)) <= slack && fabsf(dot(y, z)) <= slack && fabsf(dot(z, x)) <= slack;
+}
+
 static lobe_result upload_instance(lobe_device *device, device_scene *result, size_t index,
                                    const lobe_log *log) {
     const lobe_scene *scene = result->scene;
@@ -221,6 +234,7 @@ static lobe_result upload_instance(lobe_device *device, device_scene *result, si
         .mesh = source->mesh,
         .material = source->material,
         .mirrored = mirrors(source->transform),
+        .keeps_angles = keeps_angles(source->transform),
         .is_atlas = use && is_atlas(&scene->meshes[source->mesh], use),
     };
     return LOBE_OK;

@@ -25,6 +25,8 @@ typedef struct device_material {
 typedef struct device_instance {
     uint32_t mesh, material;
     bool mirrored; ///< the transform turns left into right
+    /// The transform does not bend angles: directions of the mesh can be turned into the world's.
+    bool keeps_angles;
     /// The lobes' texture coordinates stay within [0, 1] and do not overlap: each texel belongs
     /// to one place of the mesh.
     bool is_atlas;

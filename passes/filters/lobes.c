@@ -26,14 +26,15 @@ static const lobe_knob knobs[] = {
 };
 
 /// The space asked for by the user, or else by the material; tangent where the mesh's texture
-/// coordinates are no atlas.
+/// coordinates are no atlas, or where the instance stretches the mesh.
 static lobe_map_space space_of(const filter_context *context, size_t instance) {
     const device_instance *drawn = &context->scene->instances[instance];
     lobe_map_space space = (lobe_map_space)filter_setting(context, "space");
     if (space == LOBE_SPACE_AUTOMATIC)
         space = context->scene->materials[drawn->material].material->space;
     // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
-    return space == LOBE_SPACE_AUTOMATIC || !drawn->is_atlas ? LOBE_SPACE_TANGENT : space;
+    bool possible = drawn->is_atlas && drawn->keeps_angles;
+    return space == LOBE_SPACE_AUTOMATIC || !possible ? LOBE_SPACE_TANGENT : space;
 }
 
 static bool for_each_instance(const filter_context *context, size_t instance) {
