@@ -302,7 +302,7 @@ static void tablecloth_fills_the_picture_with_small_texels(void **state) {
     projection view = look(&scene->camera);
     double seen = 0, fitting = 0;
     for (size_t i = 0; i < mesh->index_count; i += 3) {
-        double pixel[3][2], texel[3][2];
+        double pixel[3][2] = {{0}}, texel[3][2];
         bool inside = true;
         for (int k = 0; k < 3; k++) {
             const lobe_scene_vertex *vertex = &mesh->vertices[mesh->indices[i + k]];
