@@ -11,12 +11,11 @@
 bool option_parse_numbers(const char *text, size_t count, double *values) {
     for (size_t index = 0; index < count; index++) {
         char *end;
-        // strtod would skip white space, which no value of ours starts with.
-        if (strchr("+-.0123456789", *text) == NULL || *text == '\0')
-            return false;
+        // strtod also takes white space before the number, hexadecimal digits and names.
+        size_t length = strspn(text, "0123456789+-.eE");
         values[index] = strtod(text, &end);
         char expected = index + 1 < count ? ',' : '\0';
-        if (end == text || *end != expected || !isfinite(values[index]))
+        if (length == 0 || end != text + length || *end != expected || !isfinite(values[index]))
             return false;
         text = end + 1;
     }
@@ -309,7 +308,8 @@ static int complete(parser *parser) {
 static int check_operand_count(const parser *parser) {
     size_t count = parser->operands != NULL ? parser->operands->count : 0;
     if (count < parser->table->minimum_operands)
-        return options_usage_error(parser->table, "operands are missing: %s", parser->table->operands);
+        return options_usage_error(parser->table, "operands are missing: %s",
+                                   parser->table->operands);
     return 0;
 }
 
