@@ -37,17 +37,21 @@ static float luminance(const float colour[3]) {
     return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
 }
 
-static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
+float material_lobe_share(const lobe_material *material, uint32_t lobe) {
     float sum = 0;
     for (uint32_t i = 0; i < material->lobe_count; ++i)
         sum += luminance(material->lobes[i].colour);
+    return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
+                   : 1.0f / (float)material->lobe_count;
+}
+
+static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
     for (uint32_t i = 0; i < material->lobe_count; ++i) {
         const lobe_base_lobe *lobe = &material->lobes[i];
         memcpy(constants->lobe_direction[i], lobe->direction, sizeof lobe->direction);
         constants->lobe_direction[i][3] = lobe->width;
         memcpy(constants->lobe_colour[i], lobe->colour, sizeof lobe->colour);
-        constants->lobe_colour[i][3] =
-            sum > 0 ? luminance(lobe->colour) / sum : 1.0f / (float)material->lobe_count;
+        constants->lobe_colour[i][3] = material_lobe_share(material, i);
     }
 }
 

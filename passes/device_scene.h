@@ -49,6 +49,9 @@ lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, co
 /// Clears the pointer; NULL is fine.
 void device_scene_destroy(device_scene **scene);
 
+/// What part of a half-vector material's reflectance is one lobe's, by luminance [0, 1].
+float material_lobe_share(const lobe_material *material, uint32_t lobe);
+
 /// The texture of a material's map, or the white one.
 lobe_resource device_map_import(lobe_graph *graph, const device_scene *scene,
                                 const device_material *material, uint32_t map);

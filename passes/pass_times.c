@@ -9,8 +9,7 @@ static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name) {
         if (strcmp(frame->passes[i].name, name) == 0)
             return &frame->passes[i];
     }
-    lobe_pass_time *grown =
-        realloc(frame->passes, (frame->pass_count + 1) * sizeof *frame->passes);
+    lobe_pass_time *grown = realloc(frame->passes, (frame->pass_count + 1) * sizeof *frame->passes);
     if (!grown)
         return NULL;
     frame->passes = grown;

@@ -160,8 +160,7 @@ static lobe_result take_image(const rendering *r, lobe_resource resource, lobe_f
                               lobe_image *image) {
     size_t size = 0;
     const void *data = lobe_graph_data(r->renderer->graph, resource, &size);
-    lobe_result result =
-        lobe_image_allocate(image, format, r->width, r->height, &r->renderer->log);
+    lobe_result result = lobe_image_allocate(image, format, r->width, r->height, &r->renderer->log);
     if (result == LOBE_OK && data)
         memcpy(image->texels, data, size);
     return result;
@@ -185,7 +184,7 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
     if (result != LOBE_OK)
         return result;
     return pass_times_add(frame, lobe_graph_describe(r->renderer->graph)) ? LOBE_OK
-                                                                         : out_of_memory(r);
+                                                                          : out_of_memory(r);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -210,17 +209,15 @@ static lobe_result render_once(rendering *r, bool outputs, lobe_frame *frame) {
         return result;
     result = take_image(r, targets.radiance, LOBE_FORMAT_RGBA32_FLOAT, &frame->radiance);
     if (result == LOBE_OK && outputs)
-        result = take_image(r, targets.normal_depth, LOBE_FORMAT_RGBA32_FLOAT,
-                            &frame->normal_depth);
-    if (result == LOBE_OK && outputs)
         result =
-            take_image(r, targets.lobes_level, LOBE_FORMAT_RG32_FLOAT, &frame->lobes_level);
+            take_image(r, targets.normal_depth, LOBE_FORMAT_RGBA32_FLOAT, &frame->normal_depth);
+    if (result == LOBE_OK && outputs)
+        result = take_image(r, targets.lobes_level, LOBE_FORMAT_RG32_FLOAT, &frame->lobes_level);
     return result;
 }
 
 /// Adds samples [first, first + count) of every pixel to the sum.
-static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count,
-                                  lobe_frame *frame) {
+static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
     lobe_graph_begin(graph);
     build_maps(r, frame);

@@ -1,8 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Shades a pixel under punctual lights, from the appearance that the filter fetches there. The
-// build makes one variant of this shader for each file in filters/.
+// Shades a pixel under punctual lights, from the appearance that the filter fetches there: a sum
+// of parts (say, lobes), each of which is fetched and then shaded under every light. The build
+// makes one variant of this shader for each file in filters/. What such a file brings:
+//
+//   struct appearance                           with emission, alpha, normal, lobe_count, level
+//   appearance fetch_appearance(surface_point)  what all parts share
+//   bool has_part(appearance)                   whether there is one more
+//   void next_part(inout appearance)            fetches it
+//   vec3 evaluate_part(appearance, surface_point, vec3 incoming)
+//                                               its reflectance times cosine for one direction
 
 #include "filter.glsl"
 #include "interface/light.h"
@@ -17,24 +25,24 @@ layout(location = 2) out vec2 lobes_level_out;
 #endif
 
 // Radiance reflected from one light: `incoming` is the unit direction to it in the world.
-vec3 reflected(appearance fetched, surface_point surface, vec3 incoming, vec3 irradiance) {
-    return irradiance * evaluate_appearance(fetched, surface, incoming * surface.world_from_tangent);
+vec3 reflected(appearance part, surface_point surface, vec3 incoming, vec3 irradiance) {
+    return irradiance * evaluate_part(part, surface, incoming * surface.world_from_tangent);
 }
 
-vec3 reflected_radiance(appearance fetched, surface_point surface) {
+// Radiance that one part of the appearance reflects from all lights.
+vec3 reflected_from_lights(appearance part, surface_point surface) {
     vec3 sum = vec3(0.0);
     uint next = 0u;
     if (DIRECTIONAL_LIGHTS) {
         for (uint end = next + frame.directional_count; next < end; ++next)
-            sum += reflected(fetched, surface, lights[next].direction.xyz,
-                             lights[next].intensity.rgb);
+            sum += reflected(part, surface, lights[next].direction.xyz, lights[next].intensity.rgb);
     }
     if (POINT_LIGHTS) {
         for (uint end = next + frame.point_count; next < end; ++next) {
             vec3 to_light = lights[next].position.xyz - surface.world_position;
             float attenuation = distance_attenuation(dot(to_light, to_light),
                                                      lights[next].position.w);
-            sum += reflected(fetched, surface, normalize(to_light),
+            sum += reflected(part, surface, normalize(to_light),
                              lights[next].intensity.rgb * attenuation);
         }
     }
@@ -44,9 +52,9 @@ vec3 reflected_radiance(appearance fetched, surface_point surface) {
             vec3 incoming = normalize(to_light);
             float attenuation =
                 distance_attenuation(dot(to_light, to_light), lights[next].position.w) *
-                cone_attenuation(incoming, lights[next].direction.xyz,
-                                 lights[next].cone.x, lights[next].cone.y);
-            sum += reflected(fetched, surface, incoming, lights[next].intensity.rgb * attenuation);
+                cone_attenuation(incoming, lights[next].direction.xyz, lights[next].cone.x,
+                                 lights[next].cone.y);
+            sum += reflected(part, surface, incoming, lights[next].intensity.rgb * attenuation);
         }
     }
     return sum;
@@ -58,16 +66,19 @@ void main() {
     if (ALPHA_MASK && fetched.alpha < material.emissive.w)
         discard;
 
-    vec3 value;
+    vec3 value = vec3(0.0);
+    // Views and AOVs count the parts as well.
+    while (has_part(fetched)) {
+        next_part(fetched);
+        if (VIEW == VIEW_RADIANCE)
+            value += reflected_from_lights(fetched, surface);
+    }
+    if (EMISSION && VIEW == VIEW_RADIANCE)
+        value += material.emissive.rgb * fetched.emission;
     if (VIEW == VIEW_LOBES)
         value = vec3(fetched.lobe_count);
-    else if (VIEW == VIEW_LEVEL)
+    if (VIEW == VIEW_LEVEL)
         value = vec3(fetched.level);
-    else {
-        value = reflected_radiance(fetched, surface);
-        if (EMISSION)
-            value += material.emissive.rgb * fetched.emission;
-    }
     radiance_out = vec4(value, 1.0);
 
 #ifdef AOV

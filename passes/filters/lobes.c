@@ -66,10 +66,28 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     return wanted && !derivable;
 }
 
+/// The coarsest subdivision that can ever suffice: 1 where the base lobes of every texel point so
+/// far apart that |r| of them all stays below epsilon0. It need not be fetched then.
+static uint32_t coarsest_of(const filter_context *context, const device_material *material,
+                            const mixture_map *mixture) {
+    const lobe_material *source = material->material;
+    if (source->model == LOBE_MATERIAL_MICROFACET || mixture->subdivision == 0 ||
+        filter_setting(context, "threshold") != 0)
+        return 0;
+    float mean[3] = {0};
+    for (uint32_t i = 0; i < source->lobe_count; ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            mean[axis] += material_lobe_share(source, i) * source->lobes[i].direction[axis];
+    }
+    double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+    return length < filter_setting(context, "epsilon0") - filter_setting(context, "blend");
+}
+
 static void specialise_mixture(const filter_context *context, const mixture_map *mixture,
-                               filtered_appearance *appearance) {
+                               uint32_t coarsest, filtered_appearance *appearance) {
     appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
     appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
+    appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
     appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
     appearance_specialise(appearance, SPECIALISE_SPACE,
                           mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
@@ -96,7 +114,7 @@ static void build(const filter_context *context, size_t instance, filtered_appea
             lobe_clustering(context, instance, space, subdivision_of(context, material, space),
                             needs_mean(context, material));
         level_reduction(context->graph, &mixture.map);
-        specialise_mixture(context, &mixture, appearance);
+        specialise_mixture(context, &mixture, coarsest_of(context, material, &mixture), appearance);
         appearance->bytes = reduced_map_bytes(&mixture.map, mixture.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = mixture.map.resource;

@@ -4,7 +4,8 @@
 #include "unfiltered_maps.glsl"
 
 struct appearance {
-    base_material base;
+    base_material base; // the one part there is
+    bool done;
     vec3 emission;
     float alpha;
     vec3 normal;      // in the tangent frame
@@ -14,6 +15,7 @@ struct appearance {
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
+    result.done = false;
     result.base = unfiltered_material(surface);
     result.normal = result.base.normal;
     result.alpha = 1.0;
@@ -27,6 +29,14 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming) {
+bool has_part(appearance fetched) {
+    return !fetched.done;
+}
+
+void next_part(inout appearance fetched) {
+    fetched.done = true;
+}
+
+vec3 evaluate_part(appearance fetched, surface_point surface, vec3 incoming) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }

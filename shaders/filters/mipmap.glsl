@@ -11,7 +11,8 @@ layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;
 layout(set = 0, binding = 16) uniform sampler2D parameter_map;
 
 struct appearance {
-    base_material base;
+    base_material base; // the one part there is
+    bool done;
     vec3 emission;
     float alpha;
     vec3 normal;
@@ -33,6 +34,7 @@ float width_from_average(float average) {
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
+    result.done = false;
     result.level = 0.0;
     vec3 normal = unfiltered_normal(surface);
     float width = 0.0;
@@ -63,6 +65,14 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming) {
+bool has_part(appearance fetched) {
+    return !fetched.done;
+}
+
+void next_part(inout appearance fetched) {
+    fetched.done = true;
+}
+
+vec3 evaluate_part(appearance fetched, surface_point surface, vec3 incoming) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }

@@ -14,16 +14,17 @@
 #define MIXTURE_LAYER_HALVES  5
 
 #define SPECIALISE_SUBDIVISION (SPECIALISE_FILTER + 0)  // uint, [0, 2]: finest level stored
-#define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 1)  // uint, layer of the mean; 0: there is none
-#define SPECIALISE_SPACE       (SPECIALISE_FILTER + 2)  // uint, SPACE_...
-#define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 3)  // uint, THRESHOLD_...
-#define SPECIALISE_PROBES      (SPECIALISE_FILTER + 4)  // uint, [1, 16]
-#define SPECIALISE_COLOUR_MAPS (SPECIALISE_FILTER + 5)  // uint, bit MAP_...: filtered map exists
-#define SPECIALISE_MIXTURE     (SPECIALISE_FILTER + 6)  // bool: there is a map of mixtures
-#define SPECIALISE_EPSILON_0   (SPECIALISE_FILTER + 7)  // float
-#define SPECIALISE_EPSILON_1   (SPECIALISE_FILTER + 8)  // float
-#define SPECIALISE_BLEND       (SPECIALISE_FILTER + 9)  // float, half width of the transition
-#define SPECIALISE_LEVEL_BIAS  (SPECIALISE_FILTER + 10) // float, added to the level
+#define SPECIALISE_COARSEST    (SPECIALISE_FILTER + 1)  // uint, [0, 1]: coarsest that can suffice
+#define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 2)  // uint, layer of the mean; 0: there is none
+#define SPECIALISE_SPACE       (SPECIALISE_FILTER + 3)  // uint, SPACE_...
+#define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 4)  // uint, THRESHOLD_...
+#define SPECIALISE_PROBES      (SPECIALISE_FILTER + 5)  // uint, [1, 16]
+#define SPECIALISE_COLOUR_MAPS (SPECIALISE_FILTER + 6)  // uint, bit MAP_...: filtered map exists
+#define SPECIALISE_MIXTURE     (SPECIALISE_FILTER + 7)  // bool: there is a map of mixtures
+#define SPECIALISE_EPSILON_0   (SPECIALISE_FILTER + 8)  // float
+#define SPECIALISE_EPSILON_1   (SPECIALISE_FILTER + 9)  // float
+#define SPECIALISE_BLEND       (SPECIALISE_FILTER + 10) // float, half width of the transition
+#define SPECIALISE_LEVEL_BIAS  (SPECIALISE_FILTER + 11) // float, added to the level
 
 #define SPACE_TANGENT 0
 #define SPACE_OBJECT  1
