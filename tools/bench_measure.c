@@ -52,7 +52,8 @@ static lobe_result render_truth(const bench_run *run, lobe_renderer *renderer,
     lobe_result result = lobe_filter_find("reference", run->job->log, &reference.filter);
     if (result != LOBE_OK)
         return result;
-    progress_step(run->job->progress, "%s: %s, %u samples", run->name, kind, run->job->samples);
+    progress_step(run->job->progress, "%s: %s, samples a pixel: %u", run->name, kind,
+                  run->job->samples);
     lobe_render_parameters parameters = parameters_of(run->job, &reference);
     parameters.samples = run->job->samples;
     lobe_frame frame;

@@ -14,12 +14,17 @@ static void print_list(const lobe_device_information *devices, size_t count) {
 }
 
 static void print_features(const lobe_device_information *device, bool present) {
+    size_t count = 0;
     for (size_t i = 0; i < device->feature_count; ++i) {
         const lobe_device_feature *feature = &device->features[i];
-        if (feature->present == present)
-            printf("    %-36s %s%s\n", feature->name, feature->use,
-                   feature->required ? " (required)" : "");
+        if (feature->present != present)
+            continue;
+        printf("    %-36s %s%s\n", feature->name, feature->use,
+               feature->required ? " (required)" : "");
+        ++count;
     }
+    if (count == 0)
+        puts("    none");
 }
 
 static void print_device(const lobe_device *device) {

@@ -26,7 +26,7 @@ void progress_step(progress *progress, const char *format, ...) {
     if (progress->terminal)
         show(progress, 0);
     else if (progress->lines)
-        fprintf(stderr, "%s\n", progress->step);
+        fprintf(stderr, "lobe: %s\n", progress->step);
 }
 
 bool progress_part(void *user, double part) {

@@ -1,0 +1,129 @@
+"""Just enough of OpenEXR, PNG and glTF to look into what `lobe` writes, and to give it to read."""
+
+import base64
+import json
+import struct
+import zlib
+
+
+# OpenEXR ------------------------------------------------------------------------------------
+
+PIXEL_TYPES = {0: "uint", 1: "half", 2: "float"}
+
+
+def _text(data, at):
+    end = data.index(b"\0", at)
+    return data[at:end].decode(), end + 1
+
+
+def _channels(value):
+    channels, at = {}, 0
+    while value[at]:
+        name, at = _text(value, at)
+        channels[name] = PIXEL_TYPES[struct.unpack_from("<i", value, at)[0]]
+        at += 16
+    return channels
+
+
+def _value(kind, value):
+    if kind == "string":
+        return value.decode()
+    if kind in ("int", "float"):
+        return struct.unpack("<i" if kind == "int" else "<f", value)[0]
+    if kind in ("box2i", "chromaticities"):
+        return struct.unpack("<4i" if kind == "box2i" else "<8f", value)
+    return _channels(value) if kind == "chlist" else value
+
+
+def exr_header(path):
+    """The attributes of an OpenEXR file by name."""
+    data = path.read_bytes()
+    assert data[:4] == b"\x76\x2f\x31\x01", f"{path} is no OpenEXR file"
+    attributes, at = {}, 8
+    while data[at]:
+        name, at = _text(data, at)
+        kind, at = _text(data, at)
+        size = struct.unpack_from("<i", data, at)[0]
+        attributes[name] = _value(kind, data[at + 4:at + 4 + size])
+        at += 4 + size
+    return attributes
+
+
+# PNG ----------------------------------------------------------------------------------------
+
+def _chunk(kind, data):
+    return (struct.pack(">I", len(data)) + kind + data +
+            struct.pack(">I", zlib.crc32(kind + data)))
+
+
+def png_write(path, width, height, colour):
+    """A picture of one colour, 8 bits, RGB."""
+    rows = (b"\0" + bytes(colour) * width) * height
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                     _chunk(b"IDAT", zlib.compress(rows)) + _chunk(b"IEND", b""))
+
+
+def _paeth(left, up, corner):
+    estimate = left + up - corner
+    distances = [abs(estimate - value) for value in (left, up, corner)]
+    return (left, up, corner)[distances.index(min(distances))]
+
+
+def _unfilter(kind, row, above, size):
+    for i, byte in enumerate(row):
+        left = row[i - size] if i >= size else 0
+        corner = above[i - size] if i >= size else 0
+        up = above[i]
+        row[i] = (byte + (0, left, up, (left + up) // 2, _paeth(left, up, corner))[kind]) & 255
+
+
+def png_read(path):
+    """Width, height and the pixels' RGB of an 8-bit RGB or RGBA picture."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG file"
+    at, packed, width, height, size = 8, b"", 0, 0, 0
+    while at < len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack_from(">IIBB", body)
+            assert depth == 8 and colour in (2, 6), f"{path}: depth {depth}, type {colour}"
+            size = 3 if colour == 2 else 4
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    raw, stride, above, pixels = zlib.decompress(packed), width * size, bytes(width * size), []
+    for y in range(height):
+        start = y * (stride + 1)
+        row = bytearray(raw[start + 1:start + 1 + stride])
+        _unfilter(raw[start], row, above, size)
+        pixels += [tuple(row[i:i + 3]) for i in range(0, stride, size)]
+        above = row
+    return width, height, pixels
+
+
+# glTF ---------------------------------------------------------------------------------------
+
+def gltf_triangle():
+    """A glTF document, as a dictionary: one triangle, its data inside."""
+    positions = struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0)
+    indices = struct.pack("<3H", 0, 1, 2)
+    data = base64.b64encode(positions + indices).decode()
+    return {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"byteLength": 42, "uri": "data:application/octet-stream;base64," + data}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36},
+                        {"buffer": 0, "byteOffset": 36, "byteLength": 6}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [-1, -1, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    }
+
+
+def gltf_write(path, document):
+    path.write_text(json.dumps(document), encoding="utf-8")

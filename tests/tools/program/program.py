@@ -1,0 +1,80 @@
+"""Drives the program `lobe` as a user would."""
+
+import atexit
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROGRAM = Path(sys.argv[1]).resolve()
+ROOT = Path(sys.argv[2]).resolve()
+ASSETS = ROOT.parent / "shared" / "assets"
+FOLDER = Path(tempfile.mkdtemp(prefix="lobe-test-"))
+atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
+
+SMALL = ["--size", "32x24"]
+
+
+def lobe(*arguments, timeout=300, stdout=subprocess.PIPE, **environment):
+    """Runs `lobe ARGUMENTS...` in a fresh folder. Keywords are environment variables."""
+    settings = {**os.environ, "XDG_CACHE_HOME": str(FOLDER / "cache"),
+                **{name: str(value) for name, value in environment.items()}}
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=FOLDER, env=settings, text=True,
+                          stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                          timeout=timeout, check=False, errors="replace")
+
+
+def check(condition, message):
+    """An assertion that python -O keeps."""
+    if not condition:
+        raise AssertionError(message)
+
+
+def report(result):
+    return (f"{' '.join(map(str, result.args))}\nstatus {result.returncode}\n"
+            f"stdout: {result.stdout}\nstderr: {result.stderr}")
+
+
+def succeeds(*arguments, **keywords):
+    result = lobe(*arguments, **keywords)
+    check(result.returncode == 0, report(result))
+    return result
+
+
+def error_lines(result):
+    """Lines on standard error but warnings and notices of what went on before."""
+    lines = result.stderr.splitlines()
+    return [line for line in lines if line.startswith("lobe: error: ") or
+            not line.startswith("lobe: ")]
+
+
+def fails(*arguments, status=1, says=(), **keywords):
+    """The program ends with that status, and one line that holds all the words of `says`."""
+    result = lobe(*arguments, **keywords)
+    check(result.returncode == status, report(result))
+    lines = error_lines(result) if status == 1 else result.stderr.splitlines()
+    check(len(lines) == 1 and lines[0].startswith("lobe"), report(result))
+    check("Sanitizer" not in result.stderr, report(result))
+    for words in [says] if isinstance(says, str) else says:
+        check(words in lines[0], f"no '{words}' in: {report(result)}")
+    return result
+
+
+def is_wrong_usage(*arguments, says=()):
+    result = fails(*arguments, status=2, says=says)
+    check(result.stdout == "", report(result))
+
+
+def fresh_folder(name):
+    folder = FOLDER / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return folder
+
+
+def leaves(folder, *names):
+    """The folder holds these files and nothing else."""
+    found = sorted(path.name for path in folder.iterdir())
+    check(found == sorted(names), f"{folder} holds {found}, not {sorted(names)}")

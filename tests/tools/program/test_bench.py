@@ -1,0 +1,126 @@
+"""What `lobe bench` measures and writes."""
+
+import json
+import math
+import subprocess
+import sys
+
+import tap
+from program import ROOT, check, fresh_folder, leaves, report, succeeds
+
+QUICK = ["--size", "48x32", "--samples", "4", "--frames", "3"]
+FILTERS = ["direct", "mipmap", "lobes", "reference"]
+
+
+def is_number(value, least=0):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and \
+        math.isfinite(value) and value >= least
+
+
+def check_keys(thing, *names):
+    check(all(name in thing for name in names), f"{sorted(thing)} lacks one of {names}")
+
+
+def check_quantiles(thing, median, p95):
+    check(is_number(thing[median]) and is_number(thing[p95], thing[median]), str(thing))
+
+
+def check_error(error):
+    check(sorted(error) == ["flip", "relative_l1", "relative_l2"], str(error))
+    check(all(is_number(value) for value in error.values()), str(error))
+
+
+def check_result(result):
+    check_keys(result, "scene", "filter", "size", "knobs", "passes", "rebuilt_ms", "retained_ms",
+               "memory_bytes", "bytes_per_texel", "error", "error_lobe_base")
+    check(result["size"] == [48, 32], str(result["size"]))
+    check(result["passes"], "no passes")
+    for one in result["passes"]:
+        check(sorted(one) == ["median_ms", "name", "p95_ms"], str(one))
+        check_quantiles(one, "median_ms", "p95_ms")
+    for name in ("rebuilt_ms", "retained_ms"):
+        check(sorted(result[name]) == ["median", "p95"], str(result[name]))
+        check_quantiles(result[name], "median", "p95")
+    check(is_number(result["memory_bytes"], 1), "memory")
+    check(is_number(result["bytes_per_texel"]), "bytes per texel")
+    check_error(result["error"])
+    check_error(result["error_lobe_base"])
+
+
+def measure(folder, *arguments):
+    result = succeeds("bench", *arguments, "--json", folder / "a.json")
+    return result, json.loads((folder / "a.json").read_text())
+
+
+def test_json_has_its_form():
+    folder = fresh_folder("form")
+    result, bench = measure(folder, "tablecloth", "bumps", *QUICK)
+    leaves(folder, "a.json")
+    check_keys(bench, "lobe", "device", "results")
+    check(bench["lobe"] == succeeds("--version").stdout.split()[1], "version")
+    check(sorted(bench["device"]) == ["driver", "name", "type"], str(bench["device"]))
+    check(bench["device"]["name"] in result.stdout, report(result))
+    measured = [(one["scene"], one["filter"]) for one in bench["results"]]
+    check(measured == [(scene, name) for scene in ("tablecloth", "bumps") for name in FILTERS],
+          str(measured))
+    for one in bench["results"]:
+        check_result(one)
+
+
+def test_what_is_measured_makes_sense():
+    _, bench = measure(fresh_folder("sense"), "tablecloth", *QUICK)
+    results = {one["filter"]: one for one in bench["results"]}
+    passes = {name: [one["name"] for one in result["passes"]] for name, result in results.items()}
+    check("lobe_clustering" in passes["lobes"] and "lobe_clustering" not in passes["direct"],
+          str(passes))
+    check(results["direct"]["bytes_per_texel"] == 0, "direct has no maps")
+    check(results["lobes"]["bytes_per_texel"] > 1, "lobes has maps")
+    check(results["lobes"]["memory_bytes"] > results["direct"]["memory_bytes"], "maps take memory")
+    check(results["lobes"]["rebuilt_ms"]["median"] > results["lobes"]["retained_ms"]["median"],
+          "building maps takes time")
+    check(0 < results["reference"]["error"]["relative_l2"] <
+          results["direct"]["error"]["relative_l2"], "the reference is nearer to the truth")
+
+
+def test_two_truths():
+    # The base lobes of bumps are GGX, those of the tablecloth are von Mises-Fisher lobes already.
+    _, bench = measure(fresh_folder("truths"), "bumps", "tablecloth", "--filters", "direct", *QUICK)
+    bumps, cloth = bench["results"]
+    check(bumps["error"] != bumps["error_lobe_base"], "one truth, not two")
+    check(cloth["error"] == cloth["error_lobe_base"], "two truths, not one")
+
+
+def test_times_of_a_software_renderer_are_labelled():
+    result, bench = measure(fresh_folder("label"), "bumps", "--filters", "direct", *QUICK)
+    check(bench["device"]["type"] == "CPU", str(bench["device"]))
+    check("software renderer" in result.stdout, report(result))
+
+
+def test_knobs_are_set_and_recorded():
+    _, bench = measure(fresh_folder("knobs"), "tablecloth", "--filters", "direct,lobes", *QUICK,
+                       "--set", "epsilon0=0.5", "--set", "base=lobe")
+    direct, lobes = bench["results"]
+    check(lobes["knobs"]["epsilon0"] == 0.5 and lobes["knobs"]["threshold"] == "length", str(lobes))
+    check("epsilon0" not in direct["knobs"] and direct["knobs"]["base"] == "lobe", str(direct))
+    check(direct["error"] == direct["error_lobe_base"], "both truths have base=lobe")
+
+
+def test_progress_goes_to_standard_error():
+    result = succeeds("bench", "bumps", "--filters", "direct", *QUICK)
+    check("reference" in result.stderr and "times of 3 frames" in result.stderr, report(result))
+    check("\033" not in result.stderr + result.stdout, "control characters outside a terminal")
+
+
+def test_tables_are_made_from_json():
+    # The script that fills the README reads what the program wrote.
+    folder = fresh_folder("tables")
+    measure(folder, "tablecloth", "bumps", *QUICK)
+    result = subprocess.run([sys.executable, ROOT / "tools/targets", "--json", folder / "a.json"],
+                            capture_output=True, text=True, check=False)
+    check(result.returncode == 0, result.stderr)
+    check("| error(lobes) / error(mipmap) |" in result.stdout, result.stdout)
+    check(result.stdout.count("| tablecloth |") >= 4, result.stdout)
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))

@@ -1,0 +1,102 @@
+"""Installs the library, and builds and runs programs of others against it: the README's own, in C
+and linked statically too, and one in C++."""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import tap
+from program import FOLDER, ROOT, check
+
+BUILD = Path(sys.argv[3]).resolve()
+C_COMPILER, CPP_COMPILER = sys.argv[4].split(), sys.argv[5].split()
+TARGET = FOLDER / "installed"
+
+CPP_PROGRAM = """
+#include <cstdio>
+#include <lobe/lobe.h>
+int main() {
+    lobe_settings settings;
+    const lobe_filter *filter = nullptr;
+    if (lobe_filter_find("lobes", nullptr, &filter) != LOBE_OK)
+        return 1;
+    lobe_settings_default(filter, &settings);
+    std::printf("%s %g\\n", lobe_version(), lobe_settings_get(filter, &settings, "epsilon0"));
+}
+"""
+
+
+def run(command, **environment):
+    result = subprocess.run(command, env={**os.environ, **environment}, text=True, check=False,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    check(result.returncode == 0, f"{shlex.join(map(str, command))}\n{result.stdout}")
+    return result.stdout
+
+
+def installed(pattern):
+    found = sorted(TARGET.rglob(pattern))
+    check(found, f"no {pattern} was installed")
+    return found[0]
+
+
+def flags(folder, *options):
+    """What pkg-config says of the library installed under another root."""
+    package = next(folder.rglob("lobe.pc"))
+    return run(["pkg-config", *options, "lobe"], PKG_CONFIG_PATH=str(package.parent),
+               PKG_CONFIG_SYSROOT_DIR=str(folder)).split()
+
+
+def readme_program():
+    return re.search(r"```c\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1]
+
+
+def test_install():
+    run(["meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", TARGET])
+    for pattern in ("bin/lobe", "liblobe.a", "liblobe.so", "lobe.pc", "lobe/lobe.h",
+                    "lobe/result.h"):
+        installed(pattern)
+
+
+def test_every_public_header_is_installed():
+    for path in ROOT.glob("*/include/lobe/*.h"):
+        installed(f"lobe/{path.name}")
+
+
+def test_installed_program_runs():
+    output = run([installed("bin/lobe"), "--version"])
+    check(output.startswith("lobe "), output)
+
+
+def test_program_in_c():
+    source = FOLDER / "embed.c"
+    source.write_text(readme_program())
+    run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", source, "-o",
+         FOLDER / "embed", *flags(TARGET, "--cflags", "--libs")])
+    run([FOLDER / "embed"], LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+
+
+def test_program_in_c_linked_statically():
+    static = FOLDER / "static"
+    shutil.copytree(TARGET, static, symlinks=True)
+    for library in static.rglob("liblobe.so*"):
+        library.unlink()
+    run([*C_COMPILER, "-std=c17", FOLDER / "embed.c", "-o", FOLDER / "embed-static",
+         *flags(static, "--static", "--cflags", "--libs")])
+    run([FOLDER / "embed-static"])
+
+
+def test_program_in_cpp():
+    source = FOLDER / "settings.cpp"
+    source.write_text(CPP_PROGRAM)
+    run([*CPP_COMPILER, "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", source, "-o",
+         FOLDER / "settings", *flags(TARGET, "--cflags", "--libs")])
+    output = run([FOLDER / "settings"], LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+    check(output.split()[1] == "0.95", output)
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))

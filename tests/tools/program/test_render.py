@@ -1,0 +1,209 @@
+"""What `lobe render` writes and prints."""
+
+import sys
+
+import tap
+from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
+from program import SMALL, check, fresh_folder, leaves, report, succeeds
+
+DIRECT = ["--filter", "direct", *SMALL]
+
+
+def compare(test, reference):
+    """The metrics of `lobe compare`, by name."""
+    lines = succeeds("compare", test, reference).stdout.splitlines()
+    return {name: float(value) for name, value in (line.split() for line in lines)}
+
+
+def is_lit(path):
+    return len(set(png_read(path)[2])) > 1
+
+
+def mean(path):
+    pixels = png_read(path)[2]
+    return sum(map(sum, pixels)) / len(pixels)
+
+
+def test_both_outputs_at_once():
+    folder = fresh_folder("both")
+    result = succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
+    leaves(folder, "a.exr", "a.png")
+    check("shading" in result.stdout and "whole frame" in result.stdout, report(result))
+    width, height, pixels = png_read(folder / "a.png")
+    check((width, height) == (32, 24) and len(set(pixels)) > 1, f"{width}x{height}")
+    header = exr_header(folder / "a.exr")
+    check(header["dataWindow"] == (0, 0, 31, 23), str(header))
+    check(header["channels"] == {name: "half" for name in "ABGR"}, str(header))
+    check(header["compression"] in (b"\2", b"\3"), "not ZIP")
+    check("chromaticities" in header, "no chromaticities")
+
+
+def test_metadata():
+    folder = fresh_folder("metadata")
+    succeeds("render", "tablecloth", *SMALL, "--set", "epsilon0=0.5", "--set", "subdivision=1",
+             "--set", "threshold=dispersion", "-o", folder / "a.exr")
+    header = exr_header(folder / "a.exr")
+    expected = {"scene": "tablecloth", "filter": "lobes", "samples": 1, "knob.epsilon0": 0.5,
+                "knob.subdivision": 1, "knob.threshold": "dispersion", "knob.view": "radiance",
+                "lobeVersion": succeeds("--version").stdout.split()[1]}
+    for name, value in expected.items():
+        check(header.get(name) == value, f"{name}: {header.get(name)}, not {value}")
+    knobs = [name for name in header if name.startswith("knob.")]
+    listed = succeeds("filters").stdout.split("\nlobes: ")[1].split("\n\n")[0]
+    check(all(name[5:] in listed for name in knobs) and len(knobs) >= 10, str(knobs))
+    device = succeeds("info").stdout.split("Device in use:")[1]
+    check(header["device"] in device and header["driver"] in device, str(header))
+    check(header["milliseconds"] > 0 and header["milliseconds.shading"] > 0, str(header))
+
+
+def test_samples_are_recorded():
+    folder = fresh_folder("samples")
+    result = succeeds("render", "bumps", "--filter", "reference", "--samples", "5", *SMALL, "-o",
+                      folder / "a.exr")
+    check(exr_header(folder / "a.exr")["samples"] == 5, "samples")
+    check("5 samples" in result.stdout, report(result))
+
+
+def test_depth():
+    folder = fresh_folder("depth")
+    succeeds("render", "bumps", *DIRECT, "--depth", "float", "-o", folder / "float.exr")
+    succeeds("render", "bumps", *DIRECT, "--depth", "half", "-o", folder / "half.exr")
+    check(exr_header(folder / "float.exr")["channels"]["R"] == "float", "float")
+    check(exr_header(folder / "half.exr")["channels"]["R"] == "half", "half")
+    error = compare(folder / "half.exr", folder / "float.exr")["relative_l2"]
+    check(0 < error < 2**-11, f"half differs from float by {error}")
+
+
+def test_layers():
+    folder = fresh_folder("layers")
+    succeeds("render", "tablecloth", *SMALL, "--aov", "-o", folder / "a.exr")
+    channels = exr_header(folder / "a.exr")["channels"]
+    layers = ["normal.X", "normal.Y", "normal.Z", "depth.Z", "lobes.count", "level.MIP"]
+    check(sorted(channels) == sorted(["R", "G", "B", "A", *layers]), str(channels))
+    check(all(channels[name] == "float" for name in layers), str(channels))
+
+
+def test_frames_keep_their_maps():
+    folder = fresh_folder("frames")
+    succeeds("render", "tablecloth", *SMALL, "-o", folder / "one.exr")
+    result = succeeds("render", "tablecloth", *SMALL, "--frames", "3", "-o", folder / "three.exr",
+                      "--graph", folder / "three.txt")
+    frames = {line.split()[0]: line.split()[-2] for line in result.stdout.splitlines()[2:]}
+    check(frames["lobe_clustering"] == "1" and frames["shading"] == "3", report(result))
+    check(compare(folder / "three.exr", folder / "one.exr")["rmse"] == 0, "frames differ")
+    check("skipped" in (folder / "three.txt").read_text(), "no pass was skipped")
+
+
+def test_graph():
+    folder = fresh_folder("graph")
+    for name in ("a.dot", "a.txt"):
+        succeeds("render", "bumps", *DIRECT, "-o", folder / "a.png", "--graph", folder / name)
+    leaves(folder, "a.dot", "a.png", "a.txt")
+    check((folder / "a.dot").read_text().startswith("digraph"), "no Graphviz")
+    text = (folder / "a.txt").read_text()
+    check("shading" in text and not text.startswith("digraph"), text)
+
+
+def test_views_are_heat_maps():
+    folder = fresh_folder("views")
+    pictures = set()
+    for view in ("radiance", "lobes", "level"):
+        path = folder / f"{view}.png"
+        succeeds("render", "tablecloth", *SMALL, "--set", f"view={view}", "-o", path)
+        pictures.add(tuple(png_read(path)[2]))
+    check(len(pictures) == 3, "views look alike")
+
+
+def test_lights():
+    folder = fresh_folder("lights")
+    dark, lamp, sun = (folder / name for name in ("dark.png", "lamp.png", "sun.png"))
+    succeeds("render", "bumps", *DIRECT, "--light", "directional:0,-1,0:0,0,0", "-o", dark)
+    succeeds("render", "bumps", *DIRECT, "--light", "point:0,1,0:9,9,9", "-o", lamp)
+    succeeds("render", "bumps", *DIRECT, "--light", "directional:0,-1,-1:3,3,3", "-o", sun)
+    check(set(png_read(dark)[2]) == {(0, 0, 0)}, "light without intensity lights")
+    check(is_lit(lamp) and is_lit(sun) and png_read(lamp) != png_read(sun), "lights look alike")
+
+
+def test_lights_add_up():
+    folder = fresh_folder("sum")
+    lights = ["--light", "point:0,1,0:9,9,9", "--light", "directional:0,-1,-1:1,2,3"]
+    twice = [lights[0], "point:0,1,0:18,18,18", lights[2], "directional:0,-1,-1:2,4,6"]
+    floats = [*DIRECT, "--depth", "float", "-o"]
+    succeeds("render", "bumps", *lights, *lights, *floats, folder / "four.exr")
+    succeeds("render", "bumps", *twice, *floats, folder / "two.exr")
+    error = compare(folder / "four.exr", folder / "two.exr")["relative_l2"]
+    check(error < 1e-6, f"lights do not add up: {error}")
+
+
+def test_camera():
+    folder = fresh_folder("camera")
+    camera = ["--eye", "0,2,2", "--target", "0,0,0"]
+    for name, options in {"scene": [], "moved": camera, "again": camera,
+                          "wide": [*camera, "--fov", "80"]}.items():
+        succeeds("render", "bumps", *DIRECT, *options, "-o", folder / f"{name}.exr")
+    check(compare(folder / "again.exr", folder / "moved.exr")["rmse"] == 0, "not reproducible")
+    check(compare(folder / "moved.exr", folder / "scene.exr")["rmse"] > 0, "the eye does nothing")
+    check(compare(folder / "wide.exr", folder / "moved.exr")["rmse"] > 0, "--fov does nothing")
+
+
+def test_exposure():
+    folder = fresh_folder("exposure")
+    means = []
+    for stops in ("-1", "0", "1"):
+        succeeds("render", "bumps", *DIRECT, "--exposure", stops, "-o", folder / "a.png")
+        means.append(mean(folder / "a.png"))
+    check(means[0] < means[1] < means[2], str(means))
+
+
+def test_options_that_do_nothing_are_told():
+    folder = fresh_folder("ignored")
+    for options, output in ((["--aov"], "a.png"), (["--depth", "float"], "a.png"),
+                            (["--exposure", "1"], "a.exr"), (["--samples", "4"], "a.exr")):
+        result = succeeds("render", "bumps", *DIRECT, *options, "-o", folder / output)
+        check(result.stderr.count("\n") == 1 and f"warning: {options[0]}" in result.stderr,
+              report(result))
+
+
+def test_quiet_where_there_is_nothing_to_say():
+    folder = fresh_folder("quiet")
+    result = succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
+    check(result.stderr == "", report(result))
+
+
+def test_device_from_the_environment():
+    succeeds("render", "bumps", *DIRECT, "-o", "a.png", LOBE_DEVICE="llvmpipe")
+    succeeds("render", "bumps", *DIRECT, "-o", "a.png", "--device", "LLVM", LOBE_DEVICE="abacus")
+
+
+def test_validation_is_silent():
+    for filter_name in ("direct", "lobes"):
+        result = succeeds("render", "tablecloth", "--filter", filter_name, *SMALL, "--validation",
+                          "--aov", "-o", "a.exr")
+        check(result.stderr == "", report(result))
+
+
+def test_gltf_file():
+    folder = fresh_folder("gltf")
+    gltf_write(folder / "a.gltf", gltf_triangle())
+    result = succeeds("render", folder / "a.gltf", *SMALL, "-o", folder / "a.png")
+    check("camera" in result.stderr and "light" in result.stderr, report(result))
+    check(is_lit(folder / "a.png"), "a dark triangle")
+    leaves(folder, "a.gltf", "a.png")
+
+
+def test_material_folder():
+    folder = fresh_folder("material")
+    png_write(folder / "paint_albedo.png", 8, 8, (200, 40, 40))
+    png_write(folder / "paint_normal.png", 8, 8, (140, 128, 250))
+    pictures = set()
+    for carrier in ("plane", "sphere"):
+        succeeds("render", "--material", folder, "--carrier", carrier, *SMALL, "-o",
+                 folder / "out.png")
+        check(is_lit(folder / "out.png"), f"a dark {carrier}")
+        pictures.add(tuple(png_read(folder / "out.png")[2]))
+        (folder / "out.png").unlink()
+    check(len(pictures) == 2, "plane and sphere look alike")
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))
