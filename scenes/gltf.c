@@ -1,5 +1,6 @@
 #include "scenes/gltf.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,17 +13,25 @@
 // ---------------------------------------------------------------------------------------------
 // From the file to the document
 
-// What happened to a buffer's file, of which tinygltf only hears that it cannot be read.
+// What happened to a buffer's file, of which tinygltf only hears that it cannot be read. The line
+// waits until parsing has failed: of an image, which tinygltf may take for one, it does not fail.
 typedef struct buffer_reader {
     const char *path;
-    const lobe_log *log;
     lobe_result result;
+    char line[1024];
 } buffer_reader;
+
+static void keep_line(void *user, lobe_log_level level, const char *message) {
+    buffer_reader *reader = user;
+    if (level == LOBE_LOG_ERROR)
+        snprintf(reader->line, sizeof reader->line, "%s", message);
+}
 
 static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
+    lobe_log log = {keep_line, reader};
     void *bytes = NULL;
-    reader->result = scene_read_file(path, reader->path, reader->log, &bytes, size);
+    reader->result = scene_read_file(path, reader->path, &log, &bytes, size);
     return bytes;
 }
 
@@ -33,7 +42,7 @@ static lobe_result parse(const gltf_container *container, const char *path, cons
     if (!folder)
         return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     char message[256];
-    buffer_reader reader = {path, log, LOBE_OK};
+    buffer_reader reader = {.path = path};
     gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
                           .size = container->binary ? container->size : container->json_size,
                           .binary = container->binary,
@@ -45,7 +54,7 @@ static lobe_result parse(const gltf_container *container, const char *path, cons
     if (*document)
         return LOBE_OK;
     if (reader.result != LOBE_OK)
-        return reader.result; // scene_read_file has logged it
+        return scene_report_error(log, reader.result, "%s", reader.line);
     bool malformed = *message != 0;
     return scene_report_error(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY,
                               "%s: %s", path, malformed ? message : "out of memory");

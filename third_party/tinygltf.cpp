@@ -48,7 +48,8 @@ struct Reading {
 };
 
 // tinygltf asks through the same callback for buffers, which come first in its order, and for
-// images, which we read ourselves and only when a material uses them.
+// images, which we read ourselves and only when a material uses them. Where a file has nothing
+// between the two, nothing uses its images either, and it does no harm to read them.
 bool file_exists(const std::string &, void *user) {
     const tinygltf::Model &model = *static_cast<Reading *>(user)->model;
     return model.bufferViews.empty() && model.accessors.empty() && model.meshes.empty() &&

@@ -337,6 +337,16 @@ static void bad_images_name_file_and_cause(void **state) {
     gltf_fixture_must_fail(*state, "bad.glb", LOBE_ERROR_MALFORMED, "bad.png: broken PNG");
 }
 
+static void unused_images_need_not_exist(void **state) {
+    gltf_fixture_write_text(
+        *state, "unused.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"images\":[{\"uri\":\"absent.png\"}],"
+        "\"textures\":[{\"source\":0}]}");
+    lobe_scene *scene = gltf_fixture_must_open(*state, "unused.gltf");
+    assert_int_equal(scene->image_count, 0);
+    lobe_scene_destroy(&scene);
+}
+
 static void dangling_references_are_named(void **state) {
     static const struct {
         const char *root, *cause;
@@ -373,6 +383,7 @@ int main(void) {
         cmocka_unit_test(everything_may_be_embedded),
         cmocka_unit_test(names_of_files_are_percent_encoded),
         cmocka_unit_test(bad_images_name_file_and_cause),
+        cmocka_unit_test(unused_images_need_not_exist),
         cmocka_unit_test(dangling_references_are_named),
     };
     return cmocka_run_group_tests_name("glTF materials", tests, gltf_fixture_setup,
