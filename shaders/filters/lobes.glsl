@@ -42,6 +42,7 @@ struct appearance {
     float weight;        // share of the appearance; for a von Mises-Fisher lobe times its peak
     vec3 colour;         // half-vector lobes: of the lobe
     vec3 diffuse;        // albedo in the first part, which brings the Lambert part, else 0
+    float spread;        // [0, 1]: how much of the lobe's breadth is texels' normals pointing apart
     // Where the walk is.
     bool entered;  // past the first part
     int base_lobe; // next base lobe
@@ -130,6 +131,7 @@ void take_base_lobe(inout appearance walk) {
     walk.concentration =
         microfacets ? walk.base.width : half_vector_lobe_parameter(i, walk.base.width);
     walk.weight = walk.base_share;
+    walk.spread = 0.0;
     if (BASE_IS_LOBE) {
         walk.concentration = base_lobe_concentration(DISTRIBUTION, walk.concentration);
         walk.weight *= von_mises_fisher_peak(walk.concentration);
@@ -171,6 +173,7 @@ void take_cluster(inout appearance walk) {
     walk.axis = mean_direction(moment.xyz, vec3(0.0, 0.0, 1.0));
     walk.concentration = concentration_from_complement(complement);
     walk.weight = share * moment.w * von_mises_fisher_peak(walk.concentration);
+    walk.spread = clamp(1.0 - walk.base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
     walk.colour = walk.filtered.specular * mixture_colour();
     walk.lobe_count += share * moment.w > LEAST_WEIGHT ? 1.0 : 0.0;
 
@@ -249,6 +252,14 @@ float evaluate_lobe(appearance walk, vec3 halfway) {
     return walk.weight * exp(-0.5 * walk.concentration * difference_squared(direction, walk.axis));
 }
 
+// The mean normal of the texels that reflect about `halfway`, for their cosines and masking. With
+// texels' normals and base lobes both about normal, of variances that add up to the lobe's, the
+// mean of the normals where their sum is given divides as the variances do.
+vec3 reflecting_normal(appearance walk, vec3 halfway) {
+    vec3 axis = walk.axis * walk.mixture_from_tangent;
+    return mean_direction(mix(axis, halfway, walk.spread), axis);
+}
+
 vec3 evaluate_part(appearance walk, surface_point surface, vec3 incoming) {
     if (incoming.z <= 0.0)
         return vec3(0.0);
@@ -256,10 +267,9 @@ vec3 evaluate_part(appearance walk, surface_point surface, vec3 incoming) {
     float distribution = evaluate_lobe(walk, halfway);
     if (MODEL == MODEL_MICROFACET) {
         base_material frame = walk.filtered;
-        if (walk.of_base) {
-            frame.normal = walk.base.normal;
+        frame.normal = reflecting_normal(walk, halfway);
+        if (walk.of_base)
             frame.width = walk.base.width;
-        }
         frame.diffuse = walk.diffuse;
         return evaluate_microfacets(frame, walk.diffuse_normal, distribution, halfway,
                                     surface.outgoing, incoming);
