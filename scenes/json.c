@@ -284,7 +284,7 @@ static bool check_string(json_parser *parser, const json_schema *schema) {
 }
 
 static bool check_number(json_parser *parser, const json_schema *schema) {
-    json_number number;
+    json_number number = {0};
     if (!read_number(parser, &number))
         return false;
     bool index = schema->kind == JSON_INDEX;

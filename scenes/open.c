@@ -1,10 +1,24 @@
+#include <errno.h>
+#include <stdbool.h>
+#include <unistd.h>
+
 #include <lobe/scene.h>
 
 #include "scenes/builtin.h"
 #include "scenes/gltf.h"
+#include "scenes/report.h"
+
+static bool is_absent(const char *path) {
+    return access(path, F_OK) != 0 && errno != EACCES;
+}
 
 lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result) {
     *result = NULL;
     const builtin_scene *builtin = builtin_scene_find(scene);
-    return builtin ? builtin->build(log, result) : gltf_open(scene, log, result);
+    if (builtin)
+        return builtin->build(log, result);
+    if (is_absent(scene))
+        return scene_report_error(log, LOBE_ERROR_NOT_FOUND,
+                                  "%s: neither a built-in scene nor a file", scene);
+    return gltf_open(scene, log, result);
 }

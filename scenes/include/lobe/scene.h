@@ -137,7 +137,8 @@ typedef struct lobe_mesh {
 /// A mesh placed in the world with a material.
 typedef struct lobe_instance {
     uint32_t mesh, material;
-    float transform[16]; ///< object to world, column-major, affine
+    float transform[16]; ///< object to world, column-major, affine, determinant above 0: an
+                         ///< import gives mirrored instances a mirrored mesh
 } lobe_instance;
 
 typedef enum lobe_light_type {
@@ -175,7 +176,7 @@ typedef struct lobe_scene {
     lobe_light *lights;
     size_t light_count;
     lobe_camera camera;
-    bool has_camera;     ///< false: the file brought none; lobe_scene_complete sets a sensible one
+    bool has_camera;     ///< false: the file brought none; `camera` is one that frames the bounds
     float background[3]; ///< linear RGB radiance where nothing is hit
     float minimum[3], maximum[3]; ///< bounds of all instances in the world
 } lobe_scene;
@@ -194,8 +195,10 @@ size_t lobe_builtin_scene_count(void);
 const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
 /// Opens `scene`: the name of a built-in scene, or the path of a .gltf or .glb file.
-/// Unsupported parts of a file are named in one warning. A missing camera or light is added,
-/// with a notice. On failure `*result` is NULL and the log has one line that names the file and
+/// Of a file, what its default scene reaches is imported. Unsupported parts are named in one
+/// warning; triangles without area are dropped and normals of length zero recomputed, each
+/// counted in a warning. Triangles without normals are flat, as glTF asks. A missing camera or
+/// light is added, with a notice. On failure `*result` is NULL and the log has one line that names the file and
 /// the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
 /// _OUT_OF_MEMORY.
 lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
