@@ -67,15 +67,17 @@ struct appearance {
 };
 
 mat3 mixture_frame(surface_point surface) {
+    // A mesh's mixtures are those of its front; behind, both they and the frame are reversed.
+    mat3 world_from_front = front_side() ? surface.world_from_tangent : -surface.world_from_tangent;
     if (SPACE == SPACE_OBJECT) {
         // Of a rotation and a uniform scale the transpose is the inverse but for the length.
         mat3 world_from_object =
             transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));
-        mat3 frame = transpose(world_from_object) * surface.world_from_tangent;
+        mat3 frame = transpose(world_from_object) * world_from_front;
         return frame * inversesqrt(dot(frame[0], frame[0]));
     }
     if (SPACE == SPACE_CAMERA)
-        return mat3(frame.world_to_camera) * surface.world_from_tangent;
+        return mat3(frame.world_to_camera) * world_from_front;
     return mat3(1.0);
 }
 
