@@ -207,6 +207,11 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
                                 engine_hazard hazard) {
     if (from == to)
         return true;
+    engine_dependency_edge *last = graph->edge_count ? &graph->edges[graph->edge_count - 1] : NULL;
+    if (last && last->from == from && last->to == to) { // as for the subresource before
+        last->hazards |= hazard;
+        return true;
+    }
     if (!engine_array_reserve((void **)&graph->edges, &graph->edge_capacity,
                               (uint64_t)graph->edge_count + 1, sizeof *graph->edges))
         return fail_memory(graph);

@@ -1,5 +1,7 @@
 #include "engine/dependency_graph.h"
 
+#include <string.h>
+
 #include "engine/growing_array.h"
 
 /// What one pass does to one subresource, all its accesses united.
@@ -27,49 +29,15 @@ typedef struct barrier_builder {
     uint32_t use_count, use_capacity;
     subresource_tracker *trackers; ///< by subresource
     bool *started;                 ///< by resource: something has used it
+    uint32_t *slots;   ///< by subresource: its use by the pass at hand, where that is one of its
+    uint32_t *general; ///< by resource: position + 1 of the pass whose reads disagree, or 0
 } barrier_builder;
-
-// ---------------------------------------------------------------------------------------------
-// One layout for all reads of a pass
-
-static bool ranges_meet(const lobe_range *a, const lobe_range *b) {
-    return a->first_level < b->first_level + b->level_count &&
-           b->first_level < a->first_level + a->level_count &&
-           a->first_layer < b->first_layer + b->layer_count &&
-           b->first_layer < a->first_layer + a->layer_count;
-}
-
-static bool layouts_disagree(const engine_dependency_graph *graph,
-                             const engine_dependency_pass *pass, uint32_t resource) {
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        for (uint32_t m = graph->accesses[n].next; m != ENGINE_DEPENDENCY_NONE;
-             m = graph->accesses[m].next) {
-            const engine_dependency_access *a = &graph->accesses[n], *b = &graph->accesses[m];
-            if (a->resource == resource && b->resource == resource &&
-                a->state.layout != b->state.layout && ranges_meet(&a->range, &b->range))
-                return true;
-        }
-    return false;
-}
-
-static void unite_layouts(engine_dependency_graph *graph, const engine_dependency_pass *pass) {
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
-         n = graph->accesses[n].next) {
-        engine_dependency_access *access = &graph->accesses[n];
-        if (access->kind == ENGINE_ACCESS_READ && access->state.layout != ENGINE_LAYOUT_GENERAL &&
-            layouts_disagree(graph, pass, access->resource))
-            for (uint32_t m = n; m != ENGINE_DEPENDENCY_NONE; m = graph->accesses[m].next)
-                if (graph->accesses[m].resource == access->resource &&
-                    graph->accesses[m].kind == ENGINE_ACCESS_READ)
-                    graph->accesses[m].state.layout = ENGINE_LAYOUT_GENERAL;
-    }
-}
 
 // ---------------------------------------------------------------------------------------------
 // What each pass does to each subresource
 
-static bool add_use(barrier_builder *builder, uint32_t position,
-                    const engine_dependency_access *access, uint32_t subresource) {
+static bool append_use(barrier_builder *builder, uint32_t position,
+                       const engine_dependency_access *access, uint32_t subresource) {
     if (!engine_array_reserve((void **)&builder->uses, &builder->use_capacity,
                               (uint64_t)builder->use_count + 1, sizeof *builder->uses))
         return false;
@@ -83,47 +51,70 @@ static bool add_use(barrier_builder *builder, uint32_t position,
     return true;
 }
 
+/// Unites this with what the pass does to the subresource already. Two reads may want different
+/// layouts; then all reads of the resource by the pass are to make do with the general one.
+static bool add_use(barrier_builder *builder, uint32_t position, uint32_t first,
+                    const engine_dependency_access *access, uint32_t subresource) {
+    const engine_dependency_resource *resource = &builder->graph->resources[access->resource];
+    uint32_t *slot = &builder->slots[resource->first_subresource + subresource];
+    if (*slot < first || *slot >= builder->use_count) {
+        *slot = builder->use_count;
+        return append_use(builder, position, access, subresource);
+    }
+    engine_access_state *state = &builder->uses[*slot].state;
+    state->stages |= access->state.stages;
+    state->access |= access->state.access;
+    if (state->layout != access->state.layout)
+        builder->general[access->resource] = position + 1;
+    return true;
+}
+
+static bool add_uses_of_access(barrier_builder *builder, uint32_t position, uint32_t first,
+                               const engine_dependency_access *access) {
+    for (uint32_t n = 0; n < engine_access_size(access); n++)
+        if (!add_use(builder, position, first, access,
+                     engine_access_subresource(builder->graph, access, n)))
+            return false;
+    return true;
+}
+
+/// Gives the reads of resources that were marked so the general layout.
+static void unite_layouts(barrier_builder *builder, uint32_t position, uint32_t first) {
+    engine_dependency_graph *graph = builder->graph;
+    const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
+    for (uint32_t n = first; n < builder->use_count; n++)
+        if (!builder->uses[n].writes && builder->general[builder->uses[n].resource] == position + 1)
+            builder->uses[n].state.layout = ENGINE_LAYOUT_GENERAL;
+    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
+         n = graph->accesses[n].next) {
+        engine_dependency_access *access = &graph->accesses[n];
+        if (access->kind == ENGINE_ACCESS_READ &&
+            builder->general[access->resource] == position + 1)
+            access->state.layout = ENGINE_LAYOUT_GENERAL;
+    }
+}
+
 static int compare_uses(const void *a, const void *b) {
     const subresource_use *first = a, *second = b;
     if (first->resource != second->resource)
         return first->resource < second->resource ? -1 : 1;
-    if (first->subresource != second->subresource)
-        return first->subresource < second->subresource ? -1 : 1;
-    return 0;
-}
-
-/// Sorts the uses of one pass (from `first` on) and unites those of one subresource.
-static void unite_uses(barrier_builder *builder, uint32_t first) {
-    uint32_t count = builder->use_count - first;
-    if (count == 0)
-        return;
-    subresource_use *uses = builder->uses + first;
-    qsort(uses, count, sizeof *uses, compare_uses);
-    uint32_t kept = 0;
-    for (uint32_t n = 1; n < count; n++) {
-        if (compare_uses(&uses[kept], &uses[n]) == 0) {
-            uses[kept].state.stages |= uses[n].state.stages;
-            uses[kept].state.access |= uses[n].state.access;
-        } else {
-            uses[++kept] = uses[n];
-        }
-    }
-    builder->use_count = first + kept + 1;
+    return first->subresource < second->subresource ? -1 : first->subresource > second->subresource;
 }
 
 static bool list_uses(barrier_builder *builder) {
-    engine_dependency_graph *graph = builder->graph;
+    const engine_dependency_graph *graph = builder->graph;
     for (uint32_t position = 0; position < graph->running_count; position++) {
         const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
         uint32_t first = builder->use_count;
-        unite_layouts(graph, pass);
         for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
              n = graph->accesses[n].next)
-            for (uint32_t s = 0; s < engine_access_size(&graph->accesses[n]); s++)
-                if (!add_use(builder, position, &graph->accesses[n],
-                             engine_access_subresource(graph, &graph->accesses[n], s)))
-                    return false;
-        unite_uses(builder, first);
+            if (!add_uses_of_access(builder, position, first, &graph->accesses[n]))
+                return false;
+        unite_layouts(builder, position, first);
+        // Neighbours come to stand together, to share a barrier.
+        if (builder->use_count > first)
+            qsort(builder->uses + first, builder->use_count - first, sizeof *builder->uses,
+                  compare_uses);
     }
     return true;
 }
@@ -396,7 +387,11 @@ static bool builder_create(barrier_builder *builder) {
     size_t subresources = graph->subresource_count ? graph->subresource_count : 1;
     builder->trackers = calloc(subresources, sizeof *builder->trackers);
     builder->started = calloc(graph->resource_count + 1, sizeof *builder->started);
-    return builder->trackers && builder->started &&
+    builder->slots = malloc(subresources * sizeof *builder->slots);
+    if (builder->slots)
+        memset(builder->slots, 0xff, subresources * sizeof *builder->slots); // no use at all
+    builder->general = calloc(graph->resource_count + 1, sizeof *builder->general);
+    return builder->trackers && builder->started && builder->slots && builder->general &&
            engine_array_reserve((void **)&graph->end_layouts, &graph->end_layout_capacity,
                                 subresources, sizeof *graph->end_layouts);
 }
@@ -415,5 +410,7 @@ bool engine_dependency_barriers(engine_dependency_graph *graph) {
     free(builder.uses);
     free(builder.trackers);
     free(builder.started);
+    free(builder.slots);
+    free(builder.general);
     return fine;
 }

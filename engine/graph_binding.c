@@ -58,15 +58,16 @@ static bool check_block(const binding_site *site) {
 
 static bool check_view(const binding_site *site) {
     uint32_t layers = site->access->range.layer_count;
+    bool square = site->resource->width == site->resource->height;
     switch (site->variable->view) {
     case VK_IMAGE_VIEW_TYPE_2D:
         return layers == 1 || mismatch(site, "several layers, but the shader has no array there");
     case VK_IMAGE_VIEW_TYPE_2D_ARRAY:
         return true;
     case VK_IMAGE_VIEW_TYPE_CUBE:
-        return layers == 6 || mismatch(site, "a cube has six layers");
+        return (square && layers == 6) || mismatch(site, "a cube has six square layers");
     case VK_IMAGE_VIEW_TYPE_CUBE_ARRAY:
-        return layers % 6 == 0 || mismatch(site, "cubes have six layers each");
+        return (square && layers % 6 == 0) || mismatch(site, "cubes have six square layers each");
     default:
         return mismatch(site, "the shader has an image there that is not two-dimensional");
     }
@@ -94,6 +95,8 @@ static bool check_image(const binding_site *site) {
         return false;
     if (variable->type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
         return check_sampler(site);
+    if (site->resource->origin == ENGINE_GRAPH_TEXTURE)
+        return mismatch(site, "textures can only be sampled, not read as storage images");
     if (site->access->range.level_count != 1)
         return mismatch(site, "a storage image is a single level");
     if (variable->format != LOBE_FORMAT_NONE && variable->format != site->resource->format)

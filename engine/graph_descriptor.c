@@ -126,9 +126,12 @@ static lobe_result allocate_set(lobe_graph *graph, engine_graph_command *command
 }
 
 static lobe_result write_block(lobe_graph *graph, const engine_graph_resource *resource,
-                               VkWriteDescriptorSet *write) {
-    const VkDescriptorBufferInfo buffer = {
-        .buffer = resource->object->buffer, .offset = resource->offset, .range = resource->size};
+                               const engine_shader_binding *variable, VkWriteDescriptorSet *write) {
+    // Uniform blocks are limited in size, the buffers they lie in are not.
+    bool uniform = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    const VkDescriptorBufferInfo buffer = {.buffer = resource->object->buffer,
+                                           .offset = resource->offset,
+                                           .range = uniform ? variable->size : resource->size};
     write->pBufferInfo = &buffer;
     vkUpdateDescriptorSets(graph->device->vulkan, 1, write, 0, NULL);
     return LOBE_OK;
@@ -167,7 +170,7 @@ static lobe_result write_variable(lobe_graph *graph, const lobe_pass *pass,
     };
     bool block = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
                  variable->type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    return block ? write_block(graph, resource, &write)
+    return block ? write_block(graph, resource, variable, &write)
                  : write_image(graph, resource, binding, variable, &write);
 }
 

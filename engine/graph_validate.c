@@ -79,6 +79,10 @@ static bool link_read(engine_dependency_graph *graph, history *past,
 }
 
 static void remember_reader(history *past, subresource_history *now, uint32_t pass) {
+    // The draws of a pass may all read the same.
+    if (now->first_reader != ENGINE_DEPENDENCY_NONE &&
+        past->readers[now->first_reader].pass == pass)
+        return;
     past->readers[past->reader_count] = (reader_entry){.pass = pass, .next = now->first_reader};
     now->first_reader = past->reader_count++;
 }
@@ -129,13 +133,13 @@ static bool link_access(engine_dependency_graph *graph, history *past,
 static bool link_output(engine_dependency_graph *graph, history *past,
                         const engine_dependency_access *access) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
-    bool written = resource->imported;
+    bool written = false;
     for (uint32_t n = 0; n < engine_access_size(access); n++) {
         uint32_t subresource = engine_access_subresource(graph, access, n);
         subresource_history *now = &past->subresources[resource->first_subresource + subresource];
         graph->sources[access->first_source + n] = now->writer;
         now->wanted = now->writer != ENGINE_DEPENDENCY_NONE;
-        written = written || now->wanted;
+        written = written || now->wanted || has_content_at_start(resource, subresource);
     }
     return written || fail(graph, ENGINE_FAULT_NEVER_WRITTEN, access, 0);
 }

@@ -338,6 +338,56 @@ static void copies_between_levels(void **state) {
     assert_true(read_floats(fixture, small, 16)[0] == 50.5f);
 }
 
+/// A row of images, two of them alive at a time, each in memory that others had before.
+static void images_share_memory(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_graph_begin(fixture->graph);
+    lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_R32_FLOAT, 64, 64);
+    image = paint(fixture, image, 64, 64, 1);
+    for (int n = 0; n < 12; n++) {
+        // Sizes differ, so that places overlap in part.
+        uint32_t height = 64 + 32 * (uint32_t)(n % 3);
+        lobe_resource next = lobe_graph_image(
+            fixture->graph,
+            &(lobe_image_description){
+                .name = "next", .format = LOBE_FORMAT_R32_FLOAT, .width = 64, .height = height});
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "double");
+        lobe_pass_read(pass, &(lobe_binding){.name = "sampled", .resource = image});
+        lobe_pass_read(pass, &(lobe_binding){.name = "stored", .resource = image});
+        next = lobe_pass_write(pass, &(lobe_binding){.name = "sum", .resource = next});
+        lobe_pass_dispatch(
+            pass, &(lobe_dispatch){.shader = "graph_two_ways.comp", .threads = {64, height}});
+        image = next;
+    }
+    lobe_graph_read_back(fixture->graph, image, (lobe_range){0});
+    graph_fixture_execute(fixture);
+    const float *texels = read_floats(fixture, image, 64 * 128);
+    for (int n = 0; n < 64 * 64; n++)
+        assert_true(texels[n] == 4096.0f * (float)(n % 64 + 100 * (n / 64)));
+    const lobe_graph_report *report = lobe_graph_describe(fixture->graph);
+    assert_true(4 * report->transient_bytes < report->transient_bytes_without_aliasing);
+}
+
+static void a_cube_is_read(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_graph_begin(fixture->graph);
+    lobe_resource cube = lobe_graph_image(
+        fixture->graph,
+        &(lobe_image_description){
+            .name = "cube", .format = LOBE_FORMAT_R32_FLOAT, .width = 8, .height = 8, .layers = 6});
+    cube = paint(fixture, cube, 8, 8, 6);
+    lobe_resource faces = graph_fixture_buffer(fixture, "faces", 6 * sizeof(float));
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "look");
+    lobe_pass_read(pass, &(lobe_binding){.name = "cube", .resource = cube});
+    faces = lobe_pass_write(pass, &(lobe_binding){.name = "face_block", .resource = faces});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_cube.comp", .threads = {6}});
+    lobe_graph_read_back(fixture->graph, faces, (lobe_range){0});
+    graph_fixture_execute(fixture);
+    const float *data = read_floats(fixture, faces, 6);
+    for (int n = 0; n < 6; n++)
+        assert_int_equal((int)data[n] / 10000, n);
+}
+
 static void what_no_output_needs_does_not_run(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -443,6 +493,8 @@ int main(void) {
         TEST(one_pass_reads_one_image_in_two_ways),
         TEST(fills_and_copies),
         TEST(copies_between_levels),
+        TEST(images_share_memory),
+        TEST(a_cube_is_read),
         TEST(what_no_output_needs_does_not_run),
         TEST(a_kept_pass_runs_though_nothing_needs_it),
         TEST(an_empty_frame_is_fine),

@@ -6,7 +6,8 @@
 #include "tests/engine/graph_support.h"
 
 static void assert_contains(const char *text, const char *part) {
-    if (!strstr(text, part))
+    assert_non_null(text);
+    if (text && !strstr(text, part))
         fail_msg("no \"%s\" in:\n%s", part, text);
 }
 

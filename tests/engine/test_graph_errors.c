@@ -511,6 +511,25 @@ static void images_that_do_not_fit_the_shader(void **state) {
     expect_paint(fixture, samples, (lobe_range){0}, "graph_paint_plane.comp", "multisampled");
 }
 
+static void a_texture_is_only_sampled(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_texture *texture = NULL;
+    lobe_image image;
+    assert_int_equal(lobe_image_allocate(&image, LOBE_FORMAT_R32_FLOAT, 8, 8, NULL), LOBE_OK);
+    const lobe_texture_parameters parameters = {.name = "texture", .image = &image};
+    assert_int_equal(lobe_texture_create(fixture->device, &parameters, &texture), LOBE_OK);
+    lobe_image_free(&image);
+    lobe_pass *pass = begin_with(fixture, LOBE_PASS_COMPUTE);
+    lobe_resource source = lobe_graph_import_texture(fixture->graph, texture);
+    lobe_resource sum = graph_fixture_image(fixture, "sum", LOBE_FORMAT_R32_FLOAT, 8, 8);
+    lobe_pass_read(pass, &(lobe_binding){.name = "sampled", .resource = source});
+    lobe_pass_read(pass, &(lobe_binding){.name = "stored", .resource = source});
+    lobe_pass_write(pass, &(lobe_binding){.name = "sum", .resource = sum});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_two_ways.comp"});
+    GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", "'texture'", "'stored'", "sampled");
+    lobe_texture_destroy(&texture);
+}
+
 static void too_many_groups(void **state) {
     graph_fixture *fixture = *state;
     const uint32_t constants[2] = {0};
@@ -662,6 +681,7 @@ int main(void) {
         TEST(no_shader),
         TEST(block_larger_than_the_buffer),
         TEST(images_that_do_not_fit_the_shader),
+        TEST(a_texture_is_only_sampled),
         TEST(too_many_groups),
         TEST(attachments_that_do_not_fit),
         TEST(attachment_slots),
