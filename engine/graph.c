@@ -89,7 +89,7 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     return result;
 }
 
-/// What lives for one frame on the device: views of imports.
+/// The device must have finished with it.
 static void forget_frame(lobe_graph *graph) {
     engine_graph_forget_imports(graph);
     engine_dependency_graph_reset(&graph->dependencies);
@@ -146,29 +146,25 @@ static lobe_result derive_barriers(lobe_graph *graph) {
                                                             : engine_graph_fail_dependency(graph);
 }
 
-typedef struct compile_step {
-    lobe_result (*run)(lobe_graph *graph);
-} compile_step;
-
-static const compile_step compile_steps[] = {
-    {engine_graph_check_rasters},    // attachments fit each other
-    {engine_graph_resolve_bindings}, // names meet shaders: how each resource is used
-    {engine_graph_check_retained},   // kept objects fit these uses
-    {engine_graph_sign_passes},      // what would make a pass compute something else
-    {analyse},                       // sources, order, what runs, lifetimes
-    {engine_graph_release_retained}, // what this frame does not know any more
-    {engine_graph_find_pipelines},   // of what runs
-    {engine_graph_place_retained},   // memory of their own
-    {engine_graph_place_transients}, // memory shared between those not alive together
-    {derive_barriers},               // transitions, and waits for former tenants of the memory
-    {engine_graph_report_compiled},
+static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
+    engine_graph_check_rasters,    // attachments fit each other
+    engine_graph_resolve_bindings, // names meet shaders: how each resource is used
+    engine_graph_check_retained,   // kept objects fit these uses
+    engine_graph_sign_passes,      // what would make a pass compute something else
+    analyse,                       // sources, order, what runs, lifetimes
+    engine_graph_release_retained, // what this frame does not know any more
+    engine_graph_find_pipelines,   // of what runs
+    engine_graph_place_retained,   // memory of their own
+    engine_graph_place_transients, // memory shared between those not alive together
+    derive_barriers,               // transitions, and waits for former tenants of the memory
+    engine_graph_report_compiled,
 };
 
 lobe_result lobe_graph_compile(lobe_graph *graph) {
     if (graph->phase != ENGINE_GRAPH_DECLARING || graph->result != LOBE_OK)
         return graph->result;
     for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
-        lobe_result result = compile_steps[n].run(graph);
+        lobe_result result = compile_steps[n](graph);
         if (result != LOBE_OK)
             return engine_graph_propagate(graph, result);
     }
