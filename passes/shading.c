@@ -135,6 +135,8 @@ static void specialise_draw(const filter_context *context, size_t instance,
                count_lights(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
     specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
     specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
+    uint32_t lights = (uint32_t)scene->light_count;
+    specialise(list, SPECIALISE_LIGHTS_AT_ONCE, lights < 1 ? 1 : lights < 4 ? lights : 4);
     specialise(list, SPECIALISE_VIEW, (uint32_t)filter_setting(context, "view"));
     specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
     for (size_t i = 0; i < appearance->specialisation_count; ++i)

@@ -79,6 +79,17 @@ vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distributi
            microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
 }
 
+// All lobes with their colours, but for the specular map's.
+vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
+        sum += material.lobe_colour[i].rgb *
+               evaluate_half_vector_lobe(halfway, axis, half_vector_lobe_parameter(i, base.width));
+    }
+    return sum;
+}
+
 // Reflectance times cosine, for unit directions in the tangent frame. Nothing reaches a point
 // from below the macro-surface.
 vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
@@ -90,14 +101,7 @@ vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
         return evaluate_microfacets(base, base.normal, distribution, halfway, outgoing,
                                     incoming);
     }
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i) {
-        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
-        sum += material.lobe_colour[i].rgb *
-               evaluate_half_vector_lobe(halfway, axis,
-                                         half_vector_lobe_parameter(i, base.width));
-    }
-    sum *= base.specular;
+    vec3 sum = base.specular * evaluate_half_vector_lobes(base, halfway);
     if (DIFFUSE)
         sum += microfacet_diffuse(base.diffuse, vec3(0.0), dot(base.normal, incoming));
     return sum;

@@ -1,22 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Shades a pixel under punctual lights, from the appearance that the filter fetches there: a sum
-// of parts (say, lobes), each of which is fetched and then shaded under every light. The build
-// makes one variant of this shader for each file in filters/. What such a file brings:
+// Shades a pixel under punctual lights, from the appearance that the filter fetches there. The
+// build makes one variant of this shader for each file in filters/. What such a file brings:
 //
 //   struct appearance                           with emission, alpha, normal, lobe_count, level
-//   appearance fetch_appearance(surface_point)  what all parts share
-//   bool has_part(appearance)                   whether there is one more
-//   void next_part(inout appearance)            fetches it
-//   vec3 evaluate_part(appearance, surface_point, vec3 incoming)
-//                                               its reflectance times cosine for one direction
+//   appearance fetch_appearance(surface_point)  the appearance of the pixel's footprint
+//   void gather_lights(inout appearance, surface_point, vec3 incoming[4])
+//                                               prepares for up to LIGHTS_AT_ONCE directions,
+//                                               so that what is fetched serves them all
+//   vec3 evaluate_appearance(appearance, surface_point, vec3 incoming, uint light)
+//                                               reflectance times cosine for one of those
 
 #include "filter.glsl"
-#include "interface/light.h"
-#include "lib/light.glsl"
-
-layout(set = 0, binding = 2, std430) readonly buffer light_block { light lights[]; };
+#include "punctual_lights.glsl"
 
 layout(location = 0) out vec4 radiance_out;
 #ifdef AOV
@@ -24,37 +21,28 @@ layout(location = 1) out vec4 normal_depth_out;
 layout(location = 2) out vec2 lobes_level_out;
 #endif
 
-// Radiance reflected from one light: `incoming` is the unit direction to it in the world.
-vec3 reflected(appearance part, surface_point surface, vec3 incoming, vec3 irradiance) {
-    return irradiance * evaluate_part(part, surface, incoming * surface.world_from_tangent);
+vec3 incoming_direction(uint i, surface_point surface) {
+    return light_direction(i, surface.world_position) * surface.world_from_tangent;
 }
 
-// Radiance that one part of the appearance reflects from all lights.
-vec3 reflected_from_lights(appearance part, surface_point surface) {
+// Radiance from all lights, LIGHTS_AT_ONCE after LIGHTS_AT_ONCE.
+vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
     vec3 sum = vec3(0.0);
-    uint next = 0u;
-    if (DIRECTIONAL_LIGHTS) {
-        for (uint end = next + frame.directional_count; next < end; ++next)
-            sum += reflected(part, surface, lights[next].direction.xyz, lights[next].intensity.rgb);
-    }
-    if (POINT_LIGHTS) {
-        for (uint end = next + frame.point_count; next < end; ++next) {
-            vec3 to_light = lights[next].position.xyz - surface.world_position;
-            float attenuation = distance_attenuation(dot(to_light, to_light),
-                                                     lights[next].position.w);
-            sum += reflected(part, surface, normalize(to_light),
-                             lights[next].intensity.rgb * attenuation);
-        }
-    }
-    if (SPOT_LIGHTS) {
-        for (uint end = next + frame.spot_count; next < end; ++next) {
-            vec3 to_light = lights[next].position.xyz - surface.world_position;
-            vec3 incoming = normalize(to_light);
-            float attenuation =
-                distance_attenuation(dot(to_light, to_light), lights[next].position.w) *
-                cone_attenuation(incoming, lights[next].direction.xyz, lights[next].cone.x,
-                                 lights[next].cone.y);
-            sum += reflected(part, surface, incoming, lights[next].intensity.rgb * attenuation);
+    uint count = light_count();
+    for (uint first = 0u; first < count; first += LIGHTS_AT_ONCE) {
+        vec3 incoming[4];
+        incoming[0] = incoming_direction(first, surface);
+        incoming[1] = LIGHTS_AT_ONCE > 1u ? incoming_direction(min(first + 1u, count - 1u), surface)
+                                          : incoming[0];
+        incoming[2] = LIGHTS_AT_ONCE > 2u ? incoming_direction(min(first + 2u, count - 1u), surface)
+                                          : incoming[0];
+        incoming[3] = LIGHTS_AT_ONCE > 3u ? incoming_direction(min(first + 3u, count - 1u), surface)
+                                          : incoming[0];
+        gather_lights(fetched, surface, incoming);
+        for (uint i = 0u; i < LIGHTS_AT_ONCE && first + i < count; ++i) {
+            vec3 direction = light_direction(first + i, surface.world_position);
+            sum += light_irradiance(first + i, surface.world_position, direction) *
+                   evaluate_appearance(fetched, surface, direction * surface.world_from_tangent, i);
         }
     }
     return sum;
@@ -66,14 +54,11 @@ void main() {
     if (ALPHA_MASK && fetched.alpha < material.emissive.w)
         discard;
 
+    // Views of what it took to shade need the shading.
     vec3 value = vec3(0.0);
-    // Views and AOVs count the parts as well.
-    while (has_part(fetched)) {
-        next_part(fetched);
-        if (VIEW == VIEW_RADIANCE)
-            value += reflected_from_lights(fetched, surface);
-    }
-    if (EMISSION && VIEW == VIEW_RADIANCE)
+    if (DIRECTIONAL_LIGHTS || POINT_LIGHTS || SPOT_LIGHTS)
+        value = reflected_radiance(fetched, surface);
+    if (EMISSION)
         value += material.emissive.rgb * fetched.emission;
     if (VIEW == VIEW_LOBES)
         value = vec3(fetched.lobe_count);

@@ -23,6 +23,7 @@ layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_DIRECTIONAL_LIGHTS) const bool DIRECTIONAL_LIGHTS = false;
 layout(constant_id = SPECIALISE_POINT_LIGHTS) const bool POINT_LIGHTS = false;
 layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
+layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 

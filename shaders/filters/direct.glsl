@@ -4,8 +4,7 @@
 #include "unfiltered_maps.glsl"
 
 struct appearance {
-    base_material base; // the one part there is
-    bool done;
+    base_material base;
     vec3 emission;
     float alpha;
     vec3 normal;      // in the tangent frame
@@ -15,7 +14,6 @@ struct appearance {
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
-    result.done = false;
     result.base = unfiltered_material(surface);
     result.normal = result.base.normal;
     result.alpha = 1.0;
@@ -29,14 +27,9 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-bool has_part(appearance fetched) {
-    return !fetched.done;
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 
-void next_part(inout appearance fetched) {
-    fetched.done = true;
-}
-
-vec3 evaluate_part(appearance fetched, surface_point surface, vec3 incoming) {
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }

@@ -23,8 +23,12 @@ layout(constant_id = SPECIALISE_BLEND) const float BLEND = 0.05;
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
-// Base lobes are von Mises-Fisher lobes like those of the mixture.
-const bool BASE_IS_LOBE = BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF;
+// Base lobes that are like the mixture's are walked with them, so that a pixel without level 0
+// does not pay for them.
+bool base_in_walk() {
+    return MODEL == MODEL_HALF_VECTOR_LOBES &&
+           (BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF);
+}
 
 // Clusters with less of the footprint than this are left out.
 const float LEAST_WEIGHT = 1e-5;
@@ -35,35 +39,37 @@ const int NODE_SECTOR = 1;
 const int NODE_END = 13;
 
 struct appearance {
-    // The part at hand: one lobe, or one base lobe of level 0.
-    bool of_base;
-    vec3 axis;           // unit, in the mixtures' space
-    float concentration; // of a base lobe of another kind: its own parameter
-    float weight;        // share of the appearance; for a von Mises-Fisher lobe times its peak
-    vec3 colour;         // half-vector lobes: of the lobe
-    vec3 diffuse;        // albedo in the first part, which brings the Lambert part, else 0
-    float spread;        // [0, 1]: how much of the lobe's breadth is texels' normals pointing apart
-    // Where the walk is.
-    bool entered;  // past the first part
-    int base_lobe; // next base lobe
-    int node;      // next node
-    float share;        // of the appearance that the mixture stands for
-    float root_share;   // of that, what sectors stand for
-    float sector_share; // of that, what the halves of the sector at hand stand for
-    // What all parts share.
-    map_area area;
-    float base_share;       // [0, 1]: how much of the appearance is level 0
     base_material base;     // level 0; colours are taken from the footprint
     base_material filtered; // averaged over the footprint
-    vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
+    map_area area;
+    float base_share;       // [0, 1]: how much of the appearance is level 0
+    float mixture_scale;    // what lobes' weights are multiplied by
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
+    vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
+    vec4 distributions; // the mixture at the half vectors of the lights gathered last
+    float spread;       // [0, 1]: part of the breadth that is texels' normals pointing apart
     // Of the whole pixel.
     vec3 emission;
     float alpha;
     vec3 normal;
     float lobe_count;
     float level;
+};
+
+// One lobe of the mixture.
+struct lobe {
+    vec3 axis; // unit, in the mixtures' space
+    float concentration;
+    float weight; // share of the appearance times the lobe's peak
+};
+
+// Where a walk is.
+struct walk {
+    int base_lobe;      // next base lobe
+    int node;           // next node
+    float root_share;   // of the mixture, what sectors stand for
+    float sector_share; // of that, what the halves of the sector at hand stand for
 };
 
 mat3 mixture_frame(surface_point surface) {
@@ -123,26 +129,156 @@ float refinement(float complement, float base_complement, float epsilon) {
     return 1.0 - transition(measure, epsilon, BLEND);
 }
 
-// Takes the next base lobe of level 0.
-void take_base_lobe(inout appearance walk) {
-    int i = walk.base_lobe;
-    bool microfacets = MODEL == MODEL_MICROFACET;
-    vec3 axis = microfacets ? walk.base.normal
-                            : rotate_from_pole(walk.base.normal, material.lobe_direction[i].xyz);
-    walk.axis = walk.mixture_from_tangent * axis;
-    walk.concentration =
-        microfacets ? walk.base.width : half_vector_lobe_parameter(i, walk.base.width);
-    walk.weight = walk.base_share;
-    walk.spread = 0.0;
-    if (BASE_IS_LOBE) {
-        walk.concentration = base_lobe_concentration(DISTRIBUTION, walk.concentration);
-        walk.weight *= von_mises_fisher_peak(walk.concentration);
-        if (microfacets)
-            walk.weight /= von_mises_fisher_projected_area(walk.concentration);
+// The next base lobe of level 0. Those of other kinds are evaluated in evaluate_appearance.
+lobe take_base_lobe(inout walk at, inout appearance fetched) {
+    int i = at.base_lobe++;
+    lobe result;
+    result.axis = fetched.mixture_from_tangent *
+                  rotate_from_pole(fetched.base.normal, material.lobe_direction[i].xyz);
+    result.concentration = base_lobe_concentration(
+        DISTRIBUTION, half_vector_lobe_parameter(i, fetched.base.width));
+    result.weight = fetched.base_share * material.lobe_colour[i].w *
+                    von_mises_fisher_peak(result.concentration);
+    fetched.lobe_count += 1.0;
+    return result;
+}
+
+// The lobe of the next cluster; says which follows.
+lobe take_cluster(inout walk at, inout appearance fetched) {
+    int sector = (at.node - NODE_SECTOR) / 3;
+    int part = at.node - NODE_SECTOR - 3 * sector;
+    bool one = at.node == NODE_ONE;
+    bool is_sector = !one && part == 0;
+    int layer = one         ? MIXTURE_LAYER_ONE
+                : is_sector ? MIXTURE_LAYER_SECTORS + sector
+                            : MIXTURE_LAYER_HALVES + 2 * sector + part - 1;
+    vec4 moment = fetch_layer(fetched.area, layer);
+
+    float complement = resultant_complement(moment.xyz, moment.w);
+    float refine = 0.0;
+    if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
+        refine = refinement(complement, fetched.base_complement, one ? EPSILON_0 : EPSILON_1);
+    refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
+
+    float share = (one ? 1.0 : at.root_share) * (one || is_sector ? 1.0 : at.sector_share) *
+                  (1.0 - refine) * moment.w;
+    lobe result;
+    result.axis = mean_direction(moment.xyz, vec3(0.0, 0.0, 1.0));
+    result.concentration = concentration_from_complement(complement);
+    result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
+    fetched.lobe_count += share > LEAST_WEIGHT ? 1.0 : 0.0;
+
+    at.root_share = one ? refine : at.root_share;
+    at.sector_share = is_sector ? refine : at.sector_share;
+    int past = one ? NODE_END : NODE_SECTOR + 3 * (sector + 1);
+    at.node = refine > 0.0 || (!one && !is_sector) ? at.node + 1 : past;
+    return result;
+}
+
+walk start_walk(appearance fetched) {
+    walk at;
+    at.base_lobe = base_in_walk() && fetched.base_share > 0.0 ? 0 : int(LOBE_COUNT);
+    at.node = fetched.base_share < 1.0 ? (COARSEST == 0u ? NODE_ONE : NODE_SECTOR) : NODE_END;
+    at.root_share = 1.0;
+    at.sector_share = 0.0;
+    return at;
+}
+
+float evaluate_lobe(lobe one, vec3 direction) {
+    return one.weight *
+           exp(-0.5 * one.concentration * difference_squared(direction, one.axis));
+}
+
+vec3 mixture_half_vector(appearance fetched, surface_point surface, vec3 incoming) {
+    return fetched.mixture_from_tangent * half_vector(incoming, surface.outgoing);
+}
+
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (!MIXTURE)
+        return;
+    vec3 halfway_0 = mixture_half_vector(fetched, surface, incoming[0]);
+    vec3 halfway_1 = mixture_half_vector(fetched, surface, incoming[1]);
+    vec3 halfway_2 = mixture_half_vector(fetched, surface, incoming[2]);
+    vec3 halfway_3 = mixture_half_vector(fetched, surface, incoming[3]);
+    fetched.distributions = vec4(0.0);
+    fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    walk at = start_walk(fetched);
+    while (at.base_lobe < LOBE_COUNT || at.node < NODE_END) {
+        lobe next;
+        if (base_in_walk() && at.base_lobe < LOBE_COUNT)
+            next = take_base_lobe(at, fetched);
+        else
+            next = take_cluster(at, fetched);
+        fetched.distributions[0] += evaluate_lobe(next, halfway_0);
+        if (LIGHTS_AT_ONCE > 1u)
+            fetched.distributions[1] += evaluate_lobe(next, halfway_1);
+        if (LIGHTS_AT_ONCE > 2u)
+            fetched.distributions[2] += evaluate_lobe(next, halfway_2);
+        if (LIGHTS_AT_ONCE > 3u)
+            fetched.distributions[3] += evaluate_lobe(next, halfway_3);
     }
-    walk.colour = walk.filtered.specular * material.lobe_colour[i].rgb;
-    walk.lobe_count += 1.0;
-    ++walk.base_lobe;
+}
+
+// Prepares for the walk over the mixture.
+void enter_mixture(inout appearance fetched, surface_point surface) {
+    fetched.area = lobe_area(surface);
+    fetched.level = fetched.area.level;
+    fetched.base_share = clamp(1.0 - fetched.level, 0.0, 1.0);
+    fetched.mixture_from_tangent = mixture_frame(surface);
+    float coverage;
+    vec4 mean = fetch_mean(fetched.area, coverage);
+    fetched.base_complement = mean.w;
+    // A mixture over a part of the texels stands for all of them.
+    fetched.mixture_scale = (1.0 - fetched.base_share) / coverage;
+    // A distribution of normals is normalised to projected area one, a lobe to area one.
+    if (MODEL == MODEL_MICROFACET)
+        fetched.mixture_scale /=
+            von_mises_fisher_projected_area(concentration_from_complement(mean.w));
+    fetched.diffuse_normal = mix(mean.xyz * fetched.mixture_from_tangent, fetched.base.normal,
+                                 fetched.base_share);
+    // Lobes about normals: their resultant is the product of the normals' and the base lobes'.
+    float complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
+    fetched.spread = clamp(1.0 - mean.w / max(complement, LEAST_WEIGHT), 0.0, 1.0);
+}
+
+appearance fetch_appearance(surface_point surface) {
+    appearance result;
+    result.base = unfiltered_material(surface);
+    result.base_share = 1.0;
+    result.lobe_count = float(LOBE_COUNT);
+    result.level = 0.0;
+    result.diffuse_normal = result.base.normal;
+    if (MIXTURE)
+        enter_mixture(result, surface);
+    result.normal = mean_direction(result.diffuse_normal, vec3(0.0, 0.0, 1.0));
+    result.filtered = filtered_material(surface, result.normal);
+    result.base.diffuse = result.filtered.diffuse;
+    result.base.specular = result.filtered.specular;
+    result.alpha = 1.0;
+    if (ALPHA_MASK)
+        result.alpha = filtered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface) : vec3(0.0);
+    return result;
+}
+
+// The mean normal of the texels that reflect about `halfway`, for their cosines and masking. With
+// texels' normals and base lobes both about normal, of variances that add up to the mixture's, the
+// mean of the normals where their sum is given divides as the variances do.
+vec3 reflecting_normal(appearance fetched, vec3 halfway) {
+    vec3 mean = fetched.filtered.normal;
+    vec3 normal = mean_direction(mix(mean, halfway, fetched.spread), mean);
+    return mean_direction(mix(normal, fetched.base.normal, fetched.base_share), mean);
+}
+
+vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3 halfway,
+                                    vec3 outgoing, vec3 incoming) {
+    base_material frame = fetched.filtered;
+    frame.normal = reflecting_normal(fetched, halfway);
+    frame.width = mix(fetched.filtered.width, fetched.base.width, fetched.base_share);
+    distribution += fetched.base_share * evaluate_normal_distribution(fetched.base.normal, halfway,
+                                                                      fetched.base.width);
+    return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
+                                incoming);
 }
 
 // The colour of all base lobes together.
@@ -153,131 +289,26 @@ vec3 mixture_colour() {
     return sum;
 }
 
-// Takes the lobe of the next cluster, and says which follows.
-void take_cluster(inout appearance walk) {
-    int sector = (walk.node - NODE_SECTOR) / 3;
-    int part = walk.node - NODE_SECTOR - 3 * sector;
-    bool one = walk.node == NODE_ONE;
-    bool is_sector = !one && part == 0;
-    int layer = one         ? MIXTURE_LAYER_ONE
-                : is_sector ? MIXTURE_LAYER_SECTORS + sector
-                            : MIXTURE_LAYER_HALVES + 2 * sector + part - 1;
-    vec4 moment = fetch_layer(walk.area, layer);
-
-    float complement = resultant_complement(moment.xyz, moment.w);
-    float refine = 0.0;
-    if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
-        refine = refinement(complement, walk.base_complement, one ? EPSILON_0 : EPSILON_1);
-    refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
-
-    float share = walk.share * (one ? 1.0 : walk.root_share) *
-                  (one || is_sector ? 1.0 : walk.sector_share) * (1.0 - refine);
-    walk.axis = mean_direction(moment.xyz, vec3(0.0, 0.0, 1.0));
-    walk.concentration = concentration_from_complement(complement);
-    walk.weight = share * moment.w * von_mises_fisher_peak(walk.concentration);
-    walk.spread = clamp(1.0 - walk.base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
-    walk.colour = walk.filtered.specular * mixture_colour();
-    walk.lobe_count += share * moment.w > LEAST_WEIGHT ? 1.0 : 0.0;
-
-    walk.root_share = one ? refine : walk.root_share;
-    walk.sector_share = is_sector ? refine : walk.sector_share;
-    int past = one ? NODE_END : NODE_SECTOR + 3 * (sector + 1);
-    walk.node = refine > 0.0 || (!one && !is_sector) ? walk.node + 1 : past;
+vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfway, vec3 incoming) {
+    vec3 sum = mixture_colour() * distribution;
+    if (!base_in_walk())
+        sum += fetched.base_share * evaluate_half_vector_lobes(fetched.base, halfway);
+    sum *= fetched.filtered.specular;
+    if (DIFFUSE)
+        sum += microfacet_diffuse(fetched.filtered.diffuse, vec3(0.0),
+                                  dot(fetched.diffuse_normal, incoming));
+    return sum;
 }
 
-bool has_part(appearance walk) {
-    return MIXTURE ? walk.base_lobe < LOBE_COUNT || walk.node < NODE_END
-                   : walk.base_lobe < LOBE_COUNT;
-}
-
-void next_part(inout appearance walk) {
-    walk.diffuse = walk.entered ? vec3(0.0) : walk.filtered.diffuse;
-    walk.entered = true;
-    walk.of_base = !MIXTURE || walk.base_lobe < LOBE_COUNT;
-    if (walk.of_base)
-        take_base_lobe(walk);
-    else
-        take_cluster(walk);
-}
-
-// Prepares the walk over the mixture.
-void enter_mixture(inout appearance walk, surface_point surface) {
-    walk.area = lobe_area(surface);
-    walk.level = walk.area.level;
-    walk.base_share = clamp(1.0 - walk.level, 0.0, 1.0);
-    walk.base_lobe = walk.base_share > 0.0 ? 0 : int(LOBE_COUNT);
-    walk.node = walk.base_share < 1.0 ? (COARSEST == 0u ? NODE_ONE : NODE_SECTOR) : NODE_END;
-    walk.root_share = 1.0;
-    walk.mixture_from_tangent = mixture_frame(surface);
-    float coverage;
-    vec4 mean = fetch_mean(walk.area, coverage);
-    walk.base_complement = mean.w;
-    // A mixture over a part of the texels stands for all of them.
-    walk.share = (1.0 - walk.base_share) / coverage;
-    // A distribution of normals is normalised to projected area one, a lobe to area one.
-    if (MODEL == MODEL_MICROFACET)
-        walk.share /= von_mises_fisher_projected_area(concentration_from_complement(mean.w));
-    walk.diffuse_normal = mix(mean.xyz * walk.mixture_from_tangent, walk.base.normal,
-                              walk.base_share);
-}
-
-appearance fetch_appearance(surface_point surface) {
-    appearance result;
-    result.base = unfiltered_material(surface);
-    result.entered = false;
-    result.mixture_from_tangent = mat3(1.0);
-    result.base_share = 1.0;
-    result.base_lobe = 0;
-    result.node = NODE_END;
-    result.lobe_count = 0.0;
-    result.level = 0.0;
-    result.diffuse_normal = result.base.normal;
-    if (MIXTURE)
-        enter_mixture(result, surface);
-    result.normal = mean_direction(result.diffuse_normal, vec3(0.0, 0.0, 1.0));
-    result.filtered = filtered_material(surface, result.normal);
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
-    result.emission = EMISSION ? filtered_emission(surface) : vec3(0.0);
-    return result;
-}
-
-// The lobe at hand, or its distribution of normals.
-float evaluate_lobe(appearance walk, vec3 halfway) {
-    vec3 direction = walk.mixture_from_tangent * halfway;
-    if (!BASE_IS_LOBE && walk.of_base)
-        return walk.weight *
-               (MODEL == MODEL_MICROFACET
-                    ? normal_distribution(DISTRIBUTION, walk.axis, direction, walk.concentration)
-                    : half_vector_lobe(DISTRIBUTION, direction, walk.axis, walk.concentration));
-    return walk.weight * exp(-0.5 * walk.concentration * difference_squared(direction, walk.axis));
-}
-
-// The mean normal of the texels that reflect about `halfway`, for their cosines and masking. With
-// texels' normals and base lobes both about normal, of variances that add up to the lobe's, the
-// mean of the normals where their sum is given divides as the variances do.
-vec3 reflecting_normal(appearance walk, vec3 halfway) {
-    vec3 axis = walk.axis * walk.mixture_from_tangent;
-    return mean_direction(mix(axis, halfway, walk.spread), axis);
-}
-
-vec3 evaluate_part(appearance walk, surface_point surface, vec3 incoming) {
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
+    if (!MIXTURE)
+        return evaluate_base_material(fetched.base, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, surface.outgoing);
-    float distribution = evaluate_lobe(walk, halfway);
-    if (MODEL == MODEL_MICROFACET) {
-        base_material frame = walk.filtered;
-        frame.normal = reflecting_normal(walk, halfway);
-        if (walk.of_base)
-            frame.width = walk.base.width;
-        frame.diffuse = walk.diffuse;
-        return evaluate_microfacets(frame, walk.diffuse_normal, distribution, halfway,
-                                    surface.outgoing, incoming);
-    }
-    vec3 sum = walk.colour * distribution;
-    if (DIFFUSE)
-        sum += microfacet_diffuse(walk.diffuse, vec3(0.0), dot(walk.diffuse_normal, incoming));
-    return sum;
+    float distribution = fetched.distributions[light];
+    return MODEL == MODEL_MICROFACET
+               ? evaluate_footprint_microfacets(fetched, distribution, halfway, surface.outgoing,
+                                                incoming)
+               : evaluate_footprint_lobes(fetched, distribution, halfway, incoming);
 }

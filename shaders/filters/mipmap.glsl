@@ -11,8 +11,7 @@ layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;
 layout(set = 0, binding = 16) uniform sampler2D parameter_map;
 
 struct appearance {
-    base_material base; // the one part there is
-    bool done;
+    base_material base;
     vec3 emission;
     float alpha;
     vec3 normal;
@@ -34,7 +33,6 @@ float width_from_average(float average) {
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
-    result.done = false;
     result.level = 0.0;
     vec3 normal = unfiltered_normal(surface);
     float width = 0.0;
@@ -65,14 +63,9 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-bool has_part(appearance fetched) {
-    return !fetched.done;
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 
-void next_part(inout appearance fetched) {
-    fetched.done = true;
-}
-
-vec3 evaluate_part(appearance fetched, surface_point surface, vec3 incoming) {
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }
