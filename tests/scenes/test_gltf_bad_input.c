@@ -304,6 +304,20 @@ static void sparse_ranges_are_checked(void **state) {
     gltf_fixture_must_fail(*state, "parts.glb", LOBE_ERROR_MALFORMED, "sparse index 3 of 3");
 }
 
+static void attributes_of_unequal_counts_are_refused(void **state) {
+    static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    for (size_t count = 2; count <= 4; count += 2) {
+        const gltf_fixture_accessor accessors[] = {
+            gltf_fixture_triangle,
+            {"NORMAL", GLTF_FLOAT, "VEC3", false, count, normals, 12 * count}};
+        const gltf_fixture_mesh mesh = {.accessors = accessors, .accessor_count = 2};
+        char cause[64];
+        snprintf(cause, sizeof cause, "NORMAL of shape: %zu elements for 3 positions", count);
+        gltf_fixture_write_mesh(*state, "unequal.glb", &mesh);
+        gltf_fixture_must_fail(*state, "unequal.glb", LOBE_ERROR_MALFORMED, cause);
+    }
+}
+
 static void indices_out_of_range_are_named(void **state) {
     parts_content content = good_parts;
     content.indices[1] = 3;
@@ -428,6 +442,7 @@ int main(void) {
         cmocka_unit_test(parts_are_good_unless_changed),
         cmocka_unit_test(ranges_are_checked_before_memory_is_taken),
         cmocka_unit_test(sparse_ranges_are_checked),
+        cmocka_unit_test(attributes_of_unequal_counts_are_refused),
         cmocka_unit_test(indices_out_of_range_are_named),
         cmocka_unit_test(vertices_that_are_not_finite_are_named),
         cmocka_unit_test(positions_beyond_all_measure_are_refused),

@@ -44,9 +44,8 @@ static void transforms_are_composed_along_the_hierarchy(void **state) {
 }
 
 static void rotations_turn_the_right_way(void **state) {
-    // A third of a turn about (1, 1, 1): x -> y -> z -> x.
-    lobe_scene *scene =
-        open_nodes(*state, ",\"nodes\":[{\"mesh\":0,\"rotation\":[0.5,0.5,0.5,0.5]}]");
+    // A third of a turn about (1, 1, 1), x -> y -> z -> x, given twice as long as unit.
+    lobe_scene *scene = open_nodes(*state, ",\"nodes\":[{\"mesh\":0,\"rotation\":[1,1,1,1]}]");
     static const float expected[16] = {0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1};
     gltf_fixture_assert_near(scene->instances[0].transform, expected, 16, NEAR);
     lobe_scene_destroy(&scene);

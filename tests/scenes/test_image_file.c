@@ -316,11 +316,16 @@ static void absurd_extents_take_no_memory(void **state) {
     static const struct {
         uint32_t width, height;
         lobe_result result;
+        const char *cause;
     } cases[] = {
-        {65536, 65536, LOBE_ERROR_LIMIT},      {65536, 1, LOBE_ERROR_LIMIT},
-        {0x7fffffff, 1, LOBE_ERROR_LIMIT},     {20000, 20000, LOBE_ERROR_LIMIT},
-        {16384, 16384, LOBE_ERROR_MALFORMED},  {0, 1, LOBE_ERROR_MALFORMED},
-        {0xffffffff, 1, LOBE_ERROR_MALFORMED}, {3, 4, LOBE_ERROR_MALFORMED},
+        {65536, 65536, LOBE_ERROR_LIMIT, "more than"},
+        {65536, 1, LOBE_ERROR_LIMIT, "more than"},
+        {0x7fffffff, 1, LOBE_ERROR_LIMIT, "more than"},
+        {20000, 20000, LOBE_ERROR_LIMIT, "more than"},
+        {16384, 16384, LOBE_ERROR_MALFORMED, "cannot hold"},
+        {0, 1, LOBE_ERROR_MALFORMED, "broken PNG"},
+        {0xffffffff, 1, LOBE_ERROR_MALFORMED, "broken PNG"},
+        {3, 4, LOBE_ERROR_MALFORMED, "broken PNG"},
     };
     const uint8_t texels[12] = {0};
     const png_content content = {2, 2, 8, PNG_COLOR_TYPE_RGB, 0, texels, 6, NULL, 0};
@@ -329,6 +334,7 @@ static void absurd_extents_take_no_memory(void **state) {
         lobe_image image;
         set_extent(&file, cases[i].width, cases[i].height);
         assert_int_equal(decode(file.bytes, file.size, SCENE_IMAGE_DATA, &image), cases[i].result);
+        assert_non_null(strstr(error, cases[i].cause));
     }
     set_extent(&file, 2, 2);
     lobe_image image;
