@@ -24,34 +24,40 @@ static double microfacet_width(const lobe_material *material) {
         (double)material->normal_concentration);
 }
 
-/// F D G2 / (4 cos) and Lambert below it; `mean_normal` for the diffuse part's cosine.
-static void shade_microfacets(const lobe_material *material, const double normal[3],
-                              const double mean_normal[3], double distribution,
-                              const double outgoing[3], const double incoming[3],
-                              double radiance[3]) {
-    double half_vector[3];
-    half_between(incoming, outgoing, half_vector);
-    double in = reference_dot(normal, incoming), out = reference_dot(normal, outgoing);
+static double fresnel_of(const lobe_material *material, int channel, const double incoming[3],
+                         const double half_vector[3]) {
     double metallic = (double)material->metallic;
-    for (int i = 0; i < 3; i++) {
-        double albedo = (double)material->base_colour[i];
-        double f0 = 0.04 * (1 - metallic) + albedo * metallic;
-        double fresnel = reference_fresnel(f0, 1, reference_dot(incoming, half_vector));
-        double shadowing = reference_masking_shadowing(material->distribution, in, out,
-                                                       microfacet_width(material));
-        radiance[i] = in > 0 && out > 0
-                          ? reference_microfacet_specular(fresnel, distribution, shadowing, out) +
-                                reference_microfacet_diffuse(albedo * (1 - metallic), fresnel,
-                                                             reference_dot(mean_normal, incoming))
-                          : 0;
-    }
+    double f0 = 0.04 * (1 - metallic) + (double)material->base_colour[channel] * metallic;
+    return reference_fresnel(f0, 1, reference_dot(incoming, half_vector));
 }
 
+/// D G2 / (4 cos), about one normal.
+static double microfacet_geometry(const lobe_material *material, const double normal[3],
+                                  const double outgoing[3], const double incoming[3],
+                                  double distribution) {
+    double in = reference_dot(normal, incoming), out = reference_dot(normal, outgoing);
+    if (in <= 0 || out <= 0)
+        return 0;
+    return reference_microfacet_specular(
+        1, distribution,
+        reference_masking_shadowing(material->distribution, in, out, microfacet_width(material)),
+        out);
+}
+
+/// Lambert below whatever the specular part leaves; `normal` may be shorter than one.
 static void add_diffuse(const lobe_material *material, const double normal[3],
-                        const double incoming[3], double radiance[3]) {
-    for (int i = 0; i < 3; i++)
-        radiance[i] += reference_microfacet_diffuse((double)material->base_colour[i], 0,
-                                                    reference_dot(normal, incoming));
+                        const double half_vector[3], const double incoming[3], double radiance[3]) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    for (int i = 0; i < 3; i++) {
+        double albedo = (double)material->base_colour[i];
+        double fresnel = 0;
+        if (microfacet) {
+            albedo *= 1 - (double)material->metallic;
+            fresnel = fresnel_of(material, i, incoming, half_vector);
+        }
+        radiance[i] +=
+            reference_microfacet_diffuse(albedo, fresnel, reference_dot(normal, incoming));
+    }
 }
 
 static double lobe_parameter(const lobe_material *material, uint32_t i) {
@@ -82,20 +88,26 @@ void shade_base_material(const lobe_material *material, const double normal[3],
         return;
     double half_vector[3];
     half_between(incoming, outgoing, half_vector);
-    if (material->model == LOBE_MATERIAL_MICROFACET) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    if (microfacet &&
+        (reference_dot(normal, incoming) <= 0 || reference_dot(normal, outgoing) <= 0))
+        return;
+    if (microfacet) {
         double distribution = reference_normal_distribution(
             material->distribution, normal, half_vector, microfacet_width(material));
-        shade_microfacets(material, normal, normal, distribution, outgoing, incoming, radiance);
-        return;
+        double value = microfacet_geometry(material, normal, outgoing, incoming, distribution);
+        for (int i = 0; i < 3; i++)
+            radiance[i] = value * fresnel_of(material, i, incoming, half_vector);
+    } else {
+        shade_half_vector_lobes(material, normal, half_vector, radiance);
     }
-    shade_half_vector_lobes(material, normal, half_vector, radiance);
-    add_diffuse(material, normal, incoming, radiance);
+    add_diffuse(material, normal, half_vector, incoming, radiance);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Mixtures
 
-/// The shader leaves lighter clusters out.
+/// Lighter clusters are not told apart, and lighter lobes not counted.
 static const double least_weight = 1e-5;
 
 static double resultant_complement(const double moment[4]) {
@@ -115,10 +127,14 @@ static double refinement(const double moment[4], double base_complement, double 
 
 /// The point at which a mixture is evaluated, and what was added up so far.
 typedef struct evaluation {
+    const lobe_material *material;
     const reference_layers *mixture;
     uint32_t x, y;
-    const double *half_vector;
-    double sum;
+    const double *outgoing, *incoming;
+    double half_vector[3];
+    double base_complement; ///< mean 1 - |r| of the base lobes
+    double scale;           ///< of all weights: to full coverage, and to projected area one
+    double sum;             ///< distribution; of microfacets times G2 / (4 cos)
     unsigned count;
 } evaluation;
 
@@ -126,25 +142,45 @@ static const double *moment_of(const evaluation *e, uint32_t layer) {
     return reference_texel(e->mixture, e->x, e->y, layer);
 }
 
+/// The mean of the normals of the texels that reflect: between the lobe's axis and the half vector,
+/// by the part of the lobe's breadth that is the texels' (shaders/filters/lobes.glsl).
+static void reflecting_normal(const evaluation *e, const double moment[4], double normal[3]) {
+    double spread = 1 - e->base_complement / resultant_complement(moment);
+    spread = fmin(fmax(spread, 0), 1);
+    double length = reference_length(moment);
+    for (int i = 0; i < 3; i++)
+        normal[i] = (1 - spread) * moment[i] / length + spread * e->half_vector[i];
+    reference_normalise(normal);
+}
+
 static void add_cluster(evaluation *e, uint32_t layer, double share) {
-    if (share <= 0 || moment_of(e, layer)[3] < least_weight)
+    const double *moment = moment_of(e, layer);
+    if (share <= 0 || moment[3] <= 0)
         return;
-    e->sum += share * reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
-    e->count++;
+    double value = share * e->scale *
+                   reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
+    if (e->material->model == LOBE_MATERIAL_MICROFACET) {
+        double normal[3];
+        reflecting_normal(e, moment, normal);
+        value = microfacet_geometry(e->material, normal, e->outgoing, e->incoming, value);
+    }
+    e->sum += value;
+    e->count += share * e->scale * moment[3] > least_weight;
 }
 
 /// Xu et al. 2017, Algorithm 1.
-static void add_clusters(evaluation *e, double base_complement, const refinement_knobs *knobs) {
-    double refine = knobs->subdivision == 0 ? 0
-                                            : refinement(moment_of(e, REFERENCE_MIXTURE_LAYER_ONE),
-                                                         base_complement, knobs->epsilon0, knobs);
+static void add_clusters(evaluation *e, const refinement_knobs *knobs) {
+    double refine = knobs->subdivision == 0
+                        ? 0
+                        : refinement(moment_of(e, REFERENCE_MIXTURE_LAYER_ONE), e->base_complement,
+                                     knobs->epsilon0, knobs);
     add_cluster(e, REFERENCE_MIXTURE_LAYER_ONE, 1 - refine);
     for (uint32_t i = 0; i < 4; i++) {
         uint32_t sector = REFERENCE_MIXTURE_LAYER_SECTORS + i;
         double refine_half =
             knobs->subdivision < 2
                 ? 0
-                : refinement(moment_of(e, sector), base_complement, knobs->epsilon1, knobs);
+                : refinement(moment_of(e, sector), e->base_complement, knobs->epsilon1, knobs);
         add_cluster(e, sector, refine * (1 - refine_half));
         for (uint32_t j = 0; j < 2; j++)
             add_cluster(e, REFERENCE_MIXTURE_LAYER_HALVES + 2 * i + j, refine * refine_half);
@@ -155,29 +191,31 @@ void shade_mixture(const lobe_material *material, const refinement_knobs *knobs,
                    const reference_layers *mixture, uint32_t x, uint32_t y,
                    const double outgoing[3], const double incoming[3], double radiance[3],
                    unsigned *count) {
-    double half_vector[3];
-    half_between(incoming, outgoing, half_vector);
-    evaluation e = {.mixture = mixture, .x = x, .y = y, .half_vector = half_vector};
+    evaluation e = {.material = material,
+                    .mixture = mixture,
+                    .x = x,
+                    .y = y,
+                    .outgoing = outgoing,
+                    .incoming = incoming};
+    half_between(incoming, outgoing, e.half_vector);
     double coverage = moment_of(&e, REFERENCE_MIXTURE_LAYER_ONE)[3];
     double mean[4];
     for (int i = 0; i < 4; i++)
         mean[i] = moment_of(&e, REFERENCE_MIXTURE_LAYER_MEAN)[i] / coverage;
-    add_clusters(&e, mean[3], knobs);
+    e.base_complement = mean[3];
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    double area = microfacet ? reference_von_mises_fisher_projected_area(
+                                   reference_concentration_from_complement(mean[3]))
+                             : 1;
+    e.scale = 1 / (coverage * area);
+    add_clusters(&e, knobs);
     if (count)
         *count = e.count;
-    double distribution = e.sum / coverage;
-    if (material->model == LOBE_MATERIAL_MICROFACET) {
-        distribution /= reference_von_mises_fisher_projected_area(
-            reference_concentration_from_complement(mean[3]));
-        double normal[3] = {mean[0], mean[1], mean[2]};
-        reference_normalise(normal);
-        shade_microfacets(material, normal, mean, distribution, outgoing, incoming, radiance);
-        return;
-    }
     for (int i = 0; i < 3; i++) {
-        radiance[i] = 0;
-        for (uint32_t j = 0; j < material->lobe_count; j++)
-            radiance[i] += distribution * (double)material->lobes[j].colour[i];
+        double colour = microfacet ? fresnel_of(material, i, incoming, e.half_vector) : 0;
+        for (uint32_t j = 0; !microfacet && j < material->lobe_count; j++)
+            colour += (double)material->lobes[j].colour[i];
+        radiance[i] = e.sum * colour;
     }
-    add_diffuse(material, mean, incoming, radiance);
+    add_diffuse(material, mean, e.half_vector, incoming, radiance);
 }
