@@ -130,11 +130,9 @@ typedef struct evaluation {
     const lobe_material *material;
     const reference_layers *mixture;
     uint32_t x, y;
-    const double *outgoing, *incoming;
     double half_vector[3];
     double base_complement; ///< mean 1 - |r| of the base lobes
-    double scale;           ///< of all weights: to full coverage, and to projected area one
-    double sum;             ///< distribution; of microfacets times G2 / (4 cos)
+    double sum;
     unsigned count;
 } evaluation;
 
@@ -142,30 +140,12 @@ static const double *moment_of(const evaluation *e, uint32_t layer) {
     return reference_texel(e->mixture, e->x, e->y, layer);
 }
 
-/// The mean of the normals of the texels that reflect: between the lobe's axis and the half vector,
-/// by the part of the lobe's breadth that is the texels' (shaders/filters/lobes.glsl).
-static void reflecting_normal(const evaluation *e, const double moment[4], double normal[3]) {
-    double spread = 1 - e->base_complement / resultant_complement(moment);
-    spread = fmin(fmax(spread, 0), 1);
-    double length = reference_length(moment);
-    for (int i = 0; i < 3; i++)
-        normal[i] = (1 - spread) * moment[i] / length + spread * e->half_vector[i];
-    reference_normalise(normal);
-}
-
 static void add_cluster(evaluation *e, uint32_t layer, double share) {
-    const double *moment = moment_of(e, layer);
-    if (share <= 0 || moment[3] <= 0)
+    double weight = moment_of(e, layer)[3];
+    if (share <= 0 || weight <= 0)
         return;
-    double value = share * e->scale *
-                   reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
-    if (e->material->model == LOBE_MATERIAL_MICROFACET) {
-        double normal[3];
-        reflecting_normal(e, moment, normal);
-        value = microfacet_geometry(e->material, normal, e->outgoing, e->incoming, value);
-    }
-    e->sum += value;
-    e->count += share * e->scale * moment[3] > least_weight;
+    e->sum += share * reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
+    e->count += share * weight > least_weight;
 }
 
 /// Xu et al. 2017, Algorithm 1.
@@ -187,35 +167,55 @@ static void add_clusters(evaluation *e, const refinement_knobs *knobs) {
     }
 }
 
+/// The mean normal of the texels that reflect about the half vector: between the mean normal and
+/// the half vector, by the part of the lobes' breadth that is the normals' own. `mean`: of the
+/// normals, and of 1 - |r| (shaders/filters/lobes.glsl).
+static void reflecting_normal(const double mean[4], const double half_vector[3], double normal[3]) {
+    double length = reference_length(mean);
+    double spread = 1 - mean[3] / (1 - (1 - mean[3]) * length);
+    for (int i = 0; i < 3; i++)
+        normal[i] = (1 - spread) * mean[i] / length + spread * half_vector[i];
+    reference_normalise(normal);
+}
+
+static void shade_mixture_of_microfacets(const evaluation *e, const double mean[4],
+                                         double distribution, const double outgoing[3],
+                                         const double incoming[3], double radiance[3]) {
+    double normal[3];
+    reflecting_normal(mean, e->half_vector, normal);
+    if (reference_dot(normal, incoming) <= 0 || reference_dot(normal, outgoing) <= 0)
+        return;
+    // A mean of base lobes, each of which has this projected area above its own horizon.
+    distribution /=
+        reference_von_mises_fisher_projected_area(reference_concentration_from_complement(mean[3]));
+    double value = microfacet_geometry(e->material, normal, outgoing, incoming, distribution);
+    for (int i = 0; i < 3; i++)
+        radiance[i] = value * fresnel_of(e->material, i, incoming, e->half_vector);
+    add_diffuse(e->material, mean, e->half_vector, incoming, radiance);
+}
+
 void shade_mixture(const lobe_material *material, const refinement_knobs *knobs,
                    const reference_layers *mixture, uint32_t x, uint32_t y,
                    const double outgoing[3], const double incoming[3], double radiance[3],
                    unsigned *count) {
-    evaluation e = {.material = material,
-                    .mixture = mixture,
-                    .x = x,
-                    .y = y,
-                    .outgoing = outgoing,
-                    .incoming = incoming};
+    evaluation e = {.material = material, .mixture = mixture, .x = x, .y = y};
     half_between(incoming, outgoing, e.half_vector);
     double coverage = moment_of(&e, REFERENCE_MIXTURE_LAYER_ONE)[3];
     double mean[4];
     for (int i = 0; i < 4; i++)
         mean[i] = moment_of(&e, REFERENCE_MIXTURE_LAYER_MEAN)[i] / coverage;
     e.base_complement = mean[3];
-    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    double area = microfacet ? reference_von_mises_fisher_projected_area(
-                                   reference_concentration_from_complement(mean[3]))
-                             : 1;
-    e.scale = 1 / (coverage * area);
     add_clusters(&e, knobs);
     if (count)
         *count = e.count;
-    for (int i = 0; i < 3; i++) {
-        double colour = microfacet ? fresnel_of(material, i, incoming, e.half_vector) : 0;
-        for (uint32_t j = 0; !microfacet && j < material->lobe_count; j++)
-            colour += (double)material->lobes[j].colour[i];
-        radiance[i] = e.sum * colour;
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    double distribution = e.sum / coverage;
+    if (material->model == LOBE_MATERIAL_MICROFACET) {
+        shade_mixture_of_microfacets(&e, mean, distribution, outgoing, incoming, radiance);
+        return;
     }
+    for (uint32_t i = 0; i < material->lobe_count; i++)
+        for (int j = 0; j < 3; j++)
+            radiance[j] += distribution * (double)material->lobes[i].colour[j];
     add_diffuse(material, mean, e.half_vector, incoming, radiance);
 }
