@@ -6,6 +6,7 @@
 
 #include <cglm/cglm.h>
 
+#include "passes/scene_check.h"
 #include "shaders/interface/vertex.h"
 
 static_assert(sizeof(struct vertex) == sizeof(lobe_scene_vertex), "one vertex, two descriptions");
@@ -75,10 +76,14 @@ static void fill_constants(const device_material *material, struct material_cons
     }
 }
 
-static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index) {
+static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index,
+                                const lobe_log *log) {
     if (result->images[index])
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
+    lobe_result status = scene_check_image(result->scene, (size_t)index, log);
+    if (status != LOBE_OK)
+        return status;
     return lobe_texture_create(
         device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
         &result->images[index]);
@@ -100,17 +105,14 @@ static lobe_result upload_material(lobe_device *device, device_scene *result, ui
     if (material->constants)
         return LOBE_OK;
     material->material = &result->scene->materials[index];
+    lobe_result status = scene_check_material(result->scene, index, log);
+    if (status != LOBE_OK)
+        return status;
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
         const lobe_texture_use *use = material_map(material->material, map);
         if (!use)
             continue;
-        if ((size_t)use->image >= result->scene->image_count) {
-            lobe_log_print(log, LOBE_LOG_ERROR, "%s: material '%s' uses image %d of %zu",
-                           result->scene->name, material->material->name, use->image,
-                           result->scene->image_count);
-            return LOBE_ERROR_MALFORMED;
-        }
-        lobe_result status = upload_image(device, result, use->image);
+        status = upload_image(device, result, use->image, log);
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
@@ -134,20 +136,10 @@ static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32
     if (result->vertices[index])
         return LOBE_OK;
     const lobe_mesh *mesh = &result->scene->meshes[index];
-    for (size_t i = 0; i < mesh->index_count; ++i) {
-        if (mesh->indices[i] >= mesh->vertex_count) {
-            lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
-                           result->scene->name, mesh->name, i, mesh->indices[i],
-                           mesh->vertex_count);
-            return LOBE_ERROR_MALFORMED;
-        }
-    }
-    if (mesh->vertex_count == 0 || mesh->index_count < 3) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s' has no triangles", result->scene->name,
-                       mesh->name);
-        return LOBE_ERROR_MALFORMED;
-    }
-    lobe_result status = lobe_buffer_create(
+    lobe_result status = scene_check_mesh(result->scene, index, log);
+    if (status != LOBE_OK)
+        return status;
+    status = lobe_buffer_create(
         device,
         &(lobe_buffer_parameters){.name = mesh->name,
                                   .size = mesh->vertex_count * sizeof *mesh->vertices,

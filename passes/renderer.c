@@ -8,6 +8,7 @@
 #include "passes/filter.h"
 #include "passes/pass_times.h"
 #include "passes/sample_pattern.h"
+#include "passes/settings.h"
 #include "passes/shading.h"
 
 /// Samples of the reference a submission: few enough that one stays short on a slow device.
@@ -329,6 +330,9 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
     lobe_settings_default(filter, &r->settings);
     if (parameters->settings)
         r->settings = *parameters->settings;
+    result = settings_check(filter, &r->settings, &renderer->log);
+    if (result != LOBE_OK)
+        return result;
     r->images.resources = renderer->filtered_images;
     r->context = (filter_context){
         .graph = renderer->graph,

@@ -1,3 +1,5 @@
+#include "passes/settings.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -116,19 +118,39 @@ static lobe_result set_choice(const lobe_knob *knob, const char *text, double *v
     return LOBE_ERROR_INVALID_ARGUMENT;
 }
 
+/// Choices are told by their index.
+static bool allows(const lobe_knob *knob, double value) {
+    bool whole = knob->kind != LOBE_KNOB_NUMBER;
+    return value >= knob->minimum && value <= knob->maximum && (!whole || value == floor(value));
+}
+
+static lobe_result refuse_number(const lobe_knob *knob, const char *text, const lobe_log *log) {
+    bool whole = knob->kind != LOBE_KNOB_NUMBER;
+    lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is a %s from %g to %g",
+                   knob->name, text, whole ? "whole number" : "number", knob->minimum,
+                   knob->maximum);
+    return LOBE_ERROR_INVALID_ARGUMENT;
+}
+
 static lobe_result set_number(const lobe_knob *knob, const char *text, double *value,
                               const lobe_log *log) {
     char *end = NULL;
     double number = strtod(text, &end);
-    bool whole = knob->kind == LOBE_KNOB_INTEGER;
-    if (*text == '\0' || *end != '\0' || !isfinite(number) || number < knob->minimum ||
-        number > knob->maximum || (whole && number != floor(number))) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is a %s from %g to %g",
-                       knob->name, text, whole ? "whole number" : "number", knob->minimum,
-                       knob->maximum);
-        return LOBE_ERROR_INVALID_ARGUMENT;
-    }
+    if (*text == '\0' || *end != '\0' || !allows(knob, number))
+        return refuse_number(knob, text, log);
     *value = number;
+    return LOBE_OK;
+}
+
+lobe_result settings_check(const lobe_filter *filter, const lobe_settings *settings,
+                           const lobe_log *log) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+        const lobe_knob *knob = lobe_filter_knob(filter, i);
+        char text[32];
+        snprintf(text, sizeof text, "%g", settings->values[i]);
+        if (!allows(knob, settings->values[i]))
+            return refuse_number(knob, text, log);
+    }
     return LOBE_OK;
 }
 

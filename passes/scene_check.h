@@ -1,0 +1,16 @@
+#ifndef PASSES_SCENE_CHECK_H
+#define PASSES_SCENE_CHECK_H
+
+#include <lobe/scene.h>
+
+/// Checks of what a host or a file put into a scene, before it goes to the device, which would
+/// show nonsense or worse. One line and LOBE_ERROR_MALFORMED for the first fault.
+
+/// Texels are finite.
+lobe_result scene_check_image(const lobe_scene *scene, size_t index, const lobe_log *log);
+/// There are triangles, of vertices that exist and are finite.
+lobe_result scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_log *log);
+/// Counts and indices are in range.
+lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lobe_log *log);
+
+#endif
