@@ -85,6 +85,46 @@ static void filters_agree_on_constant_maps(void **state) {
     }
 }
 
+/// Where a texel covers many pixels there is nothing to filter either: lobes of several hues and
+/// widths, and every other property, are those of the maps themselves.
+static void filters_agree_where_maps_are_magnified(void **state) {
+    static const char *const filters[] = {"mipmap", "lobes"};
+    for (int model = 0; model < 3; model++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
+        if (model == 0)
+            lobe_material_default(&material);
+        if (model == 1)
+            material.distribution = LOBE_DISTRIBUTION_BLINN_PHONG;
+        material.lobe_count = 2;
+        material.lobes[0] = (lobe_base_lobe){{0.28f, 0, 0.96f}, 30, {0.9f, 0.1f, 0.2f}};
+        material.lobes[1] = (lobe_base_lobe){{-0.28f, 0, 0.96f}, 60, {0.1f, 0.2f, 0.9f}};
+        material.base_colour[0] = 0.25f;
+        material.emissive[1] = 0.1f;
+        material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.3, 73));
+        material.base_colour_map = scene_add_map(scene, random_map(32, 32, 0, 1, 74));
+        material.emissive_map = scene_add_map(scene, random_map(32, 32, 0, 1, 75));
+        scene_add_square(scene, &material, 1, NULL);
+        scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+        scene_add_sun(scene, (double[]){-0.5, 1, 0.1}, 1);
+        scene_look_down(scene, 0.4); // a texel is two and a half pixels wide
+        scene_end(scene);
+        picture_request request = request_for("direct", NULL);
+        request.width = request.height = 16;
+        lobe_frame direct = draw_scene(*state, scene, &request);
+        for (int i = 0; i < 2; i++) {
+            request.filter = filters[i];
+            lobe_frame frame = draw_scene(*state, scene, &request);
+            double error = relative_l2(&frame.radiance, &direct.radiance);
+            if (!(error < 1e-4))
+                fail_msg("%s, model %d: %g off", filters[i], model, error);
+            lobe_frame_free(&frame);
+        }
+        lobe_frame_free(&direct);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// Without maps, or with maps of one texel, shading is the only pass.
 static void a_constant_material_builds_nothing(void **state) {
     fixture *f = *state;
@@ -517,6 +557,7 @@ static void knobs_are_constants_of_the_shader(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filters_agree_on_constant_maps),
+        cmocka_unit_test(filters_agree_where_maps_are_magnified),
         cmocka_unit_test(a_constant_material_builds_nothing),
         cmocka_unit_test(no_normal_map_means_one_lobe),
         cmocka_unit_test(layers_are_those_that_are_read),
