@@ -147,6 +147,7 @@ static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32
         &result->vertices[index]);
     if (status != LOBE_OK)
         return status;
+    result->densities[index] = mesh_density_measure(mesh);
     return lobe_buffer_create(
         device,
         &(lobe_buffer_parameters){.name = mesh->name,
@@ -249,9 +250,10 @@ static bool allocate_tables(device_scene *result) {
     result->materials = calloc(scene->material_count + 1, sizeof *result->materials);
     result->vertices = calloc(scene->mesh_count + 1, sizeof *result->vertices);
     result->indices = calloc(scene->mesh_count + 1, sizeof *result->indices);
+    result->densities = calloc(scene->mesh_count + 1, sizeof *result->densities);
     result->instances = calloc(scene->instance_count + 1, sizeof *result->instances);
     return result->images && result->materials && result->vertices && result->indices &&
-           result->instances;
+           result->densities && result->instances;
 }
 
 lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
@@ -296,6 +298,7 @@ void device_scene_destroy(device_scene **scene) {
     free(s->materials);
     free(s->vertices);
     free(s->indices);
+    free(s->densities);
     free(s->instances);
     free(s);
     *scene = NULL;

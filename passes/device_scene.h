@@ -5,6 +5,7 @@
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
+#include "passes/mesh_density.h"
 #include "shaders/interface/material.h"
 
 /// A map of a material, ready to be bound.
@@ -40,6 +41,7 @@ typedef struct device_scene {
     device_material *materials;
     lobe_buffer **vertices; ///< one a mesh; NULL: not used
     lobe_buffer **indices;
+    mesh_density *densities; ///< one a mesh
     device_instance *instances;
 } device_scene;
 

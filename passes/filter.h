@@ -33,6 +33,7 @@ typedef struct filter_context {
     const lobe_filter *filter;
     const device_scene *scene;
     const lobe_camera *camera;
+    uint32_t width, height; ///< of the picture, pixels
     filtered_images *images;
     const lobe_log *log;
 } filter_context;

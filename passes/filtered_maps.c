@@ -1,8 +1,10 @@
 #include "passes/filtered_maps.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "passes/level_reduction.h"
+#include "passes/magnification.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
@@ -63,9 +65,39 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
     return map != MAP_WIDTH || material->material->model == LOBE_MATERIAL_MICROFACET;
 }
 
-void filtered_maps_build(const filter_context *context, const device_material *material,
+/// Whether a map's texels and coordinates are those of the lobes' map.
+static bool is_like_lobes(const device_material *material, uint32_t map) {
+    uint32_t width, height;
+    const lobe_texture_use *own = material->maps[map].use;
+    const lobe_texture_use *lobes = material->maps[MAP_NORMAL].use ? material->maps[MAP_NORMAL].use
+                                                                   : material->maps[MAP_WIDTH].use;
+    return lobe_map_extent(material, &width, &height) && own &&
+           material->maps[map].width == width && material->maps[map].height == height &&
+           own->texture_coordinates == lobes->texture_coordinates &&
+           memcmp(own->transform, lobes->transform, sizeof own->transform) == 0;
+}
+
+/// Bits of the maps whose level 0 some pixel may see; the lobes' map counts with its full size.
+static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
+    const device_material *material = &context->scene->materials[index];
+    double probes = filter_setting(context, "probes"), bias = filter_setting(context, "bias");
+    uint32_t bits = 0;
+    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+        if (!material->maps[map].use)
+            continue;
+        uint32_t width = material->maps[map].width, height = material->maps[map].height;
+        if (map == MAP_NORMAL)
+            lobe_map_extent(material, &width, &height);
+        if (may_be_magnified(context, index, map, width, height, probes, bias))
+            bits |= 1u << map;
+    }
+    return bits;
+}
+
+void filtered_maps_build(const filter_context *context, uint32_t index,
                          filtered_appearance *appearance) {
-    uint32_t filtered = 0;
+    const device_material *material = &context->scene->materials[index];
+    uint32_t filtered = 0, like_lobes = 0;
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
         if (!filtered_names[map])
             continue;
@@ -77,7 +109,11 @@ void filtered_maps_build(const filter_context *context, const device_material *m
                         filtered_map_sampler(material, map));
         if (build)
             filtered |= 1u << map;
+        if (is_like_lobes(material, map))
+            like_lobes |= 1u << map;
     }
+    appearance_specialise(appearance, SPECIALISE_LIKE_LOBES, like_lobes);
+    appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS, magnified_maps(context, index));
     appearance_specialise(appearance, SPECIALISE_COLOUR_MAPS, filtered);
     appearance_specialise(appearance, SPECIALISE_PROBES,
                           (uint32_t)filter_setting(context, "probes"));

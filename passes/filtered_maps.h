@@ -5,7 +5,7 @@
 
 /// Adds what shaders/filtered_maps.glsl reads: the colour maps of a material, filtered linearly
 /// (each image once for all materials), and the knobs of the footprint.
-void filtered_maps_build(const filter_context *context, const device_material *material,
+void filtered_maps_build(const filter_context *context, uint32_t material,
                          filtered_appearance *appearance);
 
 /// Size of the maps that lobes come from: the larger of the normal and the width map, in texels.

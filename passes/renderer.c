@@ -340,6 +340,8 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .filter = filter,
         .scene = renderer->scene,
         .camera = parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
+        .width = r->width,
+        .height = r->height,
         .images = &r->images,
         .log = &renderer->log,
     };

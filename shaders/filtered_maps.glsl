@@ -11,6 +11,8 @@
 layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1;
 layout(constant_id = SPECIALISE_LEVEL_BIAS) const float LEVEL_BIAS = 0.0;
 layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
+layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
+layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
 
 layout(set = 0, binding = 17) uniform sampler2D base_colour_filtered;
 layout(set = 0, binding = 18) uniform sampler2D width_filtered;
@@ -24,6 +26,11 @@ struct map_area {
     float level; // of the base map, at least 0
 };
 
+// Whether a pixel of this draw may see level 0 of a map.
+bool may_see_level_0(int map) {
+    return (MAGNIFIED_MAPS & (1u << map)) != 0u;
+}
+
 // `size`: texels of the base map.
 map_area area_of(int map, vec2 size, surface_point surface) {
     footprint pixel =
@@ -32,47 +39,8 @@ map_area area_of(int map, vec2 size, surface_point surface) {
     map_area area;
     area.centre = map_coordinates(map, surface.coordinates, 1.0);
     area.stride = pixel.direction * (pixel.major_axis / float(PROBES)) / size;
-    area.level = max(level_of(pixel, float(PROBES)) + LEVEL_BIAS, 0.0);
+    area.level = max(level_of(pixel, float(PROBES)) + LEVEL_BIAS, may_see_level_0(map) ? 0.0 : 1.0);
     return area;
-}
-
-vec2 probe_position(map_area area, uint probe) {
-    return area.centre + area.stride * (float(probe) - 0.5 * float(PROBES - 1u));
-}
-
-vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface) {
-    if (!has_map(map))
-        return vec4(1.0);
-    map_area area = area_of(map, vec2(textureSize(base, 0)), surface);
-    if ((COLOUR_MAPS & (1u << map)) == 0u)
-        return textureLod(base, area.centre, 0.0);
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i) {
-        vec2 position = probe_position(area, i);
-        vec4 value = vec4(0.0);
-        if (area.level < 1.0)
-            value = textureLod(base, position, 0.0);
-        if (area.level > 0.0)
-            value = mix(value, textureLod(filtered, position, max(area.level - 1.0, 0.0)),
-                        min(area.level, 1.0));
-        sum += value;
-    }
-    return sum / float(PROBES);
-}
-
-vec4 filtered_base_colour(surface_point surface) {
-    return filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface);
-}
-
-vec3 filtered_emission(surface_point surface) {
-    return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface).rgb;
-}
-
-base_material filtered_material(surface_point surface, vec3 normal) {
-    return assemble_material(
-        surface, normal, filtered_base_colour(surface),
-        filtered_texel(MAP_WIDTH, width_map, width_filtered, surface),
-        filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface).rgb);
 }
 
 // The larger of the maps that lobes come from, in texels.
@@ -86,8 +54,52 @@ vec2 lobe_map_size() {
 }
 
 // The lobes' footprint follows the normal map, or where there is none the width map.
+int lobe_map() {
+    return has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH;
+}
+
 map_area lobe_area(surface_point surface) {
-    return area_of(has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH, lobe_map_size(), surface);
+    return area_of(lobe_map(), lobe_map_size(), surface);
+}
+
+vec2 probe_position(map_area area, uint probe) {
+    return area.centre + area.stride * (float(probe) - 0.5 * float(PROBES - 1u));
+}
+
+// `lobes`: the area of the lobes' map, which serves maps that are laid out like it.
+vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface,
+                    map_area lobes) {
+    if (!has_map(map))
+        return vec4(1.0);
+    if ((COLOUR_MAPS & (1u << map)) == 0u)
+        return textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0);
+    map_area area = lobes;
+    if ((LIKE_LOBES & (1u << map)) == 0u)
+        area = area_of(map, vec2(textureSize(base, 0)), surface);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < PROBES; ++i) {
+        vec2 position = probe_position(area, i);
+        vec4 value = textureLod(filtered, position, max(area.level - 1.0, 0.0));
+        if (may_see_level_0(map))
+            value = mix(textureLod(base, position, 0.0), value, min(area.level, 1.0));
+        sum += value;
+    }
+    return sum / float(PROBES);
+}
+
+vec4 filtered_base_colour(surface_point surface, map_area lobes) {
+    return filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface, lobes);
+}
+
+vec3 filtered_emission(surface_point surface, map_area lobes) {
+    return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface, lobes).rgb;
+}
+
+base_material filtered_material(surface_point surface, vec3 normal, map_area lobes) {
+    return assemble_material(
+        surface, normal, filtered_base_colour(surface, lobes),
+        filtered_texel(MAP_WIDTH, width_map, width_filtered, surface, lobes),
+        filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface, lobes).rgb);
 }
 
 #endif

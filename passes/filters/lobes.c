@@ -104,8 +104,8 @@ static void specialise_mixture(const filter_context *context, const mixture_map 
 }
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
-    const device_material *material =
-        &context->scene->materials[context->scene->instances[instance].material];
+    uint32_t index = context->scene->instances[instance].material;
+    const device_material *material = &context->scene->materials[index];
     uint32_t width, height;
     lobe_resource resource;
     if (lobe_map_extent(material, &width, &height) && width * height > 1) {
@@ -123,7 +123,7 @@ static void build(const filter_context *context, size_t instance, filtered_appea
     }
     uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
     appearance_bind(appearance, "mixture_map", resource, filtered_map_sampler(material, map));
-    filtered_maps_build(context, material, appearance);
+    filtered_maps_build(context, index, appearance);
 }
 
 /// One mixture serves all lobes of a material: its colour is that of their sum.

@@ -22,7 +22,7 @@ static void build(const filter_context *context, size_t instance, filtered_appea
     }
     appearance_bind(appearance, "parameter_map", resource, filtered_map_sampler(material, map));
     appearance_specialise(appearance, SPECIALISE_MIXTURE, averaged);
-    filtered_maps_build(context, material, appearance);
+    filtered_maps_build(context, index, appearance);
 }
 
 const lobe_filter filter_mipmap = {

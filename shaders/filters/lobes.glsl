@@ -39,12 +39,13 @@ const int NODE_SECTOR = 1;
 const int NODE_END = 13;
 
 struct appearance {
-    base_material base;     // level 0; colours are taken from the footprint
+    base_material base;     // level 0, where it may be seen; colours are the footprint's
     base_material filtered; // averaged over the footprint
     map_area area;
     float base_share;       // [0, 1]: how much of the appearance is level 0
     float mixture_scale;    // what lobes' weights are multiplied by
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
+    float complement;       // 1 - |r| of the footprint's one lobe, were it about the normals
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
     vec4 distributions; // the mixture at the half vectors of the lights gathered last
@@ -129,6 +130,12 @@ float refinement(float complement, float base_complement, float epsilon) {
     return 1.0 - transition(measure, epsilon, BLEND);
 }
 
+// Lobes about their texels' normals have their resultant from the mean layer, so that the one
+// lobe of all is fetched only where it is needed.
+bool root_from_mean() {
+    return MODEL == MODEL_MICROFACET && MEAN_LAYER != 0u && SUBDIVISION > 0u;
+}
+
 // The next base lobe of level 0. Those of other kinds are evaluated in evaluate_appearance.
 lobe take_base_lobe(inout walk at, inout appearance fetched) {
     int i = at.base_lobe++;
@@ -159,6 +166,8 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
         refine = refinement(complement, fetched.base_complement, one ? EPSILON_0 : EPSILON_1);
     refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
+    if (root_from_mean())
+        refine = one ? at.root_share : refine;
 
     float share = (one ? 1.0 : at.root_share) * (one || is_sector ? 1.0 : at.sector_share) *
                   (1.0 - refine) * moment.w;
@@ -175,12 +184,21 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     return result;
 }
 
+bool walks_base() {
+    return base_in_walk() && may_see_level_0(lobe_map());
+}
+
 walk start_walk(appearance fetched) {
     walk at;
-    at.base_lobe = base_in_walk() && fetched.base_share > 0.0 ? 0 : int(LOBE_COUNT);
+    at.base_lobe = walks_base() && fetched.base_share > 0.0 ? 0 : int(LOBE_COUNT);
     at.node = fetched.base_share < 1.0 ? (COARSEST == 0u ? NODE_ONE : NODE_SECTOR) : NODE_END;
     at.root_share = 1.0;
     at.sector_share = 0.0;
+    if (root_from_mean()) {
+        at.root_share = refinement(fetched.complement, fetched.base_complement, EPSILON_0);
+        if (fetched.base_share < 1.0 && at.root_share >= 1.0)
+            at.node = NODE_SECTOR;
+    }
     return at;
 }
 
@@ -205,7 +223,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     walk at = start_walk(fetched);
     while (at.base_lobe < LOBE_COUNT || at.node < NODE_END) {
         lobe next;
-        if (base_in_walk() && at.base_lobe < LOBE_COUNT)
+        if (walks_base() && at.base_lobe < LOBE_COUNT)
             next = take_base_lobe(at, fetched);
         else
             next = take_cluster(at, fetched);
@@ -221,9 +239,9 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 
 // Prepares for the walk over the mixture.
 void enter_mixture(inout appearance fetched, surface_point surface) {
-    fetched.area = lobe_area(surface);
     fetched.level = fetched.area.level;
-    fetched.base_share = clamp(1.0 - fetched.level, 0.0, 1.0);
+    fetched.base_share =
+        may_see_level_0(lobe_map()) ? clamp(1.0 - fetched.level, 0.0, 1.0) : 0.0;
     fetched.mixture_from_tangent = mixture_frame(surface);
     float coverage;
     vec4 mean = fetch_mean(fetched.area, coverage);
@@ -234,30 +252,34 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     if (MODEL == MODEL_MICROFACET)
         fetched.mixture_scale /=
             von_mises_fisher_projected_area(concentration_from_complement(mean.w));
-    fetched.diffuse_normal = mix(mean.xyz * fetched.mixture_from_tangent, fetched.base.normal,
-                                 fetched.base_share);
+    fetched.diffuse_normal = mean.xyz * fetched.mixture_from_tangent;
     // Lobes about normals: their resultant is the product of the normals' and the base lobes'.
-    float complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
-    fetched.spread = clamp(1.0 - mean.w / max(complement, LEAST_WEIGHT), 0.0, 1.0);
+    fetched.complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
+    fetched.spread = clamp(1.0 - mean.w / max(fetched.complement, LEAST_WEIGHT), 0.0, 1.0);
+    if (may_see_level_0(lobe_map())) {
+        fetched.base = unfiltered_material(surface);
+        fetched.diffuse_normal =
+            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
+    }
 }
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
-    result.base = unfiltered_material(surface);
+    result.area = lobe_area(surface);
     result.base_share = 1.0;
     result.lobe_count = float(LOBE_COUNT);
     result.level = 0.0;
-    result.diffuse_normal = result.base.normal;
     if (MIXTURE)
         enter_mixture(result, surface);
+    else
+        result.diffuse_normal = unfiltered_normal(surface);
     result.normal = mean_direction(result.diffuse_normal, vec3(0.0, 0.0, 1.0));
-    result.filtered = filtered_material(surface, result.normal);
-    result.base.diffuse = result.filtered.diffuse;
-    result.base.specular = result.filtered.specular;
+    result.filtered = filtered_material(surface, result.normal, result.area);
     result.alpha = 1.0;
     if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
-    result.emission = EMISSION ? filtered_emission(surface) : vec3(0.0);
+        result.alpha = filtered_base_colour(surface, result.area).a * material.base_colour.a *
+                       surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
     return result;
 }
 
@@ -267,16 +289,21 @@ appearance fetch_appearance(surface_point surface) {
 vec3 reflecting_normal(appearance fetched, vec3 halfway) {
     vec3 mean = fetched.filtered.normal;
     vec3 normal = mean_direction(mix(mean, halfway, fetched.spread), mean);
-    return mean_direction(mix(normal, fetched.base.normal, fetched.base_share), mean);
+    if (may_see_level_0(lobe_map()))
+        normal = mean_direction(mix(normal, fetched.base.normal, fetched.base_share), mean);
+    return normal;
 }
 
 vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3 halfway,
                                     vec3 outgoing, vec3 incoming) {
     base_material frame = fetched.filtered;
     frame.normal = reflecting_normal(fetched, halfway);
-    frame.width = mix(fetched.filtered.width, fetched.base.width, fetched.base_share);
-    distribution += fetched.base_share * evaluate_normal_distribution(fetched.base.normal, halfway,
-                                                                      fetched.base.width);
+    if (may_see_level_0(lobe_map())) {
+        frame.width = mix(frame.width, fetched.base.width, fetched.base_share);
+        distribution +=
+            fetched.base_share *
+            evaluate_normal_distribution(fetched.base.normal, halfway, fetched.base.width);
+    }
     return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
                                 incoming);
 }
@@ -291,7 +318,7 @@ vec3 mixture_colour() {
 
 vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfway, vec3 incoming) {
     vec3 sum = mixture_colour() * distribution;
-    if (!base_in_walk())
+    if (may_see_level_0(lobe_map()) && !base_in_walk())
         sum += fetched.base_share * evaluate_half_vector_lobes(fetched.base, halfway);
     sum *= fetched.filtered.specular;
     if (DIFFUSE)
@@ -302,7 +329,7 @@ vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfw
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     if (!MIXTURE)
-        return evaluate_base_material(fetched.base, surface.outgoing, incoming);
+        return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, surface.outgoing);

@@ -31,35 +31,35 @@ float width_from_average(float average) {
     return DISTRIBUTION == DISTRIBUTION_BLINN_PHONG ? average - 1.0 : sqrt(2.0 / average);
 }
 
+// The averages over the footprint: a normal of any length, and a width.
+vec4 fetch_averages(map_area area, surface_point surface) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < PROBES; ++i)
+        sum += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
+    sum /= float(PROBES);
+    if (may_see_level_0(lobe_map())) {
+        base_material base = unfiltered_material(surface);
+        sum = mix(vec4(base.normal, averaged_width(base)), sum, min(area.level, 1.0));
+    }
+    return sum;
+}
+
 appearance fetch_appearance(surface_point surface) {
     appearance result;
-    result.level = 0.0;
-    vec3 normal = unfiltered_normal(surface);
-    float width = 0.0;
-    if (AVERAGED) {
-        map_area area = lobe_area(surface);
-        result.level = area.level;
-        vec4 mean = vec4(0.0);
-        for (uint i = 0u; i < PROBES; ++i)
-            mean += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
-        mean /= float(PROBES);
-        if (area.level < 1.0) {
-            base_material base = unfiltered_material(surface);
-            vec4 own = vec4(base.normal, averaged_width(base));
-            mean = mix(own, mean, area.level);
-        }
-        normal = mean_direction(mean.xyz, vec3(0.0, 0.0, 1.0));
-        width = mean.w;
-    }
-    result.base = filtered_material(surface, normal);
+    map_area area = lobe_area(surface);
+    vec4 averages = AVERAGED ? fetch_averages(area, surface) : vec4(0.0);
+    result.normal = AVERAGED ? mean_direction(averages.xyz, vec3(0.0, 0.0, 1.0))
+                             : unfiltered_normal(surface);
+    result.base = filtered_material(surface, result.normal, area);
     if (AVERAGED)
-        result.base.width = width_from_average(width);
-    result.normal = normal;
+        result.base.width = width_from_average(averages.w);
     result.alpha = 1.0;
     if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
-    result.emission = EMISSION ? filtered_emission(surface) : vec3(0.0);
+        result.alpha = filtered_base_colour(surface, area).a * material.base_colour.a *
+                       surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
     result.lobe_count = float(LOBE_COUNT);
+    result.level = AVERAGED ? area.level : 0.0;
     return result;
 }
 

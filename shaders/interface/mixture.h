@@ -25,6 +25,10 @@
 #define SPECIALISE_EPSILON_1   (SPECIALISE_FILTER + 9)  // float
 #define SPECIALISE_BLEND       (SPECIALISE_FILTER + 10) // float, half width of the transition
 #define SPECIALISE_LEVEL_BIAS  (SPECIALISE_FILTER + 11) // float, added to the level
+// uint, bit MAP_...: some pixel may see level 0 of the map.
+#define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 12)
+// uint, bit MAP_...: the map is as large as that of the lobes, and read at the same coordinates.
+#define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 13)
 
 #define SPACE_TANGENT 0
 #define SPACE_OBJECT  1

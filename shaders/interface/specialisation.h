@@ -20,7 +20,7 @@
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool
 #define SPECIALISE_SPOT_LIGHTS        18 // bool
-#define SPECIALISE_LIGHTS_AT_ONCE 19     // uint, [1, 4]: lights that filters see together
+#define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters see together
 // The user.
 #define SPECIALISE_VIEW         24 // uint, VIEW_...
 #define SPECIALISE_BASE_AS_LOBE 25 // bool: base lobes are turned into von Mises-Fisher lobes first
