@@ -7,6 +7,7 @@
 #include <cglm/cglm.h>
 
 #include "passes/scene_check.h"
+#include "passes/subdivision_choice.h"
 #include "shaders/interface/vertex.h"
 
 static_assert(sizeof(struct vertex) == sizeof(lobe_scene_vertex), "one vertex, two descriptions");
@@ -122,6 +123,8 @@ static lobe_result upload_material(lobe_device *device, device_scene *result, ui
             material->second_coordinates |= 1u << map;
     }
     material->widths_differ = lobe_widths_differ(material->material);
+    if (material->maps[MAP_NORMAL].use || material->maps[MAP_WIDTH].use)
+        material->subdivision = subdivision_choose(result->scene, material);
     struct material_constants constants;
     fill_constants(material, &constants);
     return lobe_buffer_create(device,

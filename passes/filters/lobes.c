@@ -7,13 +7,16 @@
 #include "shaders/interface/specialisation.h"
 
 static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
+static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
 static const char *const thresholds[] = {"length", "dispersion", NULL};
 
 static const lobe_knob knobs[] = {
     {"space", "where mixtures are built; auto: as the scene says", LOBE_KNOB_CHOICE, 0, 3, 0,
      spaces},
-    {"subdivision", "finest level of clusters: 0, 1 or 2 for one, four or eight lobes",
-     LOBE_KNOB_INTEGER, 0, 2, 2, NULL},
+    {"subdivision",
+     "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; auto: as few as serve the "
+     "material's maps as well",
+     LOBE_KNOB_CHOICE, 0, 3, 0, subdivisions},
     {"threshold",
      "what is held against epsilon: the length |r|, or the base lobes' share of the "
      "breadth",
@@ -41,14 +44,20 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
     return space_of(context, instance) != LOBE_SPACE_TANGENT;
 }
 
-/// Without a normal map all texels of a material point the same way: one cluster has them all,
-/// but where the base lobes themselves do not.
+/// What the user asks for, or else what the material's maps need. Without a normal map all texels
+/// of a material point the same way: one cluster has them all, but where the base lobes themselves
+/// do not. Clusters of an atlas are about another pole than the maps', so that nothing is known.
 static uint32_t subdivision_of(const filter_context *context, const device_material *material,
                                lobe_map_space space) {
     bool one_direction = !material->maps[MAP_NORMAL].use && space == LOBE_SPACE_TANGENT &&
                          (material->material->model == LOBE_MATERIAL_MICROFACET ||
                           material->material->lobe_count == 1);
-    return one_direction ? 0 : (uint32_t)filter_setting(context, "subdivision");
+    if (one_direction)
+        return 0;
+    uint32_t choice = (uint32_t)filter_setting(context, "subdivision");
+    if (choice > 0)
+        return choice - 1;
+    return space == LOBE_SPACE_TANGENT ? material->subdivision : 2;
 }
 
 /// Whether shading needs the mean normal or the mean length of the base lobes, and cannot have it

@@ -1,6 +1,8 @@
 #ifndef LIB_LOBE_CLUSTER_GLSL
 #define LIB_LOBE_CLUSTER_GLSL
 
+#include "interface/cluster.h"
+
 // The partition of directions about the pole (0, 0, 1) into clusters of lobes: Xu, Wang, Zhao,
 // Bao, 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Subdivision 0 has one cluster,
 // subdivision 1 has 4 sectors of longitude, subdivision 2 splits each by latitude: cluster j of
@@ -11,13 +13,6 @@
 
 const uint CLUSTER_COUNT = 8u;
 const uint SECTOR_COUNT = 4u;
-
-// Cosine of the tilt that splits a sector, 12 degrees. Half the hemisphere would be 60 degrees, but
-// the normals of real maps stay near the pole. Measured as mean L1 error of the mixture over seven
-// photographed and drawn normal maps, noise, bumps, the tablecloth and camera-space patches, with
-// kappa of 30 to 600: 19 % from 9 to 12 degrees, 21 % at 18, 26 % at 52; 33 % with sectors alone.
-// Only strongly tilted patches in camera space would rather have 50 degrees (21 % instead of 35 %).
-const float LATITUDE_SPLIT = 0.978;
 
 uint sector_of(vec3 direction) {
     bool along_x = abs(direction.x) >= abs(direction.y);
