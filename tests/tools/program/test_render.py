@@ -40,11 +40,11 @@ def test_both_outputs_at_once():
 
 def test_metadata():
     folder = fresh_folder("metadata")
-    succeeds("render", "tablecloth", *SMALL, "--set", "epsilon0=0.5", "--set", "subdivision=1",
+    succeeds("render", "tablecloth", *SMALL, "--set", "epsilon0=0.5", "--set", "probes=2",
              "--set", "threshold=dispersion", "-o", folder / "a.exr")
     header = exr_header(folder / "a.exr")
     expected = {"scene": "tablecloth", "filter": "lobes", "samples": 1, "knob.epsilon0": 0.5,
-                "knob.subdivision": 1, "knob.threshold": "dispersion", "knob.view": "radiance",
+                "knob.probes": 2, "knob.threshold": "dispersion", "knob.view": "radiance",
                 "lobeVersion": succeeds("--version").stdout.split()[1]}
     for name, value in expected.items():
         check(header.get(name) == value, f"{name}: {header.get(name)}, not {value}")

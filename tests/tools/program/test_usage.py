@@ -93,7 +93,7 @@ def test_unknown_knob():
 def test_knob_out_of_range():
     for value in ("1.1", "-0.1", "nan", "inf", "", "half", "0.5x"):
         is_wrong_usage("render", "bumps", *OUTPUT, "--set", f"epsilon0={value}", says="epsilon0")
-    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "subdivision=1.5", says="subdivision")
+    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "probes=1.5", says="probes")
     is_wrong_usage("render", "bumps", *OUTPUT, "--set", "view=beauty", says=["beauty", "level"])
     is_wrong_usage("render", "bumps", *OUTPUT, "--set", "epsilon0", says="NAME=VALUE")
     is_wrong_usage("bench", "bumps", "--set", "epsilon0=2", says="epsilon0")
@@ -144,7 +144,7 @@ def test_filters_are_listed_with_their_knobs():
     text = succeeds("filters").stdout
     for words in ("direct: ", "mipmap: ", "lobes: ", "reference: ", "Xu et al. 2017",
                   "epsilon0     0.95  [0, 1]", "epsilon1     0.85  [0, 1]",
-                  "subdivision  2  [0, 2] whole", "{radiance, lobes, level}"):
+                  "probes       1  [1, 16] whole", "{radiance, lobes, level}"):
         check(words in text, f"no '{words}' in {text}")
 
 
