@@ -92,9 +92,25 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
     return length < filter_setting(context, "epsilon0") - filter_setting(context, "blend");
 }
 
-static void specialise_mixture(const filter_context *context, const mixture_map *mixture,
-                               uint32_t coarsest, filtered_appearance *appearance) {
+static bool has_one_hue(const lobe_material *material) {
+    const float *first = material->lobes[0].colour;
+    for (uint32_t i = 1; i < material->lobe_count; ++i) {
+        const float *colour = material->lobes[i].colour;
+        for (int a = 0; a < 3; ++a) {
+            int b = (a + 1) % 3;
+            if (fabsf(colour[a] * first[b] - colour[b] * first[a]) >
+                1e-4f * fabsf(colour[a] * first[b]) + 1e-6f)
+                return false;
+        }
+    }
+    return true;
+}
+
+static void specialise_mixture(const filter_context *context, const lobe_material *material,
+                               const mixture_map *mixture, uint32_t coarsest,
+                               filtered_appearance *appearance) {
     appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
+    appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
     appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
     appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
     appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
@@ -123,7 +139,8 @@ static void build(const filter_context *context, size_t instance, filtered_appea
             lobe_clustering(context, instance, space, subdivision_of(context, material, space),
                             needs_mean(context, material));
         level_reduction(context->graph, &mixture.map);
-        specialise_mixture(context, &mixture, coarsest_of(context, material, &mixture), appearance);
+        specialise_mixture(context, material->material, &mixture,
+                           coarsest_of(context, material, &mixture), appearance);
         appearance->bytes = reduced_map_bytes(&mixture.map, mixture.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = mixture.map.resource;
@@ -137,19 +154,9 @@ static void build(const filter_context *context, size_t instance, filtered_appea
 
 /// One mixture serves all lobes of a material: its colour is that of their sum.
 static const char *ignores(const lobe_material *material) {
-    if (material->model != LOBE_MATERIAL_HALF_VECTOR_LOBES)
+    if (has_one_hue(material))
         return NULL;
-    const float *first = material->lobes[0].colour;
-    for (uint32_t i = 1; i < material->lobe_count; ++i) {
-        const float *colour = material->lobes[i].colour;
-        for (int a = 0; a < 3; ++a) {
-            int b = (a + 1) % 3;
-            if (fabsf(colour[a] * first[b] - colour[b] * first[a]) >
-                1e-4f * fabsf(colour[a] * first[b]) + 1e-6f)
-                return "lobes of different hue get their mean hue";
-        }
-    }
-    return NULL;
+    return "lobes of different hue get their mean hue";
 }
 
 const lobe_filter filter_lobes = {

@@ -29,6 +29,8 @@
 #define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 12)
 // uint, bit MAP_...: the map is as large as that of the lobes, and read at the same coordinates.
 #define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 13)
+// bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
+#define SPECIALISE_ONE_HUE (SPECIALISE_FILTER + 14)
 
 #define SPACE_TANGENT 0
 #define SPACE_OBJECT  1
