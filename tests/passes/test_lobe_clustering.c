@@ -192,11 +192,11 @@ static void widths_are_convolved_and_mapped(void **state) {
         LOBE_DISTRIBUTION_GGX, LOBE_DISTRIBUTION_BECKMANN, LOBE_DISTRIBUTION_BLINN_PHONG,
         LOBE_DISTRIBUTION_VMF};
     for (size_t i = 0; i < 8; i++) {
-        lobe_scene *scene = scene_begin();
         lobe_distribution distribution = distributions[i % 4];
         bool microfacet = i < 4;
         if (!microfacet && i % 4 < 2)
             continue; // half-vector lobes are Blinn-Phong or von Mises-Fisher
+        lobe_scene *scene = scene_begin();
         lobe_material material = half_vector_material(distribution, 50);
         if (microfacet)
             lobe_material_default(&material);
