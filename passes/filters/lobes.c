@@ -93,6 +93,8 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
 }
 
 static bool has_one_hue(const lobe_material *material) {
+    if (material->model != LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        return true;
     const float *first = material->lobes[0].colour;
     for (uint32_t i = 1; i < material->lobe_count; ++i) {
         const float *colour = material->lobes[i].colour;
