@@ -6,6 +6,7 @@
 
 #include <cglm/cglm.h>
 
+#include "passes/image_texel.h"
 #include "passes/scene_check.h"
 #include "passes/subdivision_choice.h"
 #include "shaders/interface/vertex.h"
@@ -63,7 +64,7 @@ static void fill_constants(const device_material *material, struct material_cons
     memcpy(constants->base_colour, source->base_colour, sizeof source->base_colour);
     memcpy(constants->emissive, source->emissive, sizeof source->emissive);
     constants->emissive[3] = source->alpha_cutoff;
-    constants->metallic = source->metallic;
+    constants->metallic = material->metallic;
     constants->roughness = source->roughness;
     constants->normal_scale = source->normal_scale;
     constants->normal_concentration = source->normal_concentration;
@@ -100,6 +101,34 @@ static bool lobe_widths_differ(const lobe_material *material) {
     return false;
 }
 
+/// Whether a metallic-roughness map has one metallic value; if so, gives it.
+static bool metallic_is_constant(const lobe_image *image, float *metallic) {
+    float first[4], texel[4];
+    if (!image_texel(image, 0, 0, first))
+        return false;
+    for (uint32_t y = 0; y < image->height; ++y) {
+        for (uint32_t x = 0; x < image->width; ++x) {
+            image_texel(image, x, y, texel);
+            if (texel[2] != first[2])
+                return false;
+        }
+    }
+    *metallic = first[2];
+    return true;
+}
+
+static void measure_metallic(const lobe_scene *scene, device_material *material) {
+    const lobe_texture_use *use = material->maps[MAP_WIDTH].use;
+    float constant = 1;
+    material->metallic = material->material->metallic;
+    if (!use || material->material->model != LOBE_MATERIAL_MICROFACET || material->metallic == 0)
+        return;
+    if (metallic_is_constant(&scene->images[use->image].image, &constant))
+        material->metallic *= constant;
+    else
+        material->metallic_varies = true;
+}
+
 static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
                                    const lobe_log *log) {
     device_material *material = &result->materials[index];
@@ -122,6 +151,7 @@ static lobe_result upload_material(lobe_device *device, device_scene *result, ui
         if (use->texture_coordinates)
             material->second_coordinates |= 1u << map;
     }
+    measure_metallic(result->scene, material);
     material->widths_differ = lobe_widths_differ(material->material);
     if (material->maps[MAP_NORMAL].use || material->maps[MAP_WIDTH].use)
         material->subdivision = subdivision_choose(result->scene, material);

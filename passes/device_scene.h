@@ -20,6 +20,8 @@ typedef struct device_material {
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: there is one
     uint32_t second_coordinates; ///< bit MAP_...: it uses the second set
+    bool metallic_varies;        ///< the width map says where the material is metal
+    float metallic;              ///< its metallic factor, times the map's where that is constant
     uint32_t subdivision;        ///< [0, 2]: what its mixtures of lobes need in tangent space
     bool widths_differ;          ///< base lobes of one texel differ in width
 } device_material;

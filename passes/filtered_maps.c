@@ -61,8 +61,8 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
     const device_map *source = &material->maps[map];
     if (!source->use || source->width * source->height == 1)
         return false;
-    // Widths of half-vector lobes are in the mixtures.
-    return map != MAP_WIDTH || material->material->model == LOBE_MATERIAL_MICROFACET;
+    // Widths are in the mixtures (or averages); what else the map may hold is metal.
+    return map != MAP_WIDTH || material->metallic_varies;
 }
 
 /// Whether a map's texels and coordinates are those of the lobes' map.

@@ -32,5 +32,6 @@ void material_specialise(const device_material *material, specialisation_list *l
     specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));
     specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
     specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);
+    specialise(list, SPECIALISE_METALLIC_MAP, material->metallic_varies);
     specialise(list, SPECIALISE_EMISSION, any(source->emissive));
 }

@@ -35,7 +35,7 @@ base_material assemble_material(surface_point surface, vec3 normal, vec4 base_co
         albedo *= surface.colour.rgb;
     base.normal = normal;
     if (MODEL == MODEL_MICROFACET) {
-        float metallic = material.metallic * width.b;
+        float metallic = material.metallic * (METALLIC_MAP ? width.b : 1.0);
         // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
         base.diffuse = albedo * (1.0 - metallic);
         base.specular = mix(vec3(0.04), albedo, metallic);

@@ -19,6 +19,7 @@ layout(constant_id = SPECIALISE_NORMAL_CONCENTRATION) const bool NORMAL_CONCENTR
 layout(constant_id = SPECIALISE_ALPHA_MASK) const bool ALPHA_MASK = false;
 layout(constant_id = SPECIALISE_EMISSION) const bool EMISSION = false;
 layout(constant_id = SPECIALISE_VERTEX_COLOUR) const bool VERTEX_COLOUR = false;
+layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_DIRECTIONAL_LIGHTS) const bool DIRECTIONAL_LIGHTS = false;
 layout(constant_id = SPECIALISE_POINT_LIGHTS) const bool POINT_LIGHTS = false;

@@ -20,24 +20,22 @@ layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_LENG
 layout(constant_id = SPECIALISE_EPSILON_0) const float EPSILON_0 = 0.95;
 layout(constant_id = SPECIALISE_EPSILON_1) const float EPSILON_1 = 0.85;
 layout(constant_id = SPECIALISE_BLEND) const float BLEND = 0.05;
-layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
 // Base lobes that are like the mixture's are walked with them, so that a pixel without level 0
 // does not pay for them.
 bool base_in_walk() {
-    return MODEL == MODEL_HALF_VECTOR_LOBES && ONE_HUE &&
+    return MODEL == MODEL_HALF_VECTOR_LOBES &&
            (BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF);
 }
 
 // Clusters with less of the footprint than this are left out.
 const float LEAST_WEIGHT = 1e-5;
 
-// Nodes of the walk: the one lobe, then for sector i the sector (1 + 3i) and its two halves.
-const int NODE_ONE = 0;
-const int NODE_SECTOR = 1;
-const int NODE_END = 13;
+// The one lobe of all sectors is walked first.
+const int SECTOR_ALL = -1;
+const int SECTOR_END = 4;
 
 struct appearance {
     base_material base;     // level 0, where it may be seen; colours are the footprint's
@@ -69,7 +67,8 @@ struct lobe {
 // Where a walk is.
 struct walk {
     int base_lobe;      // next base lobe
-    int node;           // next node
+    int sector;         // next cluster: of this sector, [0, 4), SECTOR_ALL or SECTOR_END
+    int part;           // 0: all of it; 1, 2: a half
     float root_share;   // of the mixture, what sectors stand for
     float sector_share; // of that, what the halves of the sector at hand stand for
 };
@@ -153,13 +152,11 @@ lobe take_base_lobe(inout walk at, inout appearance fetched) {
 
 // The lobe of the next cluster; says which follows.
 lobe take_cluster(inout walk at, inout appearance fetched) {
-    int sector = (at.node - NODE_SECTOR) / 3;
-    int part = at.node - NODE_SECTOR - 3 * sector;
-    bool one = at.node == NODE_ONE;
-    bool is_sector = !one && part == 0;
+    bool one = at.sector == SECTOR_ALL;
+    bool is_sector = !one && at.part == 0;
     int layer = one         ? MIXTURE_LAYER_ONE
-                : is_sector ? MIXTURE_LAYER_SECTORS + sector
-                            : MIXTURE_LAYER_HALVES + 2 * sector + part - 1;
+                : is_sector ? MIXTURE_LAYER_SECTORS + at.sector
+                            : MIXTURE_LAYER_HALVES + 2 * at.sector + at.part - 1;
     vec4 moment = fetch_layer(fetched.area, layer);
 
     float complement = resultant_complement(moment.xyz, moment.w);
@@ -173,15 +170,19 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     float share = (one ? 1.0 : at.root_share) * (one || is_sector ? 1.0 : at.sector_share) *
                   (1.0 - refine) * moment.w;
     lobe result;
-    result.axis = mean_direction(moment.xyz, vec3(0.0, 0.0, 1.0));
+    result.axis = moment.xyz * inversesqrt(max(dot(moment.xyz, moment.xyz), 1e-30));
     result.concentration = concentration_from_complement(complement);
     result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
     fetched.lobe_count += share > LEAST_WEIGHT ? 1.0 : 0.0;
 
     at.root_share = one ? refine : at.root_share;
     at.sector_share = is_sector ? refine : at.sector_share;
-    int past = one ? NODE_END : NODE_SECTOR + 3 * (sector + 1);
-    at.node = refine > 0.0 || (!one && !is_sector) ? at.node + 1 : past;
+    bool deeper = refine > 0.0;
+    bool to_second = !one && at.part == 1;
+    // Past the one lobe come all sectors or nothing, past a sector its halves or the next.
+    bool next_sector = one || (is_sector && !deeper) || at.part == 2;
+    at.sector = one && !deeper ? SECTOR_END : at.sector + (next_sector ? 1 : 0);
+    at.part = to_second ? 2 : is_sector && deeper ? 1 : 0;
     return result;
 }
 
@@ -192,13 +193,14 @@ bool walks_base() {
 walk start_walk(appearance fetched) {
     walk at;
     at.base_lobe = walks_base() && fetched.base_share > 0.0 ? 0 : int(LOBE_COUNT);
-    at.node = fetched.base_share < 1.0 ? (COARSEST == 0u ? NODE_ONE : NODE_SECTOR) : NODE_END;
+    at.sector = fetched.base_share < 1.0 ? (COARSEST == 0u ? SECTOR_ALL : 0) : SECTOR_END;
+    at.part = 0;
     at.root_share = 1.0;
     at.sector_share = 0.0;
     if (root_from_mean()) {
         at.root_share = refinement(fetched.complement, fetched.base_complement, EPSILON_0);
         if (fetched.base_share < 1.0 && at.root_share >= 1.0)
-            at.node = NODE_SECTOR;
+            at.sector = 0;
     }
     return at;
 }
@@ -212,29 +214,43 @@ vec3 mixture_half_vector(appearance fetched, surface_point surface, vec3 incomin
     return fetched.mixture_from_tangent * half_vector(incoming, surface.outgoing);
 }
 
+// The half vectors of the lights at hand, in the mixtures' space.
+struct light_directions {
+    vec3 first, second, third, fourth;
+};
+
+void add_lobe(inout appearance fetched, lobe next, light_directions halfway) {
+    fetched.distributions[0] += evaluate_lobe(next, halfway.first);
+    if (LIGHTS_AT_ONCE > 1u)
+        fetched.distributions[1] += evaluate_lobe(next, halfway.second);
+    if (LIGHTS_AT_ONCE > 2u)
+        fetched.distributions[2] += evaluate_lobe(next, halfway.third);
+    if (LIGHTS_AT_ONCE > 3u)
+        fetched.distributions[3] += evaluate_lobe(next, halfway.fourth);
+}
+
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!MIXTURE)
         return;
-    vec3 halfway_0 = mixture_half_vector(fetched, surface, incoming[0]);
-    vec3 halfway_1 = mixture_half_vector(fetched, surface, incoming[1]);
-    vec3 halfway_2 = mixture_half_vector(fetched, surface, incoming[2]);
-    vec3 halfway_3 = mixture_half_vector(fetched, surface, incoming[3]);
+    light_directions halfway = light_directions(mixture_half_vector(fetched, surface, incoming[0]),
+                                                mixture_half_vector(fetched, surface, incoming[1]),
+                                                mixture_half_vector(fetched, surface, incoming[2]),
+                                                mixture_half_vector(fetched, surface, incoming[3]));
     fetched.distributions = vec4(0.0);
     fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     walk at = start_walk(fetched);
-    while (at.base_lobe < LOBE_COUNT || at.node < NODE_END) {
+    if (SUBDIVISION == 0u && !walks_base()) {
+        at.sector = SECTOR_ALL; // nothing to walk
+        add_lobe(fetched, take_cluster(at, fetched), halfway);
+        return;
+    }
+    while (at.base_lobe < LOBE_COUNT || at.sector < SECTOR_END) {
         lobe next;
         if (walks_base() && at.base_lobe < LOBE_COUNT)
             next = take_base_lobe(at, fetched);
         else
             next = take_cluster(at, fetched);
-        fetched.distributions[0] += evaluate_lobe(next, halfway_0);
-        if (LIGHTS_AT_ONCE > 1u)
-            fetched.distributions[1] += evaluate_lobe(next, halfway_1);
-        if (LIGHTS_AT_ONCE > 2u)
-            fetched.distributions[2] += evaluate_lobe(next, halfway_2);
-        if (LIGHTS_AT_ONCE > 3u)
-            fetched.distributions[3] += evaluate_lobe(next, halfway_3);
+        add_lobe(fetched, next, halfway);
     }
 }
 
@@ -276,6 +292,9 @@ appearance fetch_appearance(surface_point surface) {
         result.diffuse_normal = unfiltered_normal(surface);
     result.normal = mean_direction(result.diffuse_normal, vec3(0.0, 0.0, 1.0));
     result.filtered = filtered_material(surface, result.normal, result.area);
+    if (MIXTURE && MODEL == MODEL_MICROFACET)
+        result.filtered.width = base_lobe_of_concentration(
+            DISTRIBUTION, concentration_from_complement(result.base_complement));
     result.alpha = 1.0;
     if (ALPHA_MASK)
         result.alpha = filtered_base_colour(surface, result.area).a * material.base_colour.a *
@@ -288,11 +307,10 @@ appearance fetch_appearance(surface_point surface) {
 // texels' normals and base lobes both about normal, of variances that add up to the mixture's, the
 // mean of the normals where their sum is given divides as the variances do.
 vec3 reflecting_normal(appearance fetched, vec3 halfway) {
-    vec3 mean = fetched.filtered.normal;
-    vec3 normal = mean_direction(mix(mean, halfway, fetched.spread), mean);
+    vec3 sum = mix(fetched.filtered.normal, halfway, fetched.spread);
     if (may_see_level_0(lobe_map()))
-        normal = mean_direction(mix(normal, fetched.base.normal, fetched.base_share), mean);
-    return normal;
+        sum = mix(sum, fetched.base.normal, fetched.base_share);
+    return sum * inversesqrt(max(dot(sum, sum), 1e-30));
 }
 
 vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3 halfway,

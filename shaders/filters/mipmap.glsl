@@ -26,9 +26,7 @@ float averaged_width(base_material base) {
 }
 
 float width_from_average(float average) {
-    if (MODEL != MODEL_MICROFACET || DISTRIBUTION == DISTRIBUTION_VMF)
-        return average;
-    return DISTRIBUTION == DISTRIBUTION_BLINN_PHONG ? average - 1.0 : sqrt(2.0 / average);
+    return MODEL == MODEL_MICROFACET ? base_lobe_of_concentration(DISTRIBUTION, average) : average;
 }
 
 // The averages over the footprint: a normal of any length, and a width.

@@ -16,6 +16,7 @@
 #define SPECIALISE_EMISSION             8  // bool
 #define SPECIALISE_VERTEX_COLOUR        9  // bool
 #define SPECIALISE_MIRRORED             10 // bool, the transform turns left into right
+#define SPECIALISE_METALLIC_MAP         11 // bool, the width map says where a microfacet is metal
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool

@@ -64,6 +64,18 @@ float base_lobe_concentration(uint distribution, float parameter) {
     }
 }
 
+// The inverse: the base lobe that a von Mises-Fisher lobe of this concentration stands for.
+float base_lobe_of_concentration(uint distribution, float concentration) {
+    switch (distribution) {
+    case DISTRIBUTION_BLINN_PHONG:
+        return max(concentration - 1.0, 0.0);
+    case DISTRIBUTION_VMF:
+        return concentration;
+    default:
+        return sqrt(2.0 / max(concentration, 1e-6));
+    }
+}
+
 // Convolution of a base lobe with normals that are themselves spread, Xu et al., 2017, Eq. 11.
 
 // Xu et al., 2017, Eq. 13, after Han, Sun, Ramamoorthi, Grinspun, 2007, Frequency Domain Normal Map
