@@ -8,7 +8,7 @@
 #include "tests/reference/lobe_mixture.h"
 #include "tests/reference/normal_map.h"
 
-void image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]) {
+void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]) {
     uint32_t channels = lobe_format_channels(image->format);
     size_t index = ((size_t)y * image->width + x) * channels;
     texel[0] = texel[1] = texel[2] = 0;
@@ -34,8 +34,8 @@ static const lobe_image *width_image(const lobe_scene *scene, const lobe_materia
 /// Maps smaller than the largest repeat their texels.
 static void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x,
                           uint32_t y, double texel[4]) {
-    image_texel(image, (uint32_t)((uint64_t)x * image->width / size->width),
-                (uint32_t)((uint64_t)y * image->height / size->height), texel);
+    reference_image_texel(image, (uint32_t)((uint64_t)x * image->width / size->width),
+                          (uint32_t)((uint64_t)y * image->height / size->height), texel);
 }
 
 double base_lobe_concentration(const lobe_material *material, uint32_t i, const double width[4]) {

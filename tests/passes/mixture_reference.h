@@ -9,7 +9,7 @@
 /// What lobe_clustering computes, in double precision and straight from a material's maps.
 
 /// Four channels of a texel, missing ones 0, alpha 1.
-void image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]);
+void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]);
 
 /// The frame of a texel as columns (tangent, bitangent, normal); false: the texel is left out.
 typedef bool (*texel_frame)(const void *user, double u, double v, double frame[3][3]);

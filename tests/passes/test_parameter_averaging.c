@@ -31,10 +31,12 @@ static reference_layers parameters_of_texels(const lobe_scene *scene,
         uint32_t x = i % width, y = i / width;
         double texel[4], factor[4] = {1, 1, 1, 1};
         double *parameters = reference_texel(&layers, x, y, 0);
-        image_texel(normals, x * normals->width / width, y * normals->height / height, texel);
+        reference_image_texel(normals, x * normals->width / width, y * normals->height / height,
+                              texel);
         reference_decode_normal(texel, (double)material->normal_scale, parameters);
         if (widths)
-            image_texel(widths, x * widths->width / width, y * widths->height / height, factor);
+            reference_image_texel(widths, x * widths->width / width, y * widths->height / height,
+                                  factor);
         parameters[3] = microfacet ? base_lobe_concentration(material, 0, factor) : factor[0];
     }
     return layers;

@@ -328,12 +328,16 @@ static void knobs_of_shading_rebuild_nothing(void **state) {
         request = request_for("lobes", knobs[i]);
         check_frame(f, &request, nothing, knobs[i]);
     }
+    // Layers that were not there before have to be built.
+    request = request_for("lobes", "subdivision=0");
+    lobe_frame frame = draw(f, &request);
+    lobe_frame_free(&frame);
     request = request_for("lobes", "subdivision=1");
     check_frame(f, &request, lobe_maps, "subdivision");
     // What `direct` does not declare is gone; so it is built anew.
     request = request_for("direct", NULL);
     check_frame(f, &request, nothing, "direct");
-    request = request_for("lobes", NULL);
+    request = request_for("lobes", "subdivision=1");
     check_frame(f, &request, lobe_maps, "back to lobes");
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);

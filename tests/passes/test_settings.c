@@ -137,8 +137,8 @@ static void bad_assignments_are_refused(void **state) {
     check_refusal("lobes", "epsilon0=nan", LOBE_ERROR_INVALID_ARGUMENT, "from 0 to 1");
     check_refusal("lobes", "epsilon0=inf", LOBE_ERROR_INVALID_ARGUMENT, "from 0 to 1");
     check_refusal("lobes", "epsilon0=0.5x", LOBE_ERROR_INVALID_ARGUMENT, "from 0 to 1");
-    check_refusal("lobes", "subdivision=1.5", LOBE_ERROR_INVALID_ARGUMENT, "whole number");
-    check_refusal("lobes", "subdivision=3", LOBE_ERROR_INVALID_ARGUMENT, "from 0 to 2");
+    check_refusal("lobes", "probes=1.5", LOBE_ERROR_INVALID_ARGUMENT, "whole number");
+    check_refusal("lobes", "subdivision=3", LOBE_ERROR_INVALID_ARGUMENT, "auto, 0, 1, 2");
     check_refusal("lobes", "space=world", LOBE_ERROR_INVALID_ARGUMENT,
                   "auto, tangent, object, camera");
     check_refusal("lobes", "space=", LOBE_ERROR_INVALID_ARGUMENT, "auto");
