@@ -8,7 +8,7 @@
 #include "passes/device_scene.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
-#define FILTER_MAXIMUM_SPECIALISATIONS 16
+#define FILTER_MAXIMUM_SPECIALISATIONS 24
 
 /// What the filter's maps of one instance come to: inputs of its draw in the shading pass.
 typedef struct filtered_appearance {

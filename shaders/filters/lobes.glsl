@@ -20,13 +20,14 @@ layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_LENG
 layout(constant_id = SPECIALISE_EPSILON_0) const float EPSILON_0 = 0.95;
 layout(constant_id = SPECIALISE_EPSILON_1) const float EPSILON_1 = 0.85;
 layout(constant_id = SPECIALISE_BLEND) const float BLEND = 0.05;
+layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
 // Base lobes that are like the mixture's are walked with them, so that a pixel without level 0
 // does not pay for them.
 bool base_in_walk() {
-    return MODEL == MODEL_HALF_VECTOR_LOBES &&
+    return MODEL == MODEL_HALF_VECTOR_LOBES && ONE_HUE &&
            (BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF);
 }
 
