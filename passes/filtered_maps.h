@@ -19,6 +19,15 @@ lobe_format filtered_map_format(const filter_context *context);
 lobe_sampler filtered_map_sampler(const device_material *material, uint32_t map);
 
 /// Knobs of all filters that read filtered maps: put them last in a filter's list.
+///
+/// bias: a texel of a level, interpolated, spreads over twice its width, so that the level whose
+/// texels are as large as a pixel blurs more than the pixel's box does (variance 1/4 against 1/12).
+/// Half a level less is nearer: error of `lobes` against 64 samples at 640x360, bias 0 and -0.5:
+/// tablecloth 0.1365, 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
+///
+/// storage: float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs
+/// 6 % of kappa at 128 and half of it at 1000, where float32 loses 4e-5. In pictures: tablecloth
+/// (kappa 128) 1.3 % apart (relative L2), errors against the reference equal to three digits.
 extern const char *const storage_choices[];
 #define FILTERED_MAP_KNOBS                                                                         \
     {                                                                                              \
@@ -34,10 +43,11 @@ extern const char *const storage_choices[];
          LOBE_KNOB_NUMBER,                                                                         \
          -2,                                                                                       \
          2,                                                                                        \
-         0,                                                                                        \
+         -0.5,                                                                                     \
          NULL},                                                                                    \
     {                                                                                              \
-        "storage", "format of filtered maps", LOBE_KNOB_CHOICE, 0, 1, 0, storage_choices           \
+        "storage", "format of filtered maps: float16 halves memory, for kappa below some 200",     \
+            LOBE_KNOB_CHOICE, 0, 1, 0, storage_choices                                             \
     }
 
 #endif

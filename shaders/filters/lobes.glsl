@@ -44,6 +44,7 @@ struct appearance {
     map_area area;
     float base_share;       // [0, 1]: how much of the appearance is level 0
     float mixture_scale;    // what lobes' weights are multiplied by
+    float own_scale;        // and those of distributions of projected area one
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
     float complement;       // 1 - |r| of the footprint's one lobe, were it about the normals
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
@@ -63,6 +64,9 @@ struct lobe {
     vec3 axis; // unit, in the mixtures' space
     float concentration;
     float weight; // share of the appearance times the lobe's peak
+    // Of microfacets: the part with the base distribution's own shape.
+    float parameter; // of the distribution as broad as the lobe
+    float own_weight;
 };
 
 // Where a walk is.
@@ -151,6 +155,16 @@ lobe take_base_lobe(inout walk at, inout appearance fetched) {
     return result;
 }
 
+// Microfacets have distributions with tails that no von Mises-Fisher lobe has. As much of a lobe
+// keeps the shape as is the base lobes' own breadth and not the normals'.
+bool keeps_shape() {
+    return MODEL == MODEL_MICROFACET && !BASE_AS_LOBE && DISTRIBUTION != DISTRIBUTION_VMF;
+}
+
+float base_complement_share(float complement, float base_complement) {
+    return clamp(base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
+}
+
 // The lobe of the next cluster; says which follows.
 lobe take_cluster(inout walk at, inout appearance fetched) {
     bool one = at.sector == SECTOR_ALL;
@@ -174,6 +188,12 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     result.axis = moment.xyz * inversesqrt(max(dot(moment.xyz, moment.xyz), 1e-30));
     result.concentration = concentration_from_complement(complement);
     result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
+    if (keeps_shape()) {
+        float own = base_complement_share(complement, fetched.base_complement);
+        result.parameter = base_lobe_of_concentration(DISTRIBUTION, result.concentration);
+        result.own_weight = own * share * fetched.own_scale;
+        result.weight *= 1.0 - own;
+    }
     fetched.lobe_count += share > LEAST_WEIGHT ? 1.0 : 0.0;
 
     at.root_share = one ? refine : at.root_share;
@@ -207,8 +227,12 @@ walk start_walk(appearance fetched) {
 }
 
 float evaluate_lobe(lobe one, vec3 direction) {
-    return one.weight *
-           exp(-0.5 * one.concentration * difference_squared(direction, one.axis));
+    float value = one.weight *
+                  exp(-0.5 * one.concentration * difference_squared(direction, one.axis));
+    if (keeps_shape())
+        value += one.own_weight *
+                 normal_distribution(DISTRIBUTION, one.axis, direction, one.parameter);
+    return value;
 }
 
 vec3 mixture_half_vector(appearance fetched, surface_point surface, vec3 incoming) {
@@ -266,6 +290,7 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.base_complement = mean.w;
     // A mixture over a part of the texels stands for all of them.
     fetched.mixture_scale = (1.0 - fetched.base_share) / coverage;
+    fetched.own_scale = fetched.mixture_scale;
     // A distribution of normals is normalised to projected area one, a lobe to area one.
     if (MODEL == MODEL_MICROFACET)
         fetched.mixture_scale /=
