@@ -1,0 +1,21 @@
+#!/usr/bin/env python3
+"""Runs a test program and hands on what it prints, with the skipped cases of cmocka 1.1 as TAP has
+them: "ok 3 - name # SKIP", not "not ok 3 # SKIP name", which counts as a failure."""
+
+import re
+import subprocess
+import sys
+
+SKIPPED = re.compile(rb"^not ok (\d+) # SKIP (.*)$")
+
+
+def main():
+    with subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE) as program:
+        for line in program.stdout:
+            sys.stdout.buffer.write(SKIPPED.sub(rb"ok \1 - \2 # SKIP", line))
+            sys.stdout.buffer.flush()
+    return program.returncode if program.returncode >= 0 else 128 - program.returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())
