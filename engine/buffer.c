@@ -5,7 +5,6 @@
 
 #include "engine/device.h"
 #include "engine/staging.h"
-#include "engine/text.h"
 
 static const VkBufferUsageFlags usage =
     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -22,14 +21,14 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
     *buffer = NULL;
     const char *name = parameters->name ? parameters->name : "buffer";
     if (parameters->size == 0)
-        return engine_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT, "buffer '%s': a size of 0",
-                           name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT, "buffer '%s': a size of 0",
+                             name);
     *buffer = calloc(1, sizeof **buffer);
     if (!*buffer || !((*buffer)->name = strdup(name))) {
         free(*buffer);
         *buffer = NULL;
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': no host memory",
-                           name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': no host memory",
+                             name);
     }
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
@@ -47,8 +46,8 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
 
 lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
     if (!data)
-        return engine_fail(&buffer->device->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "buffer '%s': no data given", buffer->name);
+        return lobe_log_fail(&buffer->device->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "buffer '%s': no data given", buffer->name);
     buffer->stamp = engine_device_stamp(buffer->device);
     return engine_upload_buffer(buffer->device, buffer->name, buffer->buffer, buffer->size, data);
 }

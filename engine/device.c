@@ -8,7 +8,6 @@
 #include "engine/instance.h"
 #include "engine/pipeline.h"
 #include "engine/shader.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -153,7 +152,7 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
         parameters = &defaults;
     *device = calloc(1, sizeof **device);
     if (!*device)
-        return engine_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
+        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
     if (parameters->log)
         (*device)->log = *parameters->log;
     const lobe_result result = create_all(*device, parameters);
@@ -201,7 +200,7 @@ lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
         goto cleanup;
     *devices = calloc(*count, sizeof **devices);
     if (!*devices) {
-        result = engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
+        result = lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
         goto cleanup;
     }
     for (size_t i = 0; i < *count; i++) {

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "engine/device_features.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -124,7 +123,7 @@ static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count, 
     if (complete)
         return LOBE_OK;
     engine_candidates_free(candidates, count);
-    return engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
 }
 
 lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,
@@ -138,8 +137,8 @@ lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,
     if (result != LOBE_OK)
         return result;
     if (found == 0)
-        return engine_fail(log, LOBE_ERROR_NO_DEVICE,
-                           "no Vulkan device: no driver reports one on this machine");
+        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
+                             "no Vulkan device: no driver reports one on this machine");
     *count = found;
     return describe_all(physical, found, log, candidates);
 }
@@ -159,16 +158,16 @@ static bool is_suited(const engine_candidate *candidate) {
 static lobe_result fail_unsuited(const engine_candidate *candidate, const lobe_log *log) {
     const lobe_device_information *information = &candidate->information;
     if (!is_recent(information))
-        return engine_fail(log, LOBE_ERROR_NO_DEVICE,
-                           "device '%s' offers Vulkan %u.%u, 1.3 is required", information->name,
-                           information->vulkan_major, information->vulkan_minor);
+        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
+                             "device '%s' offers Vulkan %u.%u, 1.3 is required", information->name,
+                             information->vulkan_major, information->vulkan_minor);
     if (candidate->queue_family == UINT32_MAX)
-        return engine_fail(log, LOBE_ERROR_NO_DEVICE,
-                           "device '%s' has no queue with both graphics and compute",
-                           information->name);
+        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
+                             "device '%s' has no queue with both graphics and compute",
+                             information->name);
     const lobe_device_feature *missing = engine_features_missing(information->features);
-    return engine_fail(log, LOBE_ERROR_NO_DEVICE, "device '%s' lacks the feature %s (%s)",
-                       information->name, missing->name, missing->use);
+    return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "device '%s' lacks the feature %s (%s)",
+                         information->name, missing->name, missing->use);
 }
 
 static int rank(lobe_device_type type) {
@@ -211,9 +210,9 @@ lobe_result engine_candidates_select(const engine_candidate *candidates, size_t 
             (best == SIZE_MAX || is_preferred(&candidates[i], &candidates[best])))
             best = i;
     if (best == SIZE_MAX)
-        return engine_fail(log, LOBE_ERROR_NO_DEVICE,
-                           "no Vulkan device matches '%s' (%zu found, the first is '%s')", select,
-                           count, candidates[0].information.name);
+        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
+                             "no Vulkan device matches '%s' (%zu found, the first is '%s')", select,
+                             count, candidates[0].information.name);
     if (!is_suited(&candidates[best]))
         return fail_unsuited(&candidates[best], log);
     *selected = best;

@@ -3,8 +3,6 @@
 #include <float.h>
 #include <math.h>
 
-#include "engine/text.h"
-
 static uint8_t to_byte(float value) {
     return (uint8_t)(fminf(fmaxf(value, 0.0f), 1.0f) * 255.0f + 0.5f);
 }
@@ -35,9 +33,9 @@ lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_par
     parameters = parameters != NULL ? parameters : &defaults;
     *picture = (lobe_image){0};
     if (linear->format != LOBE_FORMAT_RGBA32_FLOAT)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "picture: made from RGBA32_FLOAT images, not from %s",
-                           lobe_format_name(linear->format));
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "picture: made from RGBA32_FLOAT images, not from %s",
+                             lobe_format_name(linear->format));
     lobe_result result =
         lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, linear->width, linear->height, log);
     if (result != LOBE_OK)

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/file.h"
+#include <lobe/file.h>
+
 #include "engine/half.h"
-#include "engine/text.h"
 
 /// Most bytes that one block of a file may unpack to; real ones stay far below.
 #define BLOCK_MAXIMUM_SIZE ((uint64_t)1 << 30)
@@ -88,17 +88,17 @@ static lobe_result fail_from_library(exr_reader *reader, exr_result_t code) {
     const char *message = reader->input.message[0] != '\0' ? reader->input.message
                                                            : exr_get_default_error_message(code);
     if (is_out_of_memory(code, message))
-        return engine_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
-                           reader->path);
+        return lobe_log_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
+                             reader->path);
     bool unsupported = code == EXR_ERR_FEATURE_NOT_IMPLEMENTED;
-    return engine_fail(reader->log, unsupported ? LOBE_ERROR_UNSUPPORTED : LOBE_ERROR_MALFORMED,
-                       "%s: %s OpenEXR file: %s", reader->path,
-                       unsupported ? "unsupported" : "damaged", message);
+    return lobe_log_fail(reader->log, unsupported ? LOBE_ERROR_UNSUPPORTED : LOBE_ERROR_MALFORMED,
+                         "%s: %s OpenEXR file: %s", reader->path,
+                         unsupported ? "unsupported" : "damaged", message);
 }
 
 static lobe_result fail_damaged(const exr_reader *reader, const char *cause) {
-    return engine_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: damaged OpenEXR file: %s",
-                       reader->path, cause);
+    return lobe_log_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: damaged OpenEXR file: %s",
+                         reader->path, cause);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -195,14 +195,14 @@ static bool has_flat_part(const exr_reader *reader) {
 
 static lobe_result choose_channels(exr_reader *reader, const char *layer) {
     if (!has_flat_part(reader))
-        return engine_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
-                           "%s: deep OpenEXR data is not supported", reader->path);
+        return lobe_log_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
+                             "%s: deep OpenEXR data is not supported", reader->path);
     if (!find_part(reader, layer, false) && (layer == NULL || !find_part(reader, layer, true))) {
         if (layer != NULL)
-            return engine_fail(reader->log, LOBE_ERROR_NOT_FOUND, "%s: has no layer '%s'",
-                               reader->path, layer);
-        return engine_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
-                           "%s: has neither channels R, G, B nor Y", reader->path);
+            return lobe_log_fail(reader->log, LOBE_ERROR_NOT_FOUND, "%s: has no layer '%s'",
+                                 reader->path, layer);
+        return lobe_log_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
+                             "%s: has neither channels R, G, B nor Y", reader->path);
     }
     for (int index = 0; index < reader->channels->num_channels; index++) {
         if (reader->channels->entries[index].x_sampling < 1 ||
@@ -213,8 +213,8 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
         int source = reader->sources[component];
         if (source >= 0 && (reader->channels->entries[source].x_sampling != 1 ||
                             reader->channels->entries[source].y_sampling != 1))
-            return engine_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
-                               "%s: subsampled channels are not supported", reader->path);
+            return lobe_log_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
+                                 "%s: subsampled channels are not supported", reader->path);
     }
     if (find_channel(reader->channels, NULL, "RY") >= 0)
         lobe_log_print(reader->log, LOBE_LOG_WARNING,
@@ -235,13 +235,14 @@ static lobe_result check_window(const exr_reader *reader, const exr_attr_box2i_t
                                 const char *name) {
     exr_block block = block_of_window(window);
     if (block.width < 1 || block.height < 1)
-        return engine_fail(reader->log, LOBE_ERROR_MALFORMED,
-                           "%s: damaged OpenEXR file: the %s window is empty", reader->path, name);
+        return lobe_log_fail(reader->log, LOBE_ERROR_MALFORMED,
+                             "%s: damaged OpenEXR file: the %s window is empty", reader->path,
+                             name);
     if (block.width > LOBE_IMAGE_MAXIMUM_EXTENT || block.height > LOBE_IMAGE_MAXIMUM_EXTENT ||
         (uint64_t)block.width * (uint64_t)block.height > LOBE_EXR_MAXIMUM_TEXELS)
-        return engine_fail(reader->log, LOBE_ERROR_LIMIT,
-                           "%s: the %s window of %lldx%lld texels is too large", reader->path, name,
-                           (long long)block.width, (long long)block.height);
+        return lobe_log_fail(reader->log, LOBE_ERROR_LIMIT,
+                             "%s: the %s window of %lldx%lld texels is too large", reader->path,
+                             name, (long long)block.width, (long long)block.height);
     return LOBE_OK;
 }
 
@@ -259,8 +260,9 @@ static lobe_result check_sizes(exr_reader *reader) {
     if (result == LOBE_OK)
         result = check_window(reader, &reader->display_window, "display");
     if (result == LOBE_OK && block_size > BLOCK_MAXIMUM_SIZE)
-        return engine_fail(reader->log, LOBE_ERROR_LIMIT, "%s: blocks of %llu bytes are too large",
-                           reader->path, (unsigned long long)block_size);
+        return lobe_log_fail(reader->log, LOBE_ERROR_LIMIT,
+                             "%s: blocks of %llu bytes are too large", reader->path,
+                             (unsigned long long)block_size);
     return result;
 }
 
@@ -472,8 +474,8 @@ static lobe_result decode(exr_reader *reader) {
 static lobe_result open_context(exr_reader *reader) {
     static const uint8_t magic[4] = {0x76, 0x2f, 0x31, 0x01};
     if (reader->input.size < 4 || memcmp(reader->input.data, magic, 4) != 0)
-        return engine_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: not an OpenEXR file",
-                           reader->path);
+        return lobe_log_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: not an OpenEXR file",
+                             reader->path);
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.error_handler_fn = remember_error;
     settings.user_data = &reader->input;
@@ -489,7 +491,7 @@ lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *l
                           lobe_image *image) {
     *image = (lobe_image){0};
     exr_reader reader = {.path = path, .log = log, .image = image};
-    lobe_result result = engine_file_read(path, log, &reader.input.data, &reader.input.size);
+    lobe_result result = lobe_file_read(path, NULL, log, &reader.input.data, &reader.input.size);
     if (result == LOBE_OK)
         result = open_context(&reader);
     if (result == LOBE_OK)

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lobe/file.h>
+
 #include "engine/bytes.h"
-#include "engine/file.h"
 #include "engine/half.h"
-#include "engine/text.h"
 
 /// A fixed level, so that the bytes do not depend on the process's defaults.
 #define ZIP_LEVEL           4
@@ -73,9 +73,9 @@ static lobe_result add_channel(exr_writer *writer, const lobe_exr_layer *layer, 
     int length = snprintf(channel->name, sizeof channel->name, "%s%s%s",
                           prefixed ? layer->name : "", prefixed ? "." : "", name);
     if (name[0] == '\0' || length > NAME_MAXIMUM_LENGTH)
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: a channel name must have 1 to %d bytes", writer->path,
-                           NAME_MAXIMUM_LENGTH);
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: a channel name must have 1 to %d bytes", writer->path,
+                             NAME_MAXIMUM_LENGTH);
     channel->layer = layer;
     channel->component = component;
     return LOBE_OK;
@@ -85,22 +85,23 @@ static lobe_result add_layer(exr_writer *writer, const lobe_exr_layer *layer) {
     const lobe_image *image = layer->image;
     const char *layer_name = layer->name != NULL ? layer->name : "main";
     if (!is_float_format(image->format))
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: layer '%s' has format %s, which is not a float format",
-                           writer->path, layer_name, lobe_format_name(image->format));
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: layer '%s' has format %s, which is not a float format",
+                             writer->path, layer_name, lobe_format_name(image->format));
     if (image->width != writer->width || image->height != writer->height)
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: layer '%s' has %ux%u texels, the first layer %ux%u", writer->path,
-                           layer_name, image->width, image->height, writer->width, writer->height);
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: layer '%s' has %ux%u texels, the first layer %ux%u", writer->path,
+                             layer_name, image->width, image->height, writer->width,
+                             writer->height);
     const char *const *names = channel_names(layer);
     lobe_result result = LOBE_OK;
     for (uint32_t component = 0; component < 4 && result == LOBE_OK; component++) {
         if (names[component] == NULL)
             continue;
         if (component >= lobe_format_channels(image->format))
-            return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                               "%s: layer '%s' names more channels than %s has", writer->path,
-                               layer_name, lobe_format_name(image->format));
+            return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                                 "%s: layer '%s' names more channels than %s has", writer->path,
+                                 layer_name, lobe_format_name(image->format));
         result = add_channel(writer, layer, component, names[component]);
     }
     return result;
@@ -112,14 +113,14 @@ static int compare_channels(const void *left, const void *right) {
 
 static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameters *parameters) {
     if (parameters->layer_count == 0)
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT, "%s: no layer to write",
-                           writer->path);
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT, "%s: no layer to write",
+                             writer->path);
     writer->width = parameters->layers[0].image->width;
     writer->height = parameters->layers[0].image->height;
     writer->channels = calloc(4 * parameters->layer_count, sizeof *writer->channels);
     if (writer->channels == NULL)
-        return engine_fail(writer->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
-                           writer->path);
+        return lobe_log_fail(writer->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
+                             writer->path);
     for (size_t index = 0; index < parameters->layer_count; index++) {
         lobe_result result = add_layer(writer, &parameters->layers[index]);
         if (result != LOBE_OK)
@@ -128,9 +129,9 @@ static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameter
     qsort(writer->channels, writer->channel_count, sizeof *writer->channels, compare_channels);
     for (size_t index = 1; index < writer->channel_count; index++) {
         if (compare_channels(&writer->channels[index - 1], &writer->channels[index]) == 0)
-            return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                               "%s: channel '%s' is there twice", writer->path,
-                               writer->channels[index].name);
+            return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                                 "%s: channel '%s' is there twice", writer->path,
+                                 writer->channels[index].name);
     }
     return LOBE_OK;
 }
@@ -158,9 +159,10 @@ static void ignore_error(exr_const_context_t context, exr_result_t code, const c
 static lobe_result fail_from_library(const exr_writer *writer, exr_result_t code,
                                      const char *what) {
     bool memory = writer->out_of_memory || code == EXR_ERR_OUT_OF_MEMORY;
-    return engine_fail(writer->log, memory ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_INVALID_ARGUMENT,
-                       "%s: cannot encode %s: %s", writer->path, what,
-                       memory ? "out of memory" : exr_get_default_error_message(code));
+    return lobe_log_fail(writer->log,
+                         memory ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_INVALID_ARGUMENT,
+                         "%s: cannot encode %s: %s", writer->path, what,
+                         memory ? "out of memory" : exr_get_default_error_message(code));
 }
 
 /// ITU-R BT.709, item 1.4: the primaries, and the white point D65.
@@ -212,14 +214,14 @@ static exr_result_t set_attribute(exr_context_t context, const lobe_exr_attribut
 static lobe_result add_attribute(const exr_writer *writer, const lobe_exr_attribute *attribute) {
     if (attribute->name == NULL || attribute->name[0] == '\0' ||
         strlen(attribute->name) > NAME_MAXIMUM_LENGTH)
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: an attribute name must have 1 to %d bytes", writer->path,
-                           NAME_MAXIMUM_LENGTH);
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: an attribute name must have 1 to %d bytes", writer->path,
+                             NAME_MAXIMUM_LENGTH);
     const exr_attribute_t *existing;
     if (exr_get_attribute_by_name(writer->context, 0, attribute->name, &existing) ==
         EXR_ERR_SUCCESS)
-        return engine_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: attribute '%s' is already there", writer->path, attribute->name);
+        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: attribute '%s' is already there", writer->path, attribute->name);
     exr_result_t code = set_attribute(writer->context, attribute);
     return code == EXR_ERR_SUCCESS ? LOBE_OK : fail_from_library(writer, code, attribute->name);
 }
@@ -376,7 +378,7 @@ static lobe_result finish(exr_writer *writer) {
         lobe_log_print(writer->log, LOBE_LOG_WARNING,
                        "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
                        writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
-    return engine_file_write(writer->path, writer->output.data, writer->output.size, writer->log);
+    return lobe_file_write(writer->path, writer->output.data, writer->output.size, writer->log);
 }
 
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,

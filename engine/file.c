@@ -1,75 +1,102 @@
-#include "engine/file.h"
+#include <lobe/file.h>
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "engine/text.h"
-
 // ---------------------------------------------------------------------------------------------
 // Reading
 
-static lobe_result fail_reading(const char *path, const lobe_log *log) {
-    lobe_result result = errno == ENOENT ? LOBE_ERROR_NOT_FOUND : LOBE_ERROR_READ;
-    return engine_fail(log, result, "%s: cannot be read: %s", path, strerror(errno));
+typedef struct file_reader {
+    const char *path, *owner;
+    const lobe_log *log;
+    int file;
+    uint8_t *data;
+    size_t size, capacity; ///< bytes
+} file_reader;
+
+static lobe_result fail_reading(const file_reader *reader, lobe_result result, const char *cause) {
+    const char *owner = reader->owner ? reader->owner : "";
+    return lobe_log_fail(reader->log, result, "%s%s%s: %s", owner, *owner ? ": " : "", reader->path,
+                         cause);
 }
 
-/// Bytes to reserve: one more than the file seems to have, so that its end is met without growing.
-static lobe_result expected_size(int file, const char *path, const lobe_log *log, size_t *size) {
+static lobe_result fail_too_large(const file_reader *reader) {
+    return fail_reading(reader, LOBE_ERROR_LIMIT, "larger than 2 GiB");
+}
+
+static lobe_result open_regular_file(file_reader *reader) {
+    // A pipe or a terminal in the place of a file must not make us wait: hence O_NONBLOCK.
+    reader->file = open(reader->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (reader->file < 0) {
+        const bool absent = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
+        return fail_reading(reader, absent ? LOBE_ERROR_NOT_FOUND : LOBE_ERROR_READ,
+                            absent ? "no such file" : strerror(errno));
+    }
     struct stat status;
-    if (fstat(file, &status) != 0)
-        return fail_reading(path, log);
-    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
-        return engine_fail(log, LOBE_ERROR_READ, "%s: cannot be read: not a regular file", path);
-    if ((uint64_t)status.st_size > ENGINE_FILE_MAXIMUM_SIZE)
-        return engine_fail(log, LOBE_ERROR_LIMIT, "%s: larger than %zu bytes", path,
-                           ENGINE_FILE_MAXIMUM_SIZE);
-    *size = S_ISREG(status.st_mode) ? (size_t)status.st_size + 1 : 65536;
+    if (fstat(reader->file, &status) != 0)
+        return fail_reading(reader, LOBE_ERROR_READ, strerror(errno));
+    if (!S_ISREG(status.st_mode))
+        return fail_reading(reader, LOBE_ERROR_READ, "not a regular file");
+    if ((uintmax_t)status.st_size > LOBE_FILE_MAXIMUM_SIZE)
+        return fail_too_large(reader);
+    // One more than the file seems to have, so that its end is met without growing.
+    reader->capacity = (size_t)status.st_size + 1;
     return LOBE_OK;
 }
 
-static lobe_result read_to_end(int file, const char *path, const lobe_log *log, size_t capacity,
-                               uint8_t **data, size_t *size) {
-    for (*size = 0;;) {
-        if (*data == NULL || *size == capacity) {
-            capacity = *data == NULL ? capacity : 2 * capacity;
-            uint8_t *larger = realloc(*data, capacity);
-            if (larger == NULL)
-                return engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to read it", path);
-            *data = larger;
-        }
-        ssize_t count = read(file, *data + *size, capacity - *size);
-        if (count < 0 && errno != EINTR)
-            return fail_reading(path, log);
-        if (count == 0)
-            return LOBE_OK;
-        *size += count > 0 ? (size_t)count : 0;
-        if (*size > ENGINE_FILE_MAXIMUM_SIZE)
-            return engine_fail(log, LOBE_ERROR_LIMIT, "%s: larger than %zu bytes", path,
-                               ENGINE_FILE_MAXIMUM_SIZE);
-    }
+/// Room for the capacity, and for the zero byte behind it.
+static lobe_result reserve(file_reader *reader) {
+    uint8_t *larger = realloc(reader->data, reader->capacity + 1);
+    if (!larger)
+        return fail_reading(reader, LOBE_ERROR_OUT_OF_MEMORY, "out of memory");
+    reader->data = larger;
+    return LOBE_OK;
 }
 
-lobe_result engine_file_read(const char *path, const lobe_log *log, uint8_t **data, size_t *size) {
+static lobe_result read_to_end(file_reader *reader) {
+    lobe_result result = reserve(reader);
+    while (result == LOBE_OK) {
+        const ssize_t count =
+            read(reader->file, reader->data + reader->size, reader->capacity - reader->size);
+        if (count == 0)
+            break;
+        if (count < 0 && errno != EINTR)
+            return fail_reading(reader, LOBE_ERROR_READ, strerror(errno));
+        reader->size += count > 0 ? (size_t)count : 0;
+        if (reader->size > LOBE_FILE_MAXIMUM_SIZE)
+            return fail_too_large(reader);
+        if (reader->size == reader->capacity) {
+            reader->capacity *= 2;
+            result = reserve(reader);
+        }
+    }
+    if (result == LOBE_OK)
+        reader->data[reader->size] = 0;
+    return result;
+}
+
+lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *log, uint8_t **data,
+                           size_t *size) {
     *data = NULL;
     *size = 0;
-    int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return fail_reading(path, log);
-    size_t capacity = 0;
-    lobe_result result = expected_size(file, path, log, &capacity);
+    file_reader reader = {.path = path, .owner = owner, .log = log};
+    lobe_result result = open_regular_file(&reader);
     if (result == LOBE_OK)
-        result = read_to_end(file, path, log, capacity, data, size);
-    if (result != LOBE_OK) {
-        free(*data);
-        *data = NULL;
-        *size = 0;
+        result = read_to_end(&reader);
+    if (result == LOBE_OK) {
+        *data = reader.data;
+        *size = reader.size;
+    } else {
+        free(reader.data);
     }
-    close(file);
+    if (reader.file >= 0)
+        close(reader.file);
     return result;
 }
 
@@ -77,7 +104,7 @@ lobe_result engine_file_read(const char *path, const lobe_log *log, uint8_t **da
 // Writing
 
 static lobe_result fail_writing(const char *path, const lobe_log *log) {
-    return engine_fail(log, LOBE_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(errno));
+    return lobe_log_fail(log, LOBE_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(errno));
 }
 
 /// Closes the file in all cases. Returns 0, or -1 with errno set.
@@ -140,8 +167,7 @@ static lobe_result write_and_rename(const char *path, const void *data, size_t s
     return result;
 }
 
-lobe_result engine_file_write(const char *path, const void *data, size_t size,
-                              const lobe_log *log) {
+lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_log *log) {
     struct stat status;
     if (stat(path, &status) != 0)
         return write_and_rename(path, data, size, log);

@@ -11,7 +11,6 @@
 #include "engine/graph_report.h"
 #include "engine/graph_retain.h"
 #include "engine/graph_signature.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 #define LINE_SIZE 1024
@@ -27,7 +26,7 @@ lobe_result engine_graph_fail(lobe_graph *graph, lobe_result result, const char 
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    graph->result = engine_fail(&graph->device->log, result, "%s", line);
+    graph->result = lobe_log_fail(&graph->device->log, result, "%s", line);
     return result;
 }
 
@@ -79,7 +78,8 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     *graph = NULL;
     lobe_graph *created = calloc(1, sizeof *created);
     if (!created)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "render graph: no host memory");
     created->device = device;
     created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = create_commands(created);

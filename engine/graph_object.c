@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 static lobe_result create_image(lobe_device *device, const engine_graph_resource *resource,
@@ -67,8 +66,8 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
                             VkImageViewType type, const lobe_range *range) {
     engine_graph_view *added = calloc(1, sizeof *added);
     if (!added)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
-                           resource->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
+                             resource->name);
     engine_view_parameters parameters = {
         .name = resource->name,
         .image = resource->object->image,

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
@@ -107,14 +106,14 @@ lobe_result engine_instance_create(const lobe_log *log, const engine_validation 
                                    engine_instance *instance) {
     *instance = (engine_instance){0};
     if (validation && !has_layer(VALIDATION_LAYER))
-        return engine_fail(log, LOBE_ERROR_UNSUPPORTED,
-                           "validation: the layer " VALIDATION_LAYER " is not installed");
+        return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
+                             "validation: the layer " VALIDATION_LAYER " is not installed");
     instance->debug_utils =
         validation != NULL || has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const VkResult created =
         validation ? create_validated(instance, validation) : create_plain(instance, NULL, NULL);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return engine_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
+        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
     lobe_result result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");
     if (result == LOBE_OK && validation)
         result = create_messenger(log, validation, instance);

@@ -3,13 +3,29 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format, ...) {
+static void write_line(const lobe_log *log, lobe_log_level level, const char *format,
+                       va_list arguments) {
     if (!log || !log->write)
         return;
     char line[1024];
+    vsnprintf(line, sizeof line, format, arguments);
+    for (char *c = line; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    log->write(log->user, level, line);
+}
+
+void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    write_line(log, level, format, arguments);
     va_end(arguments);
-    log->write(log->user, level, line);
+}
+
+lobe_result lobe_log_fail(const lobe_log *log, lobe_result result, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    write_line(log, LOBE_LOG_ERROR, format, arguments);
+    va_end(arguments);
+    return result;
 }

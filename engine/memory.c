@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "engine/range_allocator.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 /// Large enough that blocks are few, small enough that a small scene does not claim much.
@@ -33,8 +32,8 @@ lobe_result engine_memory_create(const engine_memory_parameters *parameters,
                                  engine_memory **memory) {
     *memory = calloc(1, sizeof **memory);
     if (!*memory)
-        return engine_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
-                           "device memory: no host memory to manage it");
+        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "device memory: no host memory to manage it");
     (*memory)->parameters = *parameters;
     VkPhysicalDeviceVulkan11Properties maintenance = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
@@ -144,10 +143,10 @@ static uint64_t maximum(uint64_t first, uint64_t second) {
 
 static lobe_result fail_without_room(const engine_memory *memory,
                                      const engine_memory_request *request, uint64_t room) {
-    return engine_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                       "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
-                       request->name, (unsigned long long)request->requirements.size,
-                       (unsigned long long)room, memory->parameters.limit ? " (limited)" : "");
+    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+                         "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
+                         request->name, (unsigned long long)request->requirements.size,
+                         (unsigned long long)room, memory->parameters.limit ? " (limited)" : "");
 }
 
 /// A block of the usual size, but enough for the request, and where there is little room a small
@@ -195,8 +194,8 @@ static lobe_result add_block(engine_memory *memory, const engine_memory_request 
     engine_memory_block *block = calloc(1, sizeof *block);
     if (!block || !engine_range_allocator_create(&block->ranges, size)) {
         free(block);
-        return engine_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
-                           "'%s': no host memory to manage device memory", request->name);
+        return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "'%s': no host memory to manage device memory", request->name);
     }
     block->size = size;
     block->type = type;
@@ -245,8 +244,8 @@ lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_re
     *allocation = (engine_allocation){0};
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
-        return engine_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                           "'%s': the device has no memory of the needed kind", request->name);
+        return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+                             "'%s': the device has no memory of the needed kind", request->name);
     // Where tiled images and buffers may be neighbours they share blocks.
     const bool linear = request->linear && memory->granularity > 1;
     for (engine_memory_block *block = memory->blocks; block; block = block->next)
@@ -259,8 +258,8 @@ lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_re
         return result;
     if (take_from_block(memory, block, &request->requirements, allocation))
         return LOBE_OK;
-    return engine_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
-                       "'%s': no host memory to manage device memory", request->name);
+    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
+                         "'%s': no host memory to manage device memory", request->name);
 }
 
 void engine_memory_free(engine_memory *memory, engine_allocation *allocation) {

@@ -61,8 +61,8 @@ static lobe_result fill_specialisation(lobe_device *device, const lobe_specialis
                                        size_t count, pipeline_key *key) {
     key->specialisation = calloc(count + 1, sizeof *key->specialisation);
     if (!key->specialisation)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                           key->shaders[0]->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "pipeline '%s': no host memory", key->shaders[0]->name);
     for (size_t i = 0; i < count; i++)
         if (has_constant(key, values[i].id))
             set_constant(key, values[i]);
@@ -98,8 +98,8 @@ static lobe_result find_shader(lobe_device *device, const char *name, VkShaderSt
                                const engine_shader **shader) {
     const lobe_result result = engine_shader_find(device, name, shader);
     if (result == LOBE_OK && (*shader)->stage != stage)
-        return engine_fail(&device->log, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
-                           name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
+                             name);
     return result;
 }
 
@@ -116,8 +116,8 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
     const size_t count = key->specialisation_count;
     created->entries = calloc(count + 1, sizeof *created->entries);
     if (!created->entries)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                           key->shaders[0]->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "pipeline '%s': no host memory", key->shaders[0]->name);
     for (size_t i = 0; i < count; i++)
         created->entries[i] = (VkSpecializationMapEntry){
             .constantID = key->specialisation[i].id,
@@ -159,9 +159,9 @@ static lobe_result check_local_size(lobe_device *device, const engine_pipeline *
     const uint64_t invocations = (uint64_t)size[0] * size[1] * size[2];
     if (size[0] > most[0] || size[1] > most[1] || size[2] > most[2] || invocations == 0 ||
         invocations > device->limits.maxComputeWorkGroupInvocations)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT,
-                           "shader '%s': the device does not allow groups of %ux%ux%u",
-                           pipeline->name, size[0], size[1], size[2]);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "shader '%s': the device does not allow groups of %ux%ux%u",
+                             pipeline->name, size[0], size[1], size[2]);
     return LOBE_OK;
 }
 
@@ -227,8 +227,8 @@ static lobe_result add(lobe_device *device, const engine_raster_parameters *rast
         free(cached);
         free(name);
         free(key->specialisation);
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                           key->shaders[0]->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "pipeline '%s': no host memory", key->shaders[0]->name);
     }
     cached->key = *key;
     cached->pipeline.name = name;
@@ -262,7 +262,7 @@ lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines) {
     *pipelines = calloc(1, sizeof **pipelines);
     if (!*pipelines)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
     return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
 }
 

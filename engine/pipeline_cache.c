@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lobe/file.h>
+
 #include "engine/device.h"
-#include "engine/file.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 /// What stands before Vulkan's own data. Drivers need not survive damaged data, so it is checked.
@@ -74,10 +74,10 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
         return create_cache(device, NULL, 0, cache);
     cache->file = strdup(file);
     if (!cache->file)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline cache: no memory");
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline cache: no memory");
     uint8_t *content = NULL;
     size_t size = 0;
-    const bool found = engine_file_read(file, NULL, &content, &size) == LOBE_OK;
+    const bool found = lobe_file_read(file, NULL, NULL, &content, &size) == LOBE_OK;
     cache_header header = {0};
     const uint8_t *data = found ? usable_part(device, content, size, &header) : NULL;
     if (found && !data)
@@ -116,7 +116,7 @@ static void save(lobe_device *device, const engine_pipeline_cache *cache) {
     uint64_t checksum = 0;
     uint8_t *content = content_of(device, cache->vulkan, &size, &checksum);
     if (content && checksum != cache->checksum &&
-        engine_file_write(cache->file, content, size, NULL) != LOBE_OK)
+        lobe_file_write(cache->file, content, size, NULL) != LOBE_OK)
         lobe_log_print(&device->log, LOBE_LOG_WARNING, "pipeline cache '%s' cannot be written",
                        cache->file);
     free(content);

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "engine/device.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -32,11 +31,11 @@ static lobe_result merge_binding(const lobe_log *log, const engine_shader_bindin
     for (size_t i = 0; i < pipeline->binding_count; i++) {
         engine_shader_binding *other = &pipeline->bindings[i];
         if (clash(other, binding))
-            return engine_fail(log, LOBE_ERROR_SHADER,
-                               "pipeline '%s': the stages disagree about '%s' (binding %u) and "
-                               "'%s' (binding %u)",
-                               pipeline->name, other->name, other->binding, binding->name,
-                               binding->binding);
+            return lobe_log_fail(log, LOBE_ERROR_SHADER,
+                                 "pipeline '%s': the stages disagree about '%s' (binding %u) and "
+                                 "'%s' (binding %u)",
+                                 pipeline->name, other->name, other->binding, binding->name,
+                                 binding->binding);
         if (other->binding == binding->binding) {
             merge_into(other, binding);
             return LOBE_OK;
@@ -59,8 +58,8 @@ static lobe_result merge_bindings(const lobe_log *log, const engine_shader *cons
         most += shaders[i]->binding_count;
     pipeline->bindings = calloc(most, sizeof *pipeline->bindings);
     if (!pipeline->bindings)
-        return engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                           pipeline->name);
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+                             pipeline->name);
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < shaders[i]->binding_count; j++) {
             const lobe_result result = merge_binding(log, &shaders[i]->bindings[j], pipeline);
@@ -89,8 +88,8 @@ static void merge_push_constants(const engine_shader *const *shaders, size_t cou
 static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipeline) {
     VkDescriptorSetLayoutBinding *bindings = calloc(pipeline->binding_count + 1, sizeof *bindings);
     if (!bindings)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                           pipeline->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "pipeline '%s': no host memory", pipeline->name);
     for (size_t i = 0; i < pipeline->binding_count; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = pipeline->bindings[i].binding,
@@ -113,10 +112,10 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
 
 static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline) {
     if (pipeline->push_constant_size > device->limits.maxPushConstantsSize)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT,
-                           "pipeline '%s': %u bytes of push constants, the device allows %u",
-                           pipeline->name, pipeline->push_constant_size,
-                           device->limits.maxPushConstantsSize);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "pipeline '%s': %u bytes of push constants, the device allows %u",
+                             pipeline->name, pipeline->push_constant_size,
+                             device->limits.maxPushConstantsSize);
     const VkPushConstantRange range = {
         .stageFlags = pipeline->push_constant_stages,
         .size = pipeline->push_constant_size,

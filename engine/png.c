@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <lobe/file.h>
+
 #include "engine/bytes.h"
-#include "engine/file.h"
-#include "engine/text.h"
 #include "third_party/image_codec.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -83,16 +83,16 @@ static bool encode(png_writer *writer, const lobe_image *image) {
 
 lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log) {
     if (image->format != LOBE_FORMAT_RGBA8_SRGB && image->format != LOBE_FORMAT_RGBA8_UNORM)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "%s: PNG files are written from RGBA8 images, not from %s", path,
-                           lobe_format_name(image->format));
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: PNG files are written from RGBA8 images, not from %s", path,
+                             lobe_format_name(image->format));
     png_writer writer = {0};
     lobe_result result;
     if (create(&writer) && encode(&writer, image))
-        result = engine_file_write(path, writer.output.data, writer.output.size, log);
+        result = lobe_file_write(path, writer.output.data, writer.output.size, log);
     else
-        result = engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", path,
-                             writer.message);
+        result = lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", path,
+                               writer.message);
     png_destroy_write_struct(&writer.png, &writer.information);
     engine_bytes_free(&writer.output);
     return result;
@@ -112,22 +112,22 @@ static lobe_result decode(const char *path, const uint8_t *data, size_t size, co
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
     image_codec_extent extent;
     if (size < 8 || png_sig_cmp(data, 0, 8) != 0)
-        return engine_fail(log, LOBE_ERROR_MALFORMED, "%s: not a PNG file", path);
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not a PNG file", path);
     if (!png_measure(data, size, &extent, message))
-        return engine_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
     if (extent.width > LOBE_IMAGE_MAXIMUM_EXTENT || extent.height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return engine_fail(log, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
-                           extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
-                           LOBE_IMAGE_MAXIMUM_EXTENT);
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
+                             extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
+                             LOBE_IMAGE_MAXIMUM_EXTENT);
     if (!fits_file(&extent, size))
-        return engine_fail(log, LOBE_ERROR_MALFORMED,
-                           "%s: broken PNG: %ux%u texels cannot be in %zu bytes", path,
-                           extent.width, extent.height, size);
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED,
+                             "%s: broken PNG: %ux%u texels cannot be in %zu bytes", path,
+                             extent.width, extent.height, size);
     lobe_result result = lobe_image_allocate(
         image, extent.sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_SRGB,
         extent.width, extent.height, log);
     if (result == LOBE_OK && !png_decode(data, size, &extent, true, image->texels, message))
-        result = engine_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+        result = lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
     return result;
 }
 
@@ -135,7 +135,7 @@ lobe_result lobe_png_read(const char *path, const lobe_log *log, lobe_image *ima
     *image = (lobe_image){0};
     uint8_t *data;
     size_t size;
-    lobe_result result = engine_file_read(path, log, &data, &size);
+    lobe_result result = lobe_file_read(path, NULL, log, &data, &size);
     if (result == LOBE_OK)
         result = decode(path, data, size, log, image);
     if (result != LOBE_OK)

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "engine/growing_array.h"
-#include "engine/text.h"
 
 /// Milliseconds of each frame; frames before its first are 0.
 typedef struct time_series {
@@ -27,13 +26,13 @@ struct lobe_profile {
 };
 
 static lobe_result fail_memory(const lobe_profile *profile) {
-    return engine_fail(&profile->log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    return lobe_log_fail(&profile->log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
 }
 
 lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile) {
     *profile = calloc(1, sizeof **profile);
     if (!*profile)
-        return engine_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
     if (log)
         (*profile)->log = *log;
     (*profile)->frame.name = "frame";

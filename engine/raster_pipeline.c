@@ -2,7 +2,6 @@
 
 #include "engine/device.h"
 #include "engine/format.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 #define COLOURS ENGINE_MAXIMUM_COLOUR_ATTACHMENTS
@@ -90,9 +89,9 @@ static lobe_result check_blending(lobe_device *device, const engine_raster_param
         vkGetPhysicalDeviceFormatProperties(
             device->physical, engine_format_vulkan(parameters->colour[i]), &properties);
         if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
-            return engine_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                               "pipeline '%s': the device cannot blend into %s", name,
-                               lobe_format_name(parameters->colour[i]));
+            return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
+                                 "pipeline '%s': the device cannot blend into %s", name,
+                                 lobe_format_name(parameters->colour[i]));
     }
     return LOBE_OK;
 }

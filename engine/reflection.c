@@ -5,8 +5,6 @@
 
 #include <spirv_cross/spirv_cross_c.h>
 
-#include "engine/text.h"
-
 typedef struct reflection {
     const lobe_log *log;
     engine_shader *shader;
@@ -16,14 +14,14 @@ typedef struct reflection {
 } reflection;
 
 static lobe_result fail_spirv(const reflection *reflection) {
-    return engine_fail(reflection->log, LOBE_ERROR_SHADER, "shader '%s': %s",
-                       reflection->shader->name,
-                       spvc_context_get_last_error_string(reflection->context));
+    return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER, "shader '%s': %s",
+                         reflection->shader->name,
+                         spvc_context_get_last_error_string(reflection->context));
 }
 
 static lobe_result fail_memory(const reflection *reflection) {
-    return engine_fail(reflection->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                       reflection->shader->name);
+    return lobe_log_fail(reflection->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                         reflection->shader->name);
 }
 
 static lobe_result parse(reflection *reflection, const uint32_t *words, size_t count) {
@@ -50,9 +48,9 @@ static lobe_result reflect_stage(reflection *reflection) {
         reflection->shader->stage = VK_SHADER_STAGE_COMPUTE_BIT;
         return LOBE_OK;
     default:
-        return engine_fail(reflection->log, LOBE_ERROR_SHADER,
-                           "shader '%s': only vertex, fragment and compute shaders are supported",
-                           reflection->shader->name);
+        return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
+                             "shader '%s': only vertex, fragment and compute shaders are supported",
+                             reflection->shader->name);
     }
 }
 
@@ -167,9 +165,9 @@ static lobe_result reflect_binding(const reflection *reflection,
     const engine_shader *shader = reflection->shader;
     if (spvc_compiler_get_decoration(reflection->compiler, resource->id,
                                      SpvDecorationDescriptorSet) != 0)
-        return engine_fail(reflection->log, LOBE_ERROR_SHADER,
-                           "shader '%s': '%s' is not in descriptor set 0", shader->name,
-                           resource->name);
+        return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
+                             "shader '%s': '%s' is not in descriptor set 0", shader->name,
+                             resource->name);
     char *name = strdup(resource->name);
     if (!name)
         return fail_memory(reflection);
@@ -218,9 +216,9 @@ static lobe_result refuse(const reflection *reflection, spvc_resources all, spvc
     spvc_resources_get_resource_list_for_type(all, type, &found, &count);
     if (count == 0)
         return LOBE_OK;
-    return engine_fail(reflection->log, LOBE_ERROR_SHADER,
-                       "shader '%s': '%s' is a %s, which lobe does not use",
-                       reflection->shader->name, found[0].name, kind);
+    return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
+                         "shader '%s': '%s' is a %s, which lobe does not use",
+                         reflection->shader->name, found[0].name, kind);
 }
 
 static int order_by_binding(const void *first, const void *second) {

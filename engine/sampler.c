@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "engine/device.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 typedef struct engine_cached_sampler {
@@ -74,7 +73,7 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
         }
     engine_cached_sampler *added = calloc(1, sizeof *added);
     if (!added)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
     added->settings = offered;
     const lobe_result result = create(device, &offered, &added->sampler);
     if (result != LOBE_OK) {

@@ -6,7 +6,6 @@
 #include "engine/device.h"
 #include "engine/reflection.h"
 #include "engine/shader_words.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 typedef struct shader_table {
@@ -37,8 +36,8 @@ static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *
     shader_table *table = calloc(1, sizeof *table);
     if (!table || (folder && !(table->folder = strdup(folder)))) {
         free(table);
-        return engine_fail(&shaders->device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                           "shaders: no host memory");
+        return lobe_log_fail(&shaders->device->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "shaders: no host memory");
     }
     table->codes = codes;
     table->count = count;
@@ -98,8 +97,8 @@ static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
     loaded_shader *loaded = calloc(1, sizeof *loaded);
     if (!loaded) {
         engine_shader_words_free(words);
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                           code->name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                             code->name);
     }
     loaded->words = *words;
     loaded->code = code;
@@ -161,7 +160,7 @@ lobe_result engine_shaders_create(lobe_device *device, const char *folder,
                                   engine_shaders **shaders) {
     *shaders = calloc(1, sizeof **shaders);
     if (!*shaders)
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
     (*shaders)->device = device;
     const lobe_result result =
         add_table(*shaders, engine_embedded_shaders, engine_embedded_shaders_count,
@@ -199,7 +198,7 @@ lobe_result engine_shader_find(lobe_device *device, const char *name,
     const engine_shader_code *code = find_code(shaders, name, &table);
     *shader = NULL;
     if (!code)
-        return engine_fail(&device->log, LOBE_ERROR_SHADER, "there is no shader '%s'", name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_SHADER, "there is no shader '%s'", name);
     const engine_shader_folders folders = {table->folder, library_table(shaders)->folder};
     loaded_shader *loaded = find_loaded(shaders, code);
     lobe_result result = LOBE_OK;

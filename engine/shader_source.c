@@ -6,8 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "engine/file.h"
-#include "engine/text.h"
+#include <lobe/file.h>
 
 /// Deep enough for any sensible nesting; ends files that include each other.
 #define MAXIMUM_DEPTH 16
@@ -46,8 +45,8 @@ static source_file look_at(char *path) {
 }
 
 static lobe_result fail_memory(const expansion *expansion) {
-    return engine_fail(expansion->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                       expansion->code->name);
+    return lobe_log_fail(expansion->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                         expansion->code->name);
 }
 
 static lobe_result remember(expansion *expansion, const char *path) {
@@ -157,7 +156,7 @@ static lobe_result expand_file(expansion *expansion, const char *path, int depth
     lobe_result result = remember(expansion, path);
     if (result != LOBE_OK)
         return result;
-    result = engine_file_read(path, NULL, &data, &size);
+    result = lobe_file_read(path, NULL, NULL, &data, &size);
     if (result != LOBE_OK) {
         lobe_log_print(expansion->log, expansion->level, "shader '%s': the source %s: %s",
                        expansion->code->name, path, lobe_result_message(result));

@@ -8,7 +8,6 @@
 #include <glslang/Public/resource_limits_c.h>
 
 #include "engine/shader_source.h"
-#include "engine/text.h"
 
 typedef struct compilation {
     const lobe_log *log;
@@ -106,8 +105,8 @@ static lobe_result copy_words(const compilation *compilation, engine_shader_word
     const size_t count = glslang_program_SPIRV_get_size(compilation->program);
     uint32_t *copy = malloc(count * sizeof *copy);
     if (!copy)
-        return engine_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
-                           "shader '%s': no host memory", compilation->code->name);
+        return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "shader '%s': no host memory", compilation->code->name);
     glslang_program_SPIRV_get(compilation->program, copy);
     words->words = copy;
     words->count = count;
@@ -117,8 +116,8 @@ static lobe_result copy_words(const compilation *compilation, engine_shader_word
 static lobe_result compile(compilation *compilation, const char *text, engine_shader_words *words) {
     char *preamble = preamble_of(compilation->code->definitions);
     if (!preamble)
-        return engine_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
-                           "shader '%s': no host memory", compilation->code->name);
+        return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "shader '%s': no host memory", compilation->code->name);
     // Counted: safe beside a host program that uses the compiler, too.
     glslang_initialize_process();
     lobe_result result = parse(compilation, text, preamble);

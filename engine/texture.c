@@ -5,18 +5,18 @@
 
 #include "engine/device.h"
 #include "engine/staging.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 static lobe_result check_content(const lobe_log *log, const char *name, const lobe_image *image) {
     if (!image || !image->texels || lobe_format_size(image->format) == 0)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': no image given", name);
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': no image given",
+                             name);
     if (image->format == LOBE_FORMAT_D32_FLOAT)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "texture '%s': depth cannot be uploaded", name);
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "texture '%s': depth cannot be uploaded", name);
     if (image->width == 0 || image->height == 0)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
-                           name, image->width, image->height);
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
+                             name, image->width, image->height);
     return LOBE_OK;
 }
 
@@ -55,8 +55,8 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
     if (!*texture || !((*texture)->name = strdup(name))) {
         free(*texture);
         *texture = NULL;
-        return engine_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "texture '%s': no host memory",
-                           name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "texture '%s': no host memory",
+                             name);
     }
     (*texture)->device = device;
     (*texture)->format = parameters->image->format;
@@ -77,10 +77,10 @@ lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) 
         return result;
     if (image->format != texture->format || image->width != texture->width ||
         image->height != texture->height)
-        return engine_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                           "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
-                           texture->width, texture->height, lobe_format_name(texture->format),
-                           image->width, image->height, lobe_format_name(image->format));
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
+                             texture->width, texture->height, lobe_format_name(texture->format),
+                             image->width, image->height, lobe_format_name(image->format));
     texture->stamp = engine_device_stamp(texture->device);
     return engine_upload_image(texture->device, texture->name, texture->image, image);
 }

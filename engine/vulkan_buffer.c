@@ -1,6 +1,5 @@
 #include "engine/device.h"
 #include "engine/resource.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDeviceSize size,
@@ -8,11 +7,11 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
                                  VkMemoryRequirements *requirements) {
     *buffer = VK_NULL_HANDLE;
     if (size == 0)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
     if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) && size > device->limits.maxStorageBufferRange)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT,
-                           "buffer '%s': %llu bytes are more than the %u the device allows", name,
-                           (unsigned long long)size, device->limits.maxStorageBufferRange);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "buffer '%s': %llu bytes are more than the %u the device allows", name,
+                             (unsigned long long)size, device->limits.maxStorageBufferRange);
     const VkBufferCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
         .size = size,

@@ -3,8 +3,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "engine/text.h"
-
 typedef struct vulkan_result_meaning {
     VkResult vulkan;
     const char *name;
@@ -67,6 +65,6 @@ lobe_result engine_vulkan_check(const lobe_log *log, VkResult vulkan, const char
     const char *end = expression;
     while (*end && *end != '(')
         end++;
-    return engine_fail(log, result, "%s: %.*s gave %s", purpose, (int)(end - expression),
-                       expression, engine_vulkan_result_name(vulkan));
+    return lobe_log_fail(log, result, "%s: %.*s gave %s", purpose, (int)(end - expression),
+                         expression, engine_vulkan_result_name(vulkan));
 }

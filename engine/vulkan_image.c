@@ -1,7 +1,6 @@
 #include "engine/device.h"
 #include "engine/format.h"
 #include "engine/resource.h"
-#include "engine/text.h"
 #include "engine/vulkan_check.h"
 
 static uint32_t at_least_one(uint32_t value) {
@@ -48,27 +47,27 @@ static lobe_result check_limits(lobe_device *device, const engine_image_paramete
     const VkResult found = query_limits(device, create, &limits);
     const char *format = lobe_format_name(parameters->format);
     if (found == VK_ERROR_FORMAT_NOT_SUPPORTED)
-        return engine_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                           "image '%s': the device cannot use %s this way", parameters->name,
-                           format);
+        return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
+                             "image '%s': the device cannot use %s this way", parameters->name,
+                             format);
     const lobe_result result = VULKAN_CHECK(&device->log, found, "image '%s'", parameters->name);
     if (result != LOBE_OK)
         return result;
     if (create->extent.width > limits.maxExtent.width ||
         create->extent.height > limits.maxExtent.height)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT,
-                           "image '%s': %ux%u is larger than the %ux%u the device allows",
-                           parameters->name, create->extent.width, create->extent.height,
-                           limits.maxExtent.width, limits.maxExtent.height);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "image '%s': %ux%u is larger than the %ux%u the device allows",
+                             parameters->name, create->extent.width, create->extent.height,
+                             limits.maxExtent.width, limits.maxExtent.height);
     if (create->mipLevels > limits.maxMipLevels || create->arrayLayers > limits.maxArrayLayers)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT,
-                           "image '%s': %u levels and %u layers, the device allows %u and %u",
-                           parameters->name, create->mipLevels, create->arrayLayers,
-                           limits.maxMipLevels, limits.maxArrayLayers);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "image '%s': %u levels and %u layers, the device allows %u and %u",
+                             parameters->name, create->mipLevels, create->arrayLayers,
+                             limits.maxMipLevels, limits.maxArrayLayers);
     if (!(limits.sampleCounts & create->samples))
-        return engine_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                           "image '%s': the device does not offer %u samples of %s",
-                           parameters->name, create->samples, format);
+        return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
+                             "image '%s': the device does not offer %u samples of %s",
+                             parameters->name, create->samples, format);
     return LOBE_OK;
 }
 
@@ -77,8 +76,8 @@ lobe_result engine_image_create(lobe_device *device, const engine_image_paramete
     *image = VK_NULL_HANDLE;
     const VkImageCreateInfo create = create_information(parameters);
     if (parameters->width == 0 || parameters->height == 0)
-        return engine_fail(&device->log, LOBE_ERROR_LIMIT, "image '%s': an extent of %ux%u",
-                           parameters->name, parameters->width, parameters->height);
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT, "image '%s': an extent of %ux%u",
+                             parameters->name, parameters->width, parameters->height);
     lobe_result result = check_limits(device, parameters, &create);
     if (result != LOBE_OK)
         return result;

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/file.h"
+#include <lobe/file.h>
+
 #include "scenes/gltf_container.h"
 #include "scenes/gltf_schema.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -30,8 +30,8 @@ static void keep_line(void *user, lobe_log_level level, const char *message) {
 static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
     lobe_log log = {keep_line, reader};
-    void *bytes = NULL;
-    reader->result = scene_read_file(path, reader->path, &log, &bytes, size);
+    uint8_t *bytes = NULL;
+    reader->result = lobe_file_read(path, reader->path, &log, &bytes, size);
     return bytes;
 }
 
@@ -40,7 +40,7 @@ static lobe_result parse(const gltf_container *container, const char *path, cons
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("");
     if (!folder)
-        return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     char message[256];
     buffer_reader reader = {.path = path};
     gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
@@ -54,18 +54,18 @@ static lobe_result parse(const gltf_container *container, const char *path, cons
     if (*document)
         return LOBE_OK;
     if (reader.result != LOBE_OK)
-        return scene_report_error(log, reader.result, "%s", reader.line);
+        return lobe_log_fail(log, reader.result, "%s", reader.line);
     bool malformed = *message != 0;
-    return scene_report_error(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY,
-                              "%s: %s", path, malformed ? message : "out of memory");
+    return lobe_log_fail(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY, "%s: %s",
+                         path, malformed ? message : "out of memory");
 }
 
 static lobe_result read_document(const char *path, const lobe_log *log,
                                  const gltf_document **document) {
     gltf_container container = {0};
-    void *bytes = NULL;
-    lobe_result result = scene_read_file(path, NULL, log, &bytes, &container.size);
-    container.bytes = bytes;
+    uint8_t *bytes = NULL;
+    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &container.size);
+    container.bytes = (char *)bytes;
     if (result == LOBE_OK)
         result = gltf_container_open(&container, path, log);
     if (result == LOBE_OK)
@@ -110,8 +110,7 @@ static lobe_result allocate_states(gltf_import *import) {
     import->images[1] = allocate_unconverted(document->image_count + 1);
     if (allocate_primitives(import) && import->materials && import->images[0] && import->images[1])
         return LOBE_OK;
-    return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                              import->path);
+    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", import->path);
 }
 
 static void free_states(gltf_import *import) {

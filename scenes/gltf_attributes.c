@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/report.h"
-
 // Kinds of component that an attribute may have, as bits.
 enum {
     KIND_FLOAT = 1,
@@ -67,15 +65,15 @@ static lobe_result open_attribute(const gltf_import *import, const gltf_primitiv
     unsigned kinds = rule->kinds | (import->quantised ? rule->quantised_kinds : 0);
     if (elements->channels < rule->minimum_channels ||
         elements->channels > rule->maximum_channels || !(kind_of(elements) & kinds))
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: %s: %u components of type %d%s are not allowed",
-                                  import->path, what, elements->channels, elements->component,
-                                  elements->normalised ? ", normalised," : "");
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: %s: %u components of type %d%s are not allowed", import->path,
+                             what, elements->channels, elements->component,
+                             elements->normalised ? ", normalised," : "");
     size_t count = attributes->elements[GLTF_POSITION].count;
     if (elements->count != count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: %s: %zu elements for %zu positions", import->path, what,
-                                  elements->count, count);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: %s: %zu elements for %zu positions", import->path, what,
+                             elements->count, count);
     attributes->present[attribute] = true;
     return LOBE_OK;
 }
@@ -120,9 +118,9 @@ static lobe_result read_attribute(const gltf_import *import, const gltf_attribut
         gltf_read_floats(elements, element, values);
         for (unsigned c = 0; c < elements->channels; c++) {
             if (!isfinite(values[c]))
-                return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                          "%s: %s: %s of vertex %zu is not finite", import->path,
-                                          attributes->name, rules[attribute].name, element);
+                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                     "%s: %s: %s of vertex %zu is not finite", import->path,
+                                     attributes->name, rules[attribute].name, element);
         }
         // A colour of three channels keeps the alpha of 1 it was allocated with.
         memcpy(destination(&mesh->vertices[i], attribute), values,

@@ -3,8 +3,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "scenes/report.h"
-
 // glTF 2.0, section 4: the header, and the head of each chunk.
 #define GLB_HEADER_SIZE     12
 #define GLB_CHUNK_HEAD_SIZE 8
@@ -81,8 +79,8 @@ static lobe_result check_version(const gltf_container *container, const char *pa
     uint32_t version = container->size >= 8 ? read_word(container->bytes + 4) : 2;
     if (version == 2)
         return LOBE_OK;
-    return scene_report_error(log, LOBE_ERROR_UNSUPPORTED,
-                              "%s: GLB version %u, lobe reads version 2", path, version);
+    return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED, "%s: GLB version %u, lobe reads version 2",
+                         path, version);
 }
 
 static const char *open_header(gltf_container *container) {
@@ -103,5 +101,5 @@ lobe_result gltf_container_open(gltf_container *container, const char *path, con
     const char *fault = container->binary ? open_header(container) : open_text(container);
     if (!fault)
         return LOBE_OK;
-    return scene_report_error(log, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);
 }

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/file.h"
+#include <lobe/file.h>
+
 #include "scenes/gltf.h"
 #include "scenes/image_file.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 
 static int hexadecimal(char c) {
@@ -46,21 +46,21 @@ typedef struct image_source {
     char name[96];
     const void *bytes;
     size_t size;
-    void *owned;
+    uint8_t *owned;
 } image_source;
 
 static lobe_result read_external(const gltf_import *import, const char *uri, image_source *source) {
     if (strstr(uri, "://") || strncmp(uri, "data:", 5) == 0)
-        return scene_report_error(import->log, LOBE_ERROR_UNSUPPORTED,
-                                  "%s: image '%.64s': neither a relative path nor a PNG or JPEG "
-                                  "as a base64 data URI",
-                                  import->path, uri);
+        return lobe_log_fail(import->log, LOBE_ERROR_UNSUPPORTED,
+                             "%s: image '%.64s': neither a relative path nor a PNG or JPEG "
+                             "as a base64 data URI",
+                             import->path, uri);
     char *path = resolve(import->path, uri);
     if (!path)
-        return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                                  import->path);
+        return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                             import->path);
     lobe_result result =
-        scene_read_file(path, import->path, import->log, &source->owned, &source->size);
+        lobe_file_read(path, import->path, import->log, &source->owned, &source->size);
     source->bytes = source->owned;
     free(path);
     return result;
@@ -97,15 +97,15 @@ static lobe_result decode(gltf_import *import, const image_source *source, scene
     if (import->texels <= GLTF_MAXIMUM_TEXELS)
         return LOBE_OK;
     lobe_image_free(image);
-    return scene_report_error(import->log, LOBE_ERROR_LIMIT,
-                              "%s: more than %zu texels in the images of the scene", name,
-                              GLTF_MAXIMUM_TEXELS);
+    return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
+                         "%s: more than %zu texels in the images of the scene", name,
+                         GLTF_MAXIMUM_TEXELS);
 }
 
 lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted) {
     if ((size_t)image >= import->document->image_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
-                                  import->path, image);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
+                             import->path, image);
     scene_image_use use = colour ? SCENE_IMAGE_COLOUR : SCENE_IMAGE_DATA;
     int64_t *known = &import->images[use][image];
     if (*known == GLTF_NOT_CONVERTED) {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 
 // OpenGL's numbers, which glTF 2.0 keeps (sections 5.26.1 and 5.26.3).
@@ -36,8 +35,8 @@ static lobe_result convert_sampler(const gltf_import *import, int sampler, lobe_
     if (sampler < 0)
         return LOBE_OK;
     if ((size_t)sampler >= import->document->sampler_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no sampler %d",
-                                  import->path, sampler);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no sampler %d",
+                             import->path, sampler);
     const gltf_sampler *s = &import->document->samplers[sampler];
     bool known = s->magnification == -1 || s->magnification == FILTER_NEAREST ||
                  s->magnification == FILTER_LINEAR;
@@ -46,9 +45,9 @@ static lobe_result convert_sampler(const gltf_import *import, int sampler, lobe_
     known = convert_wrap(s->wrap_v, &use->wrap_v) && known;
     if (known)
         return LOBE_OK;
-    return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                              "%s: sampler %d: unknown filter %d or wrap mode %d, %d", import->path,
-                              sampler, s->magnification, s->wrap_u, s->wrap_v);
+    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                         "%s: sampler %d: unknown filter %d or wrap mode %d, %d", import->path,
+                         sampler, s->magnification, s->wrap_u, s->wrap_v);
 }
 
 // KHR_texture_transform: T(offset) R(rotation) S(scale), where a positive rotation turns the
@@ -74,8 +73,8 @@ static lobe_result convert_texture(gltf_import *import, const gltf_texture_refer
     if (reference->texture < 0)
         return LOBE_OK;
     if ((size_t)reference->texture >= import->document->texture_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no texture %d",
-                                  import->path, reference->texture);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no texture %d",
+                             import->path, reference->texture);
     const gltf_texture *texture = &import->document->textures[reference->texture];
     if (texture->image < 0) {
         gltf_note_unsupported(import, "textures without a PNG or JPEG image");
@@ -88,9 +87,9 @@ static lobe_result convert_texture(gltf_import *import, const gltf_texture_refer
     lobe_texture_use converted = LOBE_TEXTURE_NONE;
     converted.texture_coordinates = (uint32_t)reference->coordinates;
     if (!convert_transform(reference, converted.transform))
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: the transform of texture %d is not finite", import->path,
-                                  reference->texture);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: the transform of texture %d is not finite", import->path,
+                             reference->texture);
     lobe_result result = convert_sampler(import, texture->sampler, &converted);
     if (result == LOBE_OK)
         result = gltf_convert_image(import, texture->image, colour, &converted.image);
@@ -158,9 +157,9 @@ static lobe_result convert_alpha_mode(gltf_import *import, const gltf_material *
     if (strcmp(from->alpha_mode, "BLEND") == 0)
         gltf_note_unsupported(import, "blending (drawn opaque)");
     else if (!to->alpha_mask && strcmp(from->alpha_mode, "OPAQUE") != 0)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: material '%.64s': unknown alpha mode '%.32s'", import->path,
-                                  from->name, from->alpha_mode);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: material '%.64s': unknown alpha mode '%.32s'", import->path,
+                             from->name, from->alpha_mode);
     return LOBE_OK;
 }
 
@@ -190,8 +189,8 @@ static lobe_result add_material(gltf_import *import, int material, uint32_t *ind
 lobe_result gltf_convert_material(gltf_import *import, int material, int64_t *converted) {
     size_t count = import->document->material_count;
     if (material >= 0 && (size_t)material >= count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no material %d",
-                                  import->path, material);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no material %d",
+                             import->path, material);
     int64_t *known = &import->materials[material < 0 ? count : (size_t)material];
     if (*known == GLTF_NOT_CONVERTED) {
         uint32_t index = 0;

@@ -5,7 +5,6 @@
 #include "scenes/gltf.h"
 #include "scenes/gltf_attributes.h"
 #include "scenes/mesh.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 #include "scenes/vector.h"
 
@@ -23,8 +22,8 @@ static void name_primitive(const gltf_import *import, size_t mesh, size_t primit
 }
 
 static lobe_result out_of_memory(const gltf_import *import, const char *name) {
-    return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: %s: out of memory",
-                              import->path, name);
+    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: %s: out of memory",
+                         import->path, name);
 }
 
 // Which element each vertex of the mesh comes from; NULL: the same.
@@ -79,9 +78,9 @@ static lobe_result choose_vertices(gltf_import *import, const gltf_attributes *a
     if (!done)
         return out_of_memory(import, attributes->name);
     if (source->count > GLTF_MAXIMUM_VERTICES - import->vertices)
-        return scene_report_error(import->log, LOBE_ERROR_LIMIT,
-                                  "%s: %s: more than %zu vertices in the scene", import->path,
-                                  attributes->name, GLTF_MAXIMUM_VERTICES);
+        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
+                             "%s: %s: more than %zu vertices in the scene", import->path,
+                             attributes->name, GLTF_MAXIMUM_VERTICES);
     import->vertices += source->count;
     import->indices += index_count;
     return LOBE_OK;
@@ -190,8 +189,8 @@ static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive,
     char name[NAME_SIZE];
     name_primitive(import, mesh, primitive, name);
     if (p->mode > GLTF_TRIANGLE_FAN)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: %s: unknown mode %d",
-                                  import->path, name, p->mode);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: unknown mode %d",
+                             import->path, name, p->mode);
     state->mesh = GLTF_NOTHING_TO_DRAW;
     if (!is_drawable(import, p))
         return LOBE_OK;

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -52,9 +51,9 @@ static lobe_result local_transform(const gltf_import *import, int index, double 
     memcpy(out, node->matrix, sizeof node->matrix);
     if (node->has_matrix ? is_affine(node->matrix) : compose(node, out))
         return LOBE_OK;
-    return scene_report_error(
-        import->log, LOBE_ERROR_MALFORMED, "%s: node %d: %s", import->path, index,
-        node->has_matrix ? "its matrix is not affine" : "its rotation has no length");
+    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: node %d: %s", import->path, index,
+                         node->has_matrix ? "its matrix is not affine"
+                                          : "its rotation has no length");
 }
 
 static lobe_result world_transform(const gltf_import *import, int index, const double *parent,
@@ -70,9 +69,8 @@ static lobe_result world_transform(const gltf_import *import, int index, const d
     for (int i = 0; i < 16; i++) {
         // Squares up to here are finite in single precision; a NaN fails too.
         if (!(fabs(out[i]) <= 1e18))
-            return scene_report_error(import->log, LOBE_ERROR_LIMIT,
-                                      "%s: node %d: its transform is out of range", import->path,
-                                      index);
+            return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
+                                 "%s: node %d: its transform is out of range", import->path, index);
     }
     return LOBE_OK;
 }
@@ -96,8 +94,8 @@ static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
     tree->worlds = malloc(count * sizeof *tree->worlds);
     if (tree->parents && tree->stack && tree->visited && tree->worlds)
         return LOBE_OK;
-    return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY,
-                              "%s: out of memory for %zu nodes", import->path, count - 1);
+    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for %zu nodes",
+                         import->path, count - 1);
 }
 
 static void free_tree(node_tree *tree) {
@@ -115,12 +113,12 @@ static lobe_result find_parents(const gltf_import *import, node_tree *tree) {
         for (size_t k = 0; k < document->nodes[i].child_count; k++) {
             int child = document->nodes[i].children[k];
             if (child < 0 || (size_t)child >= document->node_count)
-                return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                          "%s: node %zu: there is no child node %d", import->path,
-                                          i, child);
+                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                     "%s: node %zu: there is no child node %d", import->path, i,
+                                     child);
             if (tree->parents[child] >= 0)
-                return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                          "%s: node %d has two parents", import->path, child);
+                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                     "%s: node %d has two parents", import->path, child);
             tree->parents[child] = (int)i;
         }
     }
@@ -149,9 +147,9 @@ static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
     }
     for (size_t i = 0; i < count; i++) {
         if (!tree->visited[i])
-            return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                      "%s: node %zu is its own ancestor, or below one that is",
-                                      import->path, i);
+            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                 "%s: node %zu is its own ancestor, or below one that is",
+                                 import->path, i);
         tree->visited[i] = false;
     }
     return LOBE_OK;
@@ -199,16 +197,16 @@ static lobe_result place(gltf_import *import, gltf_primitive_state *state, const
             transform[row] = -transform[row];
     }
     if (import->scene->instance_count >= GLTF_MAXIMUM_INSTANCES)
-        return scene_report_error(import->log, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
-                                  import->path, GLTF_MAXIMUM_INSTANCES);
+        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
+                             import->path, GLTF_MAXIMUM_INSTANCES);
     return scene_add_instance(import->scene, (uint32_t)mesh, (uint32_t)state->material, transform,
                               import->log);
 }
 
 static lobe_result place_mesh(gltf_import *import, int mesh, const double world[16]) {
     if ((size_t)mesh >= import->document->mesh_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no mesh %d",
-                                  import->path, mesh);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no mesh %d",
+                             import->path, mesh);
     for (size_t i = 0; i < import->document->meshes[mesh].primitive_count; i++) {
         gltf_primitive_state *state;
         lobe_result result = gltf_convert_primitive(import, (size_t)mesh, i, &state);
@@ -237,17 +235,17 @@ static lobe_result convert_node(gltf_import *import, int index, const double wor
 // Depth first, in the order of the file, without recursion: a chain of nodes may be long.
 static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
     if (root < 0 || (size_t)root >= import->document->node_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: there is no node %d in the scene", import->path, root);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: there is no node %d in the scene", import->path, root);
     tree->depth = 0;
     tree->stack[tree->depth++] = root;
     while (tree->depth > 0) {
         int node = tree->stack[--tree->depth];
         int parent = tree->parents[node];
         if (tree->visited[node] || (node == root && parent >= 0))
-            return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                      "%s: node %d is in the scene twice, or is no root",
-                                      import->path, node);
+            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                 "%s: node %d is in the scene twice, or is no root", import->path,
+                                 node);
         tree->visited[node] = true;
         const double *above = parent >= 0 ? tree->worlds[parent] : NULL;
         lobe_result result = world_transform(import, node, above, tree->worlds[node]);
@@ -266,8 +264,8 @@ static lobe_result walk_scene(gltf_import *import, node_tree *tree) {
     int scene = document->scene >= 0 ? document->scene : 0;
     lobe_result result = LOBE_OK;
     if (document->scene >= 0 && (size_t)scene >= document->scene_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
-                                  import->path, scene);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
+                             import->path, scene);
     if (document->scene_count == 0) {
         for (size_t i = 0; i < document->node_count && result == LOBE_OK; i++) {
             if (tree->parents[i] < 0)

@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 
 void gltf_note_unsupported(gltf_import *import, const char *feature) {
     gltf_notes *notes = &import->notes;
@@ -26,13 +25,13 @@ static void report_unsupported(const gltf_import *import) {
         length += (size_t)added;
     }
     if (notes->unsupported_count > 0)
-        scene_report(import->log, LOBE_LOG_WARNING, "%s: not supported and left out: %s",
-                     import->path, list);
+        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: not supported and left out: %s",
+                       import->path, list);
 }
 
 static void report_count(const gltf_import *import, size_t count, const char *what) {
     if (count > 0)
-        scene_report(import->log, LOBE_LOG_WARNING, "%s: %zu %s", import->path, count, what);
+        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: %zu %s", import->path, count, what);
 }
 
 void gltf_report_notes(const gltf_import *import) {
@@ -47,5 +46,5 @@ void gltf_report_notes(const gltf_import *import) {
     report_count(import, notes->missing_coordinates,
                  "meshes lack texture coordinates that their material asks for");
     if (import->scene->instance_count == 0)
-        scene_report(import->log, LOBE_LOG_WARNING, "%s: there is nothing to draw", import->path);
+        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: there is nothing to draw", import->path);
 }

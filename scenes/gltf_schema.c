@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "scenes/json.h"
-#include "scenes/report.h"
 
 // ---------------------------------------------------------------------------------------------
 // What every reader must know first
@@ -14,8 +13,7 @@ typedef struct gltf_head {
 } gltf_head;
 
 static lobe_result fail(const gltf_head *head, const char *what, const char *which) {
-    return scene_report_error(head->log, LOBE_ERROR_UNSUPPORTED, "%s: %s %s", head->path, what,
-                              which);
+    return lobe_log_fail(head->log, LOBE_ERROR_UNSUPPORTED, "%s: %s %s", head->path, what, which);
 }
 
 // Minor versions are compatible: a reader of 2.0 reads 2.1 unless minVersion forbids.

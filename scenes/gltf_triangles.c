@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 
 // The vertices of a primitive in the order of drawing: indexed, or one after the other.
 typedef struct vertex_order {
@@ -25,8 +24,8 @@ static lobe_result open_order(const gltf_import *import, const gltf_primitive *p
     bool integers = component == GLTF_UNSIGNED_BYTE || component == GLTF_UNSIGNED_SHORT ||
                     component == GLTF_UNSIGNED_INT;
     if (!integers || order->elements.channels != 1)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: %s are not single unsigned integers", import->path, what);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: %s are not single unsigned integers", import->path, what);
     order->count = order->elements.count;
     return LOBE_OK;
 }
@@ -39,13 +38,13 @@ static lobe_result count_triangles(const gltf_import *import, int mode, const ch
                                    size_t count, size_t *triangles) {
     bool list = mode == GLTF_TRIANGLES;
     if (count < 3 || (list && count % 3 != 0))
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: %s: triangles of %zu vertices", import->path, name, count);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: triangles of %zu vertices",
+                             import->path, name, count);
     *triangles = list ? count / 3 : count - 2;
     if (*triangles > (GLTF_MAXIMUM_INDICES - import->indices) / 3)
-        return scene_report_error(import->log, LOBE_ERROR_LIMIT,
-                                  "%s: %s: more than %zu indices in the scene", import->path, name,
-                                  GLTF_MAXIMUM_INDICES);
+        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
+                             "%s: %s: more than %zu indices in the scene", import->path, name,
+                             GLTF_MAXIMUM_INDICES);
     return LOBE_OK;
 }
 
@@ -82,8 +81,8 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
         return result;
     uint32_t *list = malloc(3 * triangles * sizeof *list);
     if (!list)
-        return scene_report_error(import->log, LOBE_ERROR_OUT_OF_MEMORY,
-                                  "%s: %s: out of memory for triangles", import->path, name);
+        return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "%s: %s: out of memory for triangles", import->path, name);
     for (size_t t = 0; t < triangles; t++) {
         size_t corner[3];
         triangle_corners(primitive->mode, t, corner);
@@ -93,9 +92,9 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
             if (index < element_count)
                 continue;
             free(list);
-            return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                      "%s: %s: index %zu is %u, of %zu vertices", import->path,
-                                      name, corner[k], index, element_count);
+            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                 "%s: %s: index %zu is %u, of %zu vertices", import->path, name,
+                                 corner[k], index, element_count);
         }
     }
     *indices = list;

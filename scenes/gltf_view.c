@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 #include "scenes/vector.h"
 
@@ -50,18 +49,18 @@ static bool convert_values(const gltf_light *from, lobe_light *to) {
 
 lobe_result gltf_convert_light(gltf_import *import, int light, const double world[16]) {
     if ((size_t)light >= import->document->light_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no light %d",
-                                  import->path, light);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no light %d",
+                             import->path, light);
     const gltf_light *from = &import->document->lights[light];
     lobe_light to = {0};
     vector3 direction = vector3_scale(axis(world, 2), -1);
     if (!convert_values(from, &to))
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: light %d of type '%.32s' has a value out of its range",
-                                  import->path, light, from->type);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: light %d of type '%.32s' has a value out of its range",
+                             import->path, light, from->type);
     if (!vector3_normalise(&direction, 0) && to.type != LOBE_LIGHT_POINT)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: light %d has no direction", import->path, light);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: light %d has no direction",
+                             import->path, light);
     if (to.type != LOBE_LIGHT_DIRECTIONAL)
         vector3_store(axis(world, 3), to.position);
     if (to.type != LOBE_LIGHT_POINT)
@@ -87,8 +86,8 @@ static bool convert_projection(const gltf_camera *from, lobe_camera *to) {
 
 lobe_result gltf_convert_camera(gltf_import *import, int camera, const double world[16]) {
     if ((size_t)camera >= import->document->camera_count)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED, "%s: there is no camera %d",
-                                  import->path, camera);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no camera %d",
+                             import->path, camera);
     if (import->scene->has_camera)
         return LOBE_OK;
     lobe_camera to = {0};
@@ -96,9 +95,8 @@ lobe_result gltf_convert_camera(gltf_import *import, int camera, const double wo
     bool valid = convert_projection(&import->document->cameras[camera], &to);
     valid = vector3_normalise(&up, 0) && vector3_normalise(&back, 0) && valid;
     if (!valid)
-        return scene_report_error(import->log, LOBE_ERROR_MALFORMED,
-                                  "%s: camera %d has a value out of its range", import->path,
-                                  camera);
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: camera %d has a value out of its range", import->path, camera);
     vector3_store(eye, to.eye);
     vector3_store(up, to.up);
     // Far from the origin one metre is less than the precision of a float.

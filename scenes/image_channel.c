@@ -4,7 +4,6 @@
 #include <stdbool.h>
 
 #include "scenes/image_file.h"
-#include "scenes/report.h"
 
 static double read_texel(const image_channel *from, uint32_t column, uint32_t row) {
     size_t index = ((size_t)row * from->image->width + column) * 4 + from->channel;
@@ -54,9 +53,9 @@ lobe_result image_channel_pack(const image_channel channels[4], const char *name
             height = channels[i].image->height > height ? channels[i].image->height : height;
         }
     if ((size_t)width * height > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return scene_report_error(log, LOBE_ERROR_LIMIT,
-                                  "%s: maps together make %u x %u texels, more than lobe takes",
-                                  name, width, height);
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
+                             "%s: maps together make %u x %u texels, more than lobe takes", name,
+                             width, height);
     lobe_result status = lobe_image_allocate(packed, LOBE_FORMAT_RGBA8_UNORM, width, height, log);
     for (uint32_t i = 0; !status && i < 4; i++)
         fill_channel(&channels[i], i, packed);

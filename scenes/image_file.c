@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/file.h"
-#include "scenes/report.h"
+#include <lobe/file.h>
+
 #include "third_party/image_codec.h"
 
 // The densest that either format packs: deflate shrinks to 1/1032, on 8 texels a byte.
@@ -31,15 +31,14 @@ static lobe_result check_extent(const image_codec_extent *extent, size_t size, c
     uint64_t texels = (uint64_t)width * height;
     if (width > LOBE_IMAGE_MAXIMUM_EXTENT || height > LOBE_IMAGE_MAXIMUM_EXTENT ||
         texels > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return scene_report_error(log, LOBE_ERROR_LIMIT,
-                                  "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
-                                  "all)",
-                                  name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
-                                  SCENE_IMAGE_MAXIMUM_TEXELS);
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
+                             "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
+                             "all)",
+                             name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
+                             SCENE_IMAGE_MAXIMUM_TEXELS);
     if (texels > (uint64_t)size * MAXIMUM_TEXELS_PER_BYTE)
-        return scene_report_error(log, LOBE_ERROR_MALFORMED,
-                                  "%s: %zu bytes cannot hold %u x %u texels", name, size, width,
-                                  height);
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %zu bytes cannot hold %u x %u texels",
+                             name, size, width, height);
     return LOBE_OK;
 }
 
@@ -54,15 +53,15 @@ lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
     *image = (lobe_image){0};
     image_file_kind kind = recognise(bytes, size);
     if (kind == IMAGE_FILE_OTHER)
-        return scene_report_error(log, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
-                                  "%s: neither PNG nor JPEG", name);
+        return lobe_log_fail(log, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                             "%s: neither PNG nor JPEG", name);
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
     image_codec_extent extent = {0};
     bool png = kind == IMAGE_FILE_PNG;
     bool done = png ? png_measure(bytes, size, &extent, message)
                     : jpeg_measure(bytes, size, &extent, message);
     if (!done)
-        return scene_report_error(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
     lobe_result result = check_extent(&extent, size, name, log);
     if (result != LOBE_OK)
         return result;
@@ -76,15 +75,15 @@ lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
     if (done)
         return LOBE_OK;
     lobe_image_free(image);
-    return scene_report_error(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
 }
 
 lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
                              lobe_image *image) {
     *image = (lobe_image){0};
-    void *bytes = NULL;
+    uint8_t *bytes = NULL;
     size_t size = 0;
-    lobe_result result = scene_read_file(path, NULL, log, &bytes, &size);
+    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &size);
     if (result == LOBE_OK)
         result = scene_image_decode(bytes, size, path, use, log, image);
     free(bytes);

@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/report.h"
-
 #define STRING_SIZE 256
 
 typedef struct json_parser {
@@ -35,9 +33,9 @@ static bool fail(json_parser *parser, const char *format, ...) {
     vsnprintf(cause, sizeof cause, format, arguments);
     va_end(arguments);
     bool named = parser->path_length > 0;
-    parser->result = scene_report_error(parser->text->log, LOBE_ERROR_MALFORMED,
-                                        "%s: line %u: %s%s%s", parser->text->name, parser->line,
-                                        named ? parser->path : "", named ? ": " : "", cause);
+    parser->result = lobe_log_fail(parser->text->log, LOBE_ERROR_MALFORMED, "%s: line %u: %s%s%s",
+                                   parser->text->name, parser->line, named ? parser->path : "",
+                                   named ? ": " : "", cause);
     return false;
 }
 

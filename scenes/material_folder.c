@@ -9,7 +9,6 @@
 #include "scenes/image_channel.h"
 #include "scenes/image_file.h"
 #include "scenes/material_file.h"
-#include "scenes/report.h"
 #include "scenes/scene.h"
 #include "scenes/scene_view.h"
 #include "scenes/shape.h"
@@ -26,8 +25,7 @@ typedef struct material_folder {
 } material_folder;
 
 static lobe_result out_of_memory(const material_folder *folder) {
-    return scene_report_error(folder->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                              folder->path);
+    return lobe_log_fail(folder->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", folder->path);
 }
 
 // Of several files for one map the first in alphabetical order is taken, whatever order the file
@@ -38,8 +36,8 @@ static lobe_result consider_file(material_folder *folder, const char *name) {
         return LOBE_OK;
     if (!material_file_is_readable(name)) {
         if (material_file_is_other_image(name))
-            scene_report(folder->log, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
-                         folder->path, name);
+            lobe_log_print(folder->log, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
+                           folder->path, name);
         return LOBE_OK;
     }
     if (folder->files[map] && strcmp(folder->files[map], name) < 0)
@@ -55,18 +53,16 @@ static lobe_result consider_file(material_folder *folder, const char *name) {
 static lobe_result list_files(material_folder *folder) {
     DIR *directory = opendir(folder->path);
     if (!directory && (errno == ENOENT || errno == ENAMETOOLONG))
-        return scene_report_error(folder->log, LOBE_ERROR_NOT_FOUND, "%s: no such folder",
-                                  folder->path);
+        return lobe_log_fail(folder->log, LOBE_ERROR_NOT_FOUND, "%s: no such folder", folder->path);
     if (!directory)
-        return scene_report_error(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path,
-                                  strerror(errno));
+        return lobe_log_fail(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
     lobe_result status = LOBE_OK;
     errno = 0;
     for (struct dirent *entry; !status && (entry = readdir(directory)); errno = 0)
         status = consider_file(folder, entry->d_name);
     if (!status && errno)
-        status = scene_report_error(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path,
-                                    strerror(errno));
+        status =
+            lobe_log_fail(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
     closedir(directory);
     return status;
 }
@@ -75,10 +71,10 @@ static lobe_result require_maps(const material_folder *folder) {
     for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
         if (folder->files[map] && map != MATERIAL_MAP_DISPLACEMENT)
             return LOBE_OK;
-    return scene_report_error(folder->log, LOBE_ERROR_NOT_FOUND,
-                              "%s: no PNG or JPEG file is named after a map (albedo, normal, "
-                              "roughness, metallic, arm, ao, emissive)",
-                              folder->path);
+    return lobe_log_fail(folder->log, LOBE_ERROR_NOT_FOUND,
+                         "%s: no PNG or JPEG file is named after a map (albedo, normal, "
+                         "roughness, metallic, arm, ao, emissive)",
+                         folder->path);
 }
 
 // Loads the file of a map; where there is none, `image` stays empty.
@@ -191,8 +187,8 @@ static lobe_result add_material(material_folder *folder) {
         for (int channel = 0; channel < 3; channel++)
             material->emissive[channel] = 1;
     if (folder->files[MATERIAL_MAP_DISPLACEMENT])
-        scene_report(folder->log, LOBE_LOG_DEBUG, "%s/%s: displacement is not used", folder->path,
-                     folder->files[MATERIAL_MAP_DISPLACEMENT]);
+        lobe_log_print(folder->log, LOBE_LOG_DEBUG, "%s/%s: displacement is not used", folder->path,
+                       folder->files[MATERIAL_MAP_DISPLACEMENT]);
     lobe_result status = add_colour(folder, MATERIAL_MAP_ALBEDO, &material->base_colour_map);
     if (!status)
         status = add_colour(folder, MATERIAL_MAP_EMISSIVE, &material->emissive_map);

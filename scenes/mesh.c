@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/report.h"
 #include "scenes/vector.h"
 
 #define MESH_MAXIMUM_COUNT ((size_t)1 << 31)
@@ -28,16 +27,16 @@ lobe_result mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count
     if (vertex_count == 0 || vertex_count > MESH_MAXIMUM_COUNT || index_count == 0 ||
         index_count > MESH_MAXIMUM_COUNT || index_count % 3 != 0) {
         *mesh = (lobe_mesh){0};
-        return scene_report_error(log, LOBE_ERROR_LIMIT,
-                                  "mesh '%s': %zu vertices and %zu indices cannot be", name,
-                                  vertex_count, index_count);
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
+                             "mesh '%s': %zu vertices and %zu indices cannot be", name,
+                             vertex_count, index_count);
     }
     lobe_result result = allocate_arrays(mesh, name);
     if (result == LOBE_OK)
         return LOBE_OK;
     mesh_free(mesh);
-    return scene_report_error(log, result, "mesh '%s': out of memory for %zu vertices", name,
-                              vertex_count);
+    return lobe_log_fail(log, result, "mesh '%s': out of memory for %zu vertices", name,
+                         vertex_count);
 }
 
 void mesh_free(lobe_mesh *mesh) {

@@ -1,7 +1,6 @@
 #include <stdlib.h>
 
 #include "scenes/mesh.h"
-#include "scenes/report.h"
 #include "scenes/vector.h"
 
 // The cross product of two edges is twice the area times the normal: summing it weights by area.
@@ -28,8 +27,8 @@ static void store_normal(lobe_scene_vertex *vertex, vector3 sum) {
 }
 
 static lobe_result out_of_memory(const lobe_mesh *mesh, const lobe_log *log) {
-    return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for normals",
-                              mesh->name);
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for normals",
+                         mesh->name);
 }
 
 lobe_result mesh_compute_normals(lobe_mesh *mesh, const lobe_log *log) {

@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "scenes/mesh.h"
-#include "scenes/report.h"
 #include "scenes/vector.h"
 
 // Which handednesses the triangles of a vertex ask for.
@@ -153,8 +152,8 @@ lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
     if (allocated)
         sums = calloc(mesh->vertex_count, sizeof *sums);
     if (!sums)
-        return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY,
-                                  "mesh '%s': out of memory for tangents", mesh->name);
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for tangents",
+                             mesh->name);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         mesh->vertices[i].tangent[3] = 1;
     if (mapped)

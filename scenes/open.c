@@ -6,7 +6,6 @@
 
 #include "scenes/builtin.h"
 #include "scenes/gltf.h"
-#include "scenes/report.h"
 
 static bool is_absent(const char *path) {
     return access(path, F_OK) != 0 && errno != EACCES;
@@ -18,7 +17,7 @@ lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene *
     if (builtin)
         return builtin->build(log, result);
     if (is_absent(scene))
-        return scene_report_error(log, LOBE_ERROR_NOT_FOUND,
-                                  "%s: neither a built-in scene nor a file", scene);
+        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND, "%s: neither a built-in scene nor a file",
+                             scene);
     return gltf_open(scene, log, result);
 }

@@ -4,11 +4,9 @@
 #include <string.h>
 
 #include "scenes/mesh.h"
-#include "scenes/report.h"
 
 static lobe_result out_of_memory(const lobe_scene *scene, const lobe_log *log) {
-    return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory",
-                              scene->name);
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", scene->name);
 }
 
 lobe_result scene_allocate(const char *name, const lobe_log *log, lobe_scene **scene) {
@@ -18,7 +16,7 @@ lobe_result scene_allocate(const char *name, const lobe_log *log, lobe_scene **s
     if (*scene && (*scene)->name)
         return LOBE_OK;
     lobe_scene_destroy(scene);
-    return scene_report_error(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", name);
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", name);
 }
 
 // Room for one more element. Arrays carry no capacity: it is the power of two not below the

@@ -1,7 +1,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/report.h"
 #include "scenes/scene.h"
 #include "scenes/vector.h"
 
@@ -40,8 +39,8 @@ static lobe_result set_bounds(lobe_scene *scene, const lobe_log *log) {
         include_instance(scene, &scene->instances[i], &minimum, &maximum);
     double largest = fmax(vector3_length(minimum), vector3_length(maximum));
     if (!(largest <= SCENE_MAXIMUM_LENGTH))
-        return scene_report_error(log, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m",
-                                  scene->name, SCENE_MAXIMUM_LENGTH);
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m", scene->name,
+                             SCENE_MAXIMUM_LENGTH);
     vector3_store(minimum, scene->minimum);
     vector3_store(maximum, scene->maximum);
     return LOBE_OK;
@@ -105,12 +104,12 @@ lobe_result scene_complete(lobe_scene *scene, const lobe_log *log) {
         return result;
     if (!scene->has_camera) {
         frame_bounds(scene);
-        scene_report(log, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
-                     scene->name);
+        lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
+                       scene->name);
     }
     if (scene->light_count > 0)
         return LOBE_OK;
-    scene_report(log, LOBE_LOG_NOTICE, "%s: has no light; added a key light and a weaker fill",
-                 scene->name);
+    lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no light; added a key light and a weaker fill",
+                   scene->name);
     return add_lights(scene, log);
 }

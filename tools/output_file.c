@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "engine/file.h"
+#include <lobe/file.h>
 
 bool output_file_has_ending(const char *path, const char *ending) {
     size_t length = strlen(path), ending_length = strlen(ending);
@@ -48,5 +48,5 @@ lobe_result output_file_check(const char *path, const lobe_log *log) {
 }
 
 lobe_result output_file_write(const char *path, const char *text, const lobe_log *log) {
-    return engine_file_write(path, text, strlen(text), log);
+    return lobe_file_write(path, text, strlen(text), log);
 }

@@ -41,3 +41,17 @@ void temporary_folder_remove(const temporary_folder *folder) {
     visit(folder, 1);
     rmdir(folder->path);
 }
+
+temporary_folder test_folder;
+
+int test_folder_setup(void **state) {
+    (void)state;
+    temporary_folder_create(&test_folder);
+    return 0;
+}
+
+int test_folder_teardown(void **state) {
+    (void)state;
+    temporary_folder_remove(&test_folder);
+    return 0;
+}

@@ -18,4 +18,13 @@ size_t temporary_folder_count(const temporary_folder *folder);
 /// Removes the files and the folder.
 void temporary_folder_remove(const temporary_folder *folder);
 
+/// The folder of a test that runs IN_TEST_FOLDER, of its own each.
+extern temporary_folder test_folder;
+
+int test_folder_setup(void **state);
+int test_folder_teardown(void **state);
+
+#define IN_TEST_FOLDER(test)                                                                       \
+    cmocka_unit_test_setup_teardown(test, test_folder_setup, test_folder_teardown)
+
 #endif

@@ -7,25 +7,11 @@
 #include <string.h>
 
 #include <lobe/exr.h>
+#include <lobe/file.h>
 
-#include "engine/file.h"
 #include "tests/engine/exr_fixture.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/temporary_folder.h"
-
-static temporary_folder folder;
-
-static int create_folder(void **state) {
-    (void)state;
-    temporary_folder_create(&folder);
-    return 0;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    temporary_folder_remove(&folder);
-    return 0;
-}
 
 static const exr_fixture_channel bgr_half[3] = {
     {"B", EXR_PIXEL_HALF, 1}, {"G", EXR_PIXEL_HALF, 1}, {"R", EXR_PIXEL_HALF, 1}};
@@ -72,7 +58,7 @@ static void expect_channels(const lobe_image *image, const exr_fixture_part *par
 
 static void expect_read(const exr_fixture_part *parts, int count, const char *layer,
                         const exr_fixture_part *chosen, const int channels[4]) {
-    const char *path = temporary_folder_file(&folder, "fixture.exr");
+    const char *path = temporary_folder_file(&test_folder, "fixture.exr");
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
@@ -118,7 +104,7 @@ static void every_lossless_compression_is_read(void **state) {
 
 static void lossy_compression_is_read_too(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "b44.exr");
+    const char *path = temporary_folder_file(&test_folder, "b44.exr");
     exr_fixture_part part = plain_part(40, 40);
     part.compression = EXR_COMPRESSION_B44;
     exr_fixture_write(path, &part, 1);
@@ -192,7 +178,7 @@ static void layers_are_found_by_name(void **state) {
     expect_read(&part, 1, "a.b", &part, (int[4]){3, 3, 3, -1});
     expect_read(&part, 1, "lobes", &part, (int[4]){4, 4, 4, -1});
     expect_read(&part, 1, "normal", &part, (int[4]){5, 6, 7, -1});
-    const char *path = temporary_folder_file(&folder, "fixture.exr");
+    const char *path = temporary_folder_file(&test_folder, "fixture.exr");
     expect_file_error(path, "depth", LOBE_ERROR_NOT_FOUND);
     expect_file_error(path, "norm", LOBE_ERROR_NOT_FOUND);
     expect_file_error(path, "a", LOBE_ERROR_NOT_FOUND);
@@ -231,7 +217,7 @@ static void subsampled_colour_differences_are_left_out_with_a_warning(void **sta
     (void)state;
     const exr_fixture_channel channels[3] = {
         {"BY", EXR_PIXEL_HALF, 2}, {"RY", EXR_PIXEL_HALF, 2}, {"Y", EXR_PIXEL_HALF, 1}};
-    const char *path = temporary_folder_file(&folder, "chroma.exr");
+    const char *path = temporary_folder_file(&test_folder, "chroma.exr");
     exr_fixture_part part = plain_part(32, 20);
     part.channels = channels;
     part.compression = EXR_COMPRESSION_NONE;
@@ -250,7 +236,7 @@ static void what_is_not_supported_is_said(void **state) {
     const exr_fixture_channel subsampled[3] = {
         {"B", EXR_PIXEL_HALF, 2}, {"G", EXR_PIXEL_HALF, 1}, {"R", EXR_PIXEL_HALF, 1}};
     const exr_fixture_channel strange[2] = {{"U", EXR_PIXEL_HALF, 1}, {"V", EXR_PIXEL_HALF, 1}};
-    const char *path = temporary_folder_file(&folder, "strange.exr");
+    const char *path = temporary_folder_file(&test_folder, "strange.exr");
     exr_fixture_part part = plain_part(16, 16);
     part.compression = EXR_COMPRESSION_NONE;
     part.channels = subsampled;
@@ -273,12 +259,12 @@ typedef struct file_content {
 
 static file_content load(const char *path) {
     file_content content;
-    assert_int_equal(engine_file_read(path, NULL, &content.data, &content.size), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &content.data, &content.size), LOBE_OK);
     return content;
 }
 
 static void save(const char *path, const file_content *content, size_t size) {
-    assert_int_equal(engine_file_write(path, content->data, size, NULL), LOBE_OK);
+    assert_int_equal(lobe_file_write(path, content->data, size, NULL), LOBE_OK);
 }
 
 /// The four numbers of a window attribute.
@@ -296,7 +282,7 @@ static void set_window(const file_content *content, const char *name, int32_t le
 
 static void absurd_windows_are_refused(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "absurd.exr");
+    const char *path = temporary_folder_file(&test_folder, "absurd.exr");
     exr_fixture_part part = plain_part(16, 16);
     exr_fixture_write(path, &part, 1);
     file_content content = load(path);
@@ -332,7 +318,7 @@ static void absurd_windows_are_refused(void **state) {
 
 static void a_file_cut_off_anywhere_is_refused(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "cut.exr");
+    const char *path = temporary_folder_file(&test_folder, "cut.exr");
     for (int tiled = 0; tiled < 2; tiled++) {
         for (int compression = EXR_COMPRESSION_NONE; compression <= EXR_COMPRESSION_PXR24;
              compression++) {
@@ -367,7 +353,7 @@ static void expect_order(const char *path) {
 static void any_byte_may_be_wrong(void **state) {
     (void)state;
     const uint8_t masks[3] = {0x01, 0x80, 0xff};
-    const char *path = temporary_folder_file(&folder, "flipped.exr");
+    const char *path = temporary_folder_file(&test_folder, "flipped.exr");
     for (int tiled = 0; tiled < 2; tiled++) {
         exr_fixture_part part = plain_part(20, 36);
         part.tile_width = part.tile_height = tiled ? 16 : 0;
@@ -387,10 +373,11 @@ static void any_byte_may_be_wrong(void **state) {
 
 static void what_cannot_be_read_is_named(void **state) {
     (void)state;
-    expect_file_error(temporary_folder_file(&folder, "missing.exr"), NULL, LOBE_ERROR_NOT_FOUND);
-    expect_file_error(folder.path, NULL, LOBE_ERROR_READ);
-    const char *path = temporary_folder_file(&folder, "text.exr");
-    assert_int_equal(engine_file_write(path, "no image", 8, NULL), LOBE_OK);
+    expect_file_error(temporary_folder_file(&test_folder, "missing.exr"), NULL,
+                      LOBE_ERROR_NOT_FOUND);
+    expect_file_error(test_folder.path, NULL, LOBE_ERROR_READ);
+    const char *path = temporary_folder_file(&test_folder, "text.exr");
+    assert_int_equal(lobe_file_write(path, "no image", 8, NULL), LOBE_OK);
     expect_file_error(path, NULL, LOBE_ERROR_MALFORMED);
 }
 
@@ -439,25 +426,23 @@ static void files_of_the_wild_are_read(void **state) {
     }
 }
 
-#define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, create_folder, remove_folder)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_A_FOLDER(every_lossless_compression_is_read),
-        IN_A_FOLDER(lossy_compression_is_read_too),
-        IN_A_FOLDER(sizes_down_to_one_texel_are_read),
-        IN_A_FOLDER(the_finest_level_is_read),
-        IN_A_FOLDER(all_channel_types_become_float),
-        IN_A_FOLDER(the_display_window_frames_the_image),
-        IN_A_FOLDER(layers_are_found_by_name),
-        IN_A_FOLDER(grey_images_are_spread),
-        IN_A_FOLDER(parts_are_searched_for_the_layer),
-        IN_A_FOLDER(subsampled_colour_differences_are_left_out_with_a_warning),
-        IN_A_FOLDER(what_is_not_supported_is_said),
-        IN_A_FOLDER(absurd_windows_are_refused),
-        IN_A_FOLDER(a_file_cut_off_anywhere_is_refused),
-        IN_A_FOLDER(any_byte_may_be_wrong),
-        IN_A_FOLDER(what_cannot_be_read_is_named),
+        IN_TEST_FOLDER(every_lossless_compression_is_read),
+        IN_TEST_FOLDER(lossy_compression_is_read_too),
+        IN_TEST_FOLDER(sizes_down_to_one_texel_are_read),
+        IN_TEST_FOLDER(the_finest_level_is_read),
+        IN_TEST_FOLDER(all_channel_types_become_float),
+        IN_TEST_FOLDER(the_display_window_frames_the_image),
+        IN_TEST_FOLDER(layers_are_found_by_name),
+        IN_TEST_FOLDER(grey_images_are_spread),
+        IN_TEST_FOLDER(parts_are_searched_for_the_layer),
+        IN_TEST_FOLDER(subsampled_colour_differences_are_left_out_with_a_warning),
+        IN_TEST_FOLDER(what_is_not_supported_is_said),
+        IN_TEST_FOLDER(absurd_windows_are_refused),
+        IN_TEST_FOLDER(a_file_cut_off_anywhere_is_refused),
+        IN_TEST_FOLDER(any_byte_may_be_wrong),
+        IN_TEST_FOLDER(what_cannot_be_read_is_named),
         cmocka_unit_test(damaged_files_of_the_wild_are_refused),
         cmocka_unit_test(files_of_the_wild_are_read),
     };

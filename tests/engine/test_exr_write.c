@@ -7,25 +7,11 @@
 #include <string.h>
 
 #include <lobe/exr.h>
+#include <lobe/file.h>
 
-#include "engine/file.h"
 #include "engine/half.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/temporary_folder.h"
-
-static temporary_folder folder;
-
-static int create_folder(void **state) {
-    (void)state;
-    temporary_folder_create(&folder);
-    return 0;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    temporary_folder_remove(&folder);
-    return 0;
-}
 
 static uint32_t random_bits(uint32_t *state) {
     *state = *state * 1664525u + 1013904223u;
@@ -73,7 +59,7 @@ static lobe_result write_image(const char *path, const lobe_image *image, lobe_e
 static void floats_survive_bit_by_bit(void **state) {
     (void)state;
     const uint32_t sizes[][2] = {{1, 1}, {5, 1}, {1, 47}, {16, 16}, {67, 45}, {671, 457}};
-    const char *path = temporary_folder_file(&folder, "float.exr");
+    const char *path = temporary_folder_file(&test_folder, "float.exr");
     for (size_t index = 0; index < sizeof sizes / sizeof sizes[0]; index++) {
         lobe_image read,
             written = make_noise(LOBE_FORMAT_RGBA32_FLOAT, sizes[index][0], sizes[index][1], 1);
@@ -91,7 +77,7 @@ static void floats_survive_bit_by_bit(void **state) {
 /// Blocks that compress badly come close to their raw size, now and then to just that size.
 static void blocks_that_do_not_shrink_survive(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "block.exr");
+    const char *path = temporary_folder_file(&test_folder, "block.exr");
     for (uint32_t seed = 0; seed < 600; seed++) {
         uint32_t width = 1 + seed % 6, height = 16, mask = (1u << (seed % 7)) - 1u,
                  state_bits = seed;
@@ -110,7 +96,7 @@ static void blocks_that_do_not_shrink_survive(void **state) {
 
 static void halves_are_the_nearest(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "half.exr");
+    const char *path = temporary_folder_file(&test_folder, "half.exr");
     lobe_image written = make_radiance(67, 45), read;
     assert_int_equal(write_image(path, &written, LOBE_EXR_HALF, NULL), LOBE_OK);
     assert_int_equal(lobe_exr_read(path, NULL, NULL, &read), LOBE_OK);
@@ -124,7 +110,7 @@ static void halves_are_the_nearest(void **state) {
 
 static void half_images_are_written_as_they_are(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "half.exr");
+    const char *path = temporary_folder_file(&test_folder, "half.exr");
     lobe_image written = make_noise(LOBE_FORMAT_RGBA16_FLOAT, 33, 20, 9), read;
     assert_int_equal(write_image(path, &written, LOBE_EXR_FLOAT, NULL), LOBE_OK);
     assert_int_equal(lobe_exr_read(path, NULL, NULL, &read), LOBE_OK);
@@ -139,7 +125,7 @@ static void half_images_are_written_as_they_are(void **state) {
 
 static void what_half_cannot_hold_is_clamped_and_counted(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "clamp.exr");
+    const char *path = temporary_folder_file(&test_folder, "clamp.exr");
     float texels[8] = {1e6f, -1e6f, 65504.0f, 65519.0f, INFINITY, -INFINITY, NAN, 65520.0f};
     const float expected[8] = {65504.0f, -65504.0f, 65504.0f, 65504.0f,
                                INFINITY, -INFINITY, NAN,      65504.0f};
@@ -196,7 +182,7 @@ static void expect_channel_list(const char *path, const char *const *names,
 
 static void layers_share_a_file_in_sorted_order(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "layers.exr");
+    const char *path = temporary_folder_file(&test_folder, "layers.exr");
     lobe_image colour = make_noise(LOBE_FORMAT_RGBA32_FLOAT, 23, 37, 1);
     lobe_image normal = make_noise(LOBE_FORMAT_RGBA32_FLOAT, 23, 37, 2);
     lobe_image depth = make_noise(LOBE_FORMAT_R32_FLOAT, 23, 37, 3);
@@ -233,7 +219,7 @@ static void layers_share_a_file_in_sorted_order(void **state) {
 
 static void images_of_fewer_channels_have_names_too(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "grey.exr");
+    const char *path = temporary_folder_file(&test_folder, "grey.exr");
     lobe_image grey = make_noise(LOBE_FORMAT_R32_FLOAT, 8, 8, 1);
     lobe_image pair = make_noise(LOBE_FORMAT_RG32_FLOAT, 8, 8, 2);
     const lobe_exr_layer layers[] = {
@@ -250,7 +236,7 @@ static void images_of_fewer_channels_have_names_too(void **state) {
 
 static void the_header_says_what_was_asked(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "header.exr");
+    const char *path = temporary_folder_file(&test_folder, "header.exr");
     lobe_image image = make_radiance(20, 10);
     const char *long_name = "lobe.pass.a_name_of_more_than_thirty_one_bytes.milliseconds";
     const lobe_exr_layer layer = {.image = &image, .depth = LOBE_EXR_HALF};
@@ -291,13 +277,13 @@ static void the_header_says_what_was_asked(void **state) {
 
 static void equal_parameters_give_equal_bytes(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "again.exr");
+    const char *path = temporary_folder_file(&test_folder, "again.exr");
     lobe_image image = make_radiance(67, 45);
     uint8_t *data[2];
     size_t sizes[2];
     for (int run = 0; run < 2; run++) {
         assert_int_equal(write_image(path, &image, LOBE_EXR_HALF, NULL), LOBE_OK);
-        assert_int_equal(engine_file_read(path, NULL, &data[run], &sizes[run]), LOBE_OK);
+        assert_int_equal(lobe_file_read(path, NULL, NULL, &data[run], &sizes[run]), LOBE_OK);
     }
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(data[0], data[1], sizes[0]);
@@ -312,12 +298,12 @@ static void equal_parameters_give_equal_bytes(void **state) {
 static void expect_refused(const lobe_exr_parameters *parameters, const char *cause) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    const char *path = temporary_folder_file(&folder, "refused.exr");
+    const char *path = temporary_folder_file(&test_folder, "refused.exr");
     assert_int_equal(lobe_exr_write(path, parameters, &recorder.log), LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
     assert_non_null(strstr(recorder.last_error, cause));
-    assert_int_equal(temporary_folder_count(&folder), 0);
+    assert_int_equal(temporary_folder_count(&test_folder), 0);
 }
 
 static void expect_layers_refused(const lobe_exr_layer *layers, size_t count, const char *cause) {
@@ -372,8 +358,8 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
     (void)state;
     lobe_image image = make_radiance(64, 64);
     char missing[256];
-    snprintf(missing, sizeof missing, "%s/none/image.exr", folder.path);
-    const char *paths[3] = {"/dev/full", folder.path, missing};
+    snprintf(missing, sizeof missing, "%s/none/image.exr", test_folder.path);
+    const char *paths[3] = {"/dev/full", test_folder.path, missing};
     for (int index = 0; index < 3; index++) {
         log_recorder recorder;
         log_recorder_start(&recorder);
@@ -382,10 +368,10 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
         assert_int_equal(recorder.errors, 1);
         assert_non_null(strstr(recorder.last_error, paths[index]));
     }
-    assert_int_equal(temporary_folder_count(&folder), 0);
+    assert_int_equal(temporary_folder_count(&test_folder), 0);
     // A file that is there stays as it was when a later one is refused.
-    const char *path = temporary_folder_file(&folder, "old.exr");
-    assert_int_equal(engine_file_write(path, "old", 3, NULL), LOBE_OK);
+    const char *path = temporary_folder_file(&test_folder, "old.exr");
+    assert_int_equal(lobe_file_write(path, "old", 3, NULL), LOBE_OK);
     assert_int_equal(write_layers(path, NULL, 0, NULL), LOBE_ERROR_INVALID_ARGUMENT);
     const lobe_exr_layer layer = {.image = &image};
     const lobe_exr_attribute reserved = {.name = "channels", .type = LOBE_EXR_INTEGER};
@@ -393,28 +379,26 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
                      LOBE_ERROR_INVALID_ARGUMENT);
     uint8_t *data;
     size_t size;
-    assert_int_equal(engine_file_read(path, NULL, &data, &size), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     assert_int_equal(size, 3);
     free(data);
     lobe_image_free(&image);
 }
 
-#define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, create_folder, remove_folder)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_A_FOLDER(floats_survive_bit_by_bit),
-        IN_A_FOLDER(blocks_that_do_not_shrink_survive),
-        IN_A_FOLDER(halves_are_the_nearest),
-        IN_A_FOLDER(half_images_are_written_as_they_are),
-        IN_A_FOLDER(what_half_cannot_hold_is_clamped_and_counted),
-        IN_A_FOLDER(layers_share_a_file_in_sorted_order),
-        IN_A_FOLDER(images_of_fewer_channels_have_names_too),
-        IN_A_FOLDER(the_header_says_what_was_asked),
-        IN_A_FOLDER(equal_parameters_give_equal_bytes),
-        IN_A_FOLDER(wrong_layers_are_refused),
-        IN_A_FOLDER(wrong_attributes_are_refused),
-        IN_A_FOLDER(what_cannot_be_written_leaves_the_old),
+        IN_TEST_FOLDER(floats_survive_bit_by_bit),
+        IN_TEST_FOLDER(blocks_that_do_not_shrink_survive),
+        IN_TEST_FOLDER(halves_are_the_nearest),
+        IN_TEST_FOLDER(half_images_are_written_as_they_are),
+        IN_TEST_FOLDER(what_half_cannot_hold_is_clamped_and_counted),
+        IN_TEST_FOLDER(layers_share_a_file_in_sorted_order),
+        IN_TEST_FOLDER(images_of_fewer_channels_have_names_too),
+        IN_TEST_FOLDER(the_header_says_what_was_asked),
+        IN_TEST_FOLDER(equal_parameters_give_equal_bytes),
+        IN_TEST_FOLDER(wrong_layers_are_refused),
+        IN_TEST_FOLDER(wrong_attributes_are_refused),
+        IN_TEST_FOLDER(what_cannot_be_written_leaves_the_old),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

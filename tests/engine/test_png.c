@@ -7,25 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lobe/file.h>
 #include <lobe/png.h>
 
-#include "engine/file.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/temporary_folder.h"
-
-static temporary_folder folder;
-
-static int create_folder(void **state) {
-    (void)state;
-    temporary_folder_create(&folder);
-    return 0;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    temporary_folder_remove(&folder);
-    return 0;
-}
 
 /// A pattern without repetition, so that no filter or palette hides a mistake.
 static lobe_image make_pattern(uint32_t width, uint32_t height, bool opaque) {
@@ -50,7 +36,7 @@ static void expect_same_texels(const lobe_image *read, const lobe_image *written
 static void what_was_written_is_read(void **state) {
     (void)state;
     const uint32_t sizes[][2] = {{1, 1}, {7, 1}, {1, 5}, {67, 45}};
-    const char *path = temporary_folder_file(&folder, "pattern.png");
+    const char *path = temporary_folder_file(&test_folder, "pattern.png");
     for (int index = 0; index < 4; index++) {
         for (int opaque = 0; opaque < 2; opaque++) {
             lobe_image written = make_pattern(sizes[index][0], sizes[index][1], opaque), read;
@@ -66,14 +52,14 @@ static void what_was_written_is_read(void **state) {
 static void header_byte(const char *path, size_t offset, int expected) {
     uint8_t *data;
     size_t size;
-    assert_int_equal(engine_file_read(path, NULL, &data, &size), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     assert_int_equal(data[offset], expected);
     free(data);
 }
 
 static void alpha_is_stored_only_where_there_is_any(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "alpha.png");
+    const char *path = temporary_folder_file(&test_folder, "alpha.png");
     lobe_image image = make_pattern(4, 4, true);
     assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
     header_byte(path, 25, PNG_COLOR_TYPE_RGB);
@@ -87,11 +73,11 @@ static void equal_images_give_equal_bytes(void **state) {
     (void)state;
     uint8_t *data[2];
     size_t sizes[2];
-    const char *path = temporary_folder_file(&folder, "again.png");
+    const char *path = temporary_folder_file(&test_folder, "again.png");
     lobe_image image = make_pattern(31, 17, false);
     for (int run = 0; run < 2; run++) {
         assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
-        assert_int_equal(engine_file_read(path, NULL, &data[run], &sizes[run]), LOBE_OK);
+        assert_int_equal(lobe_file_read(path, NULL, NULL, &data[run], &sizes[run]), LOBE_OK);
     }
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(data[0], data[1], sizes[0]);
@@ -126,7 +112,7 @@ static void write_raw(const char *path, int depth, int colour_type, uint32_t wid
 
 static void sixteen_bits_are_kept_in_this_machines_order(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "sixteen.png");
+    const char *path = temporary_folder_file(&test_folder, "sixteen.png");
     const uint8_t rows[12] = {0x12, 0x34, 0x00, 0x01, 0xff, 0xff,
                               0x80, 0x00, 0x00, 0x00, 0x7f, 0xff};
     write_raw(path, 16, PNG_COLOR_TYPE_RGB, 2, 1, rows, sizeof rows);
@@ -140,7 +126,7 @@ static void sixteen_bits_are_kept_in_this_machines_order(void **state) {
 
 static void grey_is_spread_and_palettes_are_looked_up(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "kind.png");
+    const char *path = temporary_folder_file(&test_folder, "kind.png");
     lobe_image image;
     write_raw(path, 8, PNG_COLOR_TYPE_GRAY, 2, 1, (uint8_t[2]){7, 250}, 2);
     assert_int_equal(lobe_png_read(path, NULL, &image), LOBE_OK);
@@ -167,25 +153,25 @@ static void expect_read_error(const char *path, lobe_result expected) {
 
 static void a_file_cut_off_anywhere_is_refused(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "cut.png");
+    const char *path = temporary_folder_file(&test_folder, "cut.png");
     lobe_image image = make_pattern(40, 30, false);
     assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
     lobe_image_free(&image);
     uint8_t *data;
     size_t size;
-    assert_int_equal(engine_file_read(path, NULL, &data, &size), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     for (size_t length = 0; length < size; length += length < 128 ? 1 : 64) {
-        assert_int_equal(engine_file_write(path, data, length, NULL), LOBE_OK);
+        assert_int_equal(lobe_file_write(path, data, length, NULL), LOBE_OK);
         expect_read_error(path, LOBE_ERROR_MALFORMED);
     }
-    assert_int_equal(engine_file_write(path, data, size - 1, NULL), LOBE_OK);
+    assert_int_equal(lobe_file_write(path, data, size - 1, NULL), LOBE_OK);
     expect_read_error(path, LOBE_ERROR_MALFORMED);
     free(data);
 }
 
 static void absurd_extents_are_refused_before_memory_is_taken(void **state) {
     (void)state;
-    const char *path = temporary_folder_file(&folder, "absurd.png");
+    const char *path = temporary_folder_file(&test_folder, "absurd.png");
     const uint8_t row[20000] = {0};
     write_raw(path, 1, PNG_COLOR_TYPE_GRAY, 70000, 2, row, 70000 / 8);
     expect_read_error(path, LOBE_ERROR_LIMIT);
@@ -202,25 +188,25 @@ static void absurd_extents_are_refused_before_memory_is_taken(void **state) {
     }
     for (int index = 0; index < 4; index++)
         start[29 + index] = (uint8_t)(~checksum >> (24 - 8 * index));
-    assert_int_equal(engine_file_write(path, start, sizeof start, NULL), LOBE_OK);
+    assert_int_equal(lobe_file_write(path, start, sizeof start, NULL), LOBE_OK);
     expect_read_error(path, LOBE_ERROR_MALFORMED);
 }
 
 static void what_cannot_be_read_is_named(void **state) {
     (void)state;
-    expect_read_error(temporary_folder_file(&folder, "missing.png"), LOBE_ERROR_NOT_FOUND);
-    expect_read_error(folder.path, LOBE_ERROR_READ);
-    const char *path = temporary_folder_file(&folder, "text.png");
-    assert_int_equal(engine_file_write(path, "not a picture", 13, NULL), LOBE_OK);
+    expect_read_error(temporary_folder_file(&test_folder, "missing.png"), LOBE_ERROR_NOT_FOUND);
+    expect_read_error(test_folder.path, LOBE_ERROR_READ);
+    const char *path = temporary_folder_file(&test_folder, "text.png");
+    assert_int_equal(lobe_file_write(path, "not a picture", 13, NULL), LOBE_OK);
     expect_read_error(path, LOBE_ERROR_MALFORMED);
 }
 
 static void what_cannot_be_written_leaves_nothing(void **state) {
     (void)state;
     lobe_image image = make_pattern(4, 4, true);
-    const char *paths[3] = {"/dev/full", folder.path, NULL};
+    const char *paths[3] = {"/dev/full", test_folder.path, NULL};
     char missing[256];
-    snprintf(missing, sizeof missing, "%s/none/picture.png", folder.path);
+    snprintf(missing, sizeof missing, "%s/none/picture.png", test_folder.path);
     paths[2] = missing;
     for (int index = 0; index < 3; index++) {
         log_recorder recorder;
@@ -230,7 +216,7 @@ static void what_cannot_be_written_leaves_nothing(void **state) {
         assert_non_null(strstr(recorder.last_error, paths[index]));
     }
     lobe_image_free(&image);
-    assert_int_equal(temporary_folder_count(&folder), 0);
+    assert_int_equal(temporary_folder_count(&test_folder), 0);
 }
 
 static void only_pictures_are_written(void **state) {
@@ -240,10 +226,10 @@ static void only_pictures_are_written(void **state) {
     lobe_image image;
     assert_int_equal(lobe_image_allocate(&image, LOBE_FORMAT_RGBA32_FLOAT, 2, 2, NULL), LOBE_OK);
     assert_int_equal(
-        lobe_png_write(temporary_folder_file(&folder, "float.png"), &image, &recorder.log),
+        lobe_png_write(temporary_folder_file(&test_folder, "float.png"), &image, &recorder.log),
         LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
-    assert_int_equal(temporary_folder_count(&folder), 0);
+    assert_int_equal(temporary_folder_count(&test_folder), 0);
     lobe_image_free(&image);
 }
 
@@ -262,20 +248,18 @@ static void damaged_files_of_the_wild_are_refused(void **state) {
     closedir(directory);
 }
 
-#define IN_A_FOLDER(test) cmocka_unit_test_setup_teardown(test, create_folder, remove_folder)
-
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_A_FOLDER(what_was_written_is_read),
-        IN_A_FOLDER(alpha_is_stored_only_where_there_is_any),
-        IN_A_FOLDER(equal_images_give_equal_bytes),
-        IN_A_FOLDER(sixteen_bits_are_kept_in_this_machines_order),
-        IN_A_FOLDER(grey_is_spread_and_palettes_are_looked_up),
-        IN_A_FOLDER(a_file_cut_off_anywhere_is_refused),
-        IN_A_FOLDER(absurd_extents_are_refused_before_memory_is_taken),
-        IN_A_FOLDER(what_cannot_be_read_is_named),
-        IN_A_FOLDER(what_cannot_be_written_leaves_nothing),
-        IN_A_FOLDER(only_pictures_are_written),
+        IN_TEST_FOLDER(what_was_written_is_read),
+        IN_TEST_FOLDER(alpha_is_stored_only_where_there_is_any),
+        IN_TEST_FOLDER(equal_images_give_equal_bytes),
+        IN_TEST_FOLDER(sixteen_bits_are_kept_in_this_machines_order),
+        IN_TEST_FOLDER(grey_is_spread_and_palettes_are_looked_up),
+        IN_TEST_FOLDER(a_file_cut_off_anywhere_is_refused),
+        IN_TEST_FOLDER(absurd_extents_are_refused_before_memory_is_taken),
+        IN_TEST_FOLDER(what_cannot_be_read_is_named),
+        IN_TEST_FOLDER(what_cannot_be_written_leaves_nothing),
+        IN_TEST_FOLDER(only_pictures_are_written),
         cmocka_unit_test(damaged_files_of_the_wild_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,8 @@
 #ifndef LOBE_LOG_H
 #define LOBE_LOG_H
 
+#include <lobe/result.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,12 +22,22 @@ typedef struct lobe_log {
     void *user; ///< handed to `write` unchanged
 } lobe_log;
 
-/// Formats one line as printf does (cut at 1023 bytes) and sends it. `log` may be NULL.
-void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format, ...)
+/// The compiler checks arguments against the format where it knows how.
 #if defined(__GNUC__)
-    __attribute__((format(printf, 3, 4)))
+#define LOBE_LOG_FORMAT __attribute__((format(printf, 3, 4)))
+#else
+#define LOBE_LOG_FORMAT
 #endif
-    ;
+
+/// Formats one line as printf does (cut at 1023 bytes) and sends it. Control characters, which
+/// names in files may bring, are shown as '?'. `log` may be NULL.
+LOBE_LOG_FORMAT void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format,
+                                    ...);
+
+/// Sends the line that explains a failure, at level LOBE_LOG_ERROR, and returns `result`:
+/// `return lobe_log_fail(log, LOBE_ERROR_LIMIT, "texture '%s': ...", name);`
+LOBE_LOG_FORMAT lobe_result lobe_log_fail(const lobe_log *log, lobe_result result,
+                                          const char *format, ...);
 
 #ifdef __cplusplus
 }

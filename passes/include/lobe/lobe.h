@@ -3,13 +3,16 @@
 
 /// lobe: rendering whose appearance stays true at every distance. This header brings all of it.
 
+#include <lobe/colour.h>
 #include <lobe/device.h>
 #include <lobe/exr.h>
+#include <lobe/file.h>
 #include <lobe/filter.h>
 #include <lobe/graph.h>
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/png.h>
+#include <lobe/profile.h>
 #include <lobe/renderer.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
