@@ -45,6 +45,4 @@ void gltf_report_notes(const gltf_import *import) {
     report_count(import, notes->flat_instances, "instances that are scaled to nothing left out");
     report_count(import, notes->missing_coordinates,
                  "meshes lack texture coordinates that their material asks for");
-    if (import->scene->instance_count == 0)
-        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: there is nothing to draw", import->path);
 }

@@ -31,7 +31,8 @@ lobe_result scene_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t materi
 lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log);
 
 /// The last step: sets the scene's bounds; where `has_camera` is false, sets a camera that frames
-/// them; where there is no light, adds a key and a weaker fill. Says so by notices.
+/// them; where there is no light, adds a key and a weaker fill. Says so by notices. A scene without
+/// instances stays dark and unsaid.
 lobe_result scene_complete(lobe_scene *scene, const lobe_log *log);
 
 #endif

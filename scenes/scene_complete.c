@@ -7,12 +7,6 @@
 // Squares and products of lengths up to here stay within single precision on the GPU.
 #define SCENE_MAXIMUM_LENGTH 1e18
 
-static vector3 transform_point(const float m[16], vector3 p) {
-    return (vector3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
-                     m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
-                     m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
-}
-
 static void include_point(vector3 p, vector3 *minimum, vector3 *maximum) {
     *minimum = (vector3){fmin(minimum->x, p.x), fmin(minimum->y, p.y), fmin(minimum->z, p.z)};
     *maximum = (vector3){fmax(maximum->x, p.x), fmax(maximum->y, p.y), fmax(maximum->z, p.z)};
@@ -25,7 +19,7 @@ static void include_instance(const lobe_scene *scene, const lobe_instance *insta
         vector3 p = {corner & 1 ? mesh->maximum[0] : mesh->minimum[0],
                      corner & 2 ? mesh->maximum[1] : mesh->minimum[1],
                      corner & 4 ? mesh->maximum[2] : mesh->minimum[2]};
-        include_point(transform_point(instance->transform, p), minimum, maximum);
+        include_point(vector3_transform(instance->transform, p), minimum, maximum);
     }
 }
 
@@ -44,26 +38,6 @@ static lobe_result set_bounds(lobe_scene *scene, const lobe_log *log) {
     vector3_store(minimum, scene->minimum);
     vector3_store(maximum, scene->maximum);
     return LOBE_OK;
-}
-
-// A sphere about the bounds, touched by the field of view; seen from the front, a little from
-// the right and above, which shows three sides of a box.
-static void frame_bounds(lobe_scene *scene) {
-    const double half_angle = 20 * M_PI / 180;
-    vector3 minimum = vector3_load(scene->minimum), maximum = vector3_load(scene->maximum);
-    vector3 centre = vector3_scale(vector3_add(minimum, maximum), 0.5);
-    double radius = 0.5 * vector3_length(vector3_subtract(maximum, minimum));
-    if (!(radius > 0))
-        radius = 1;
-    vector3 towards_eye = {0.5, 0.4, 1};
-    vector3_normalise(&towards_eye, 0);
-    double distance = radius / sin(half_angle);
-    vector3_store(vector3_add(centre, vector3_scale(towards_eye, distance)), scene->camera.eye);
-    vector3_store(centre, scene->camera.target);
-    vector3_store((vector3){0, 1, 0}, scene->camera.up);
-    scene->camera.vertical_field_of_view = (float)(2 * half_angle);
-    scene->camera.orthographic_height = 0;
-    scene->camera.near_plane = (float)(0.01 * (distance - radius));
 }
 
 static lobe_light light_from(vector3 direction, float intensity) {
@@ -102,11 +76,14 @@ lobe_result scene_complete(lobe_scene *scene, const lobe_log *log) {
     lobe_result result = set_bounds(scene, log);
     if (result != LOBE_OK)
         return result;
-    if (!scene->has_camera) {
-        frame_bounds(scene);
+    if (!scene->has_camera)
+        lobe_scene_frame(scene, 16.0 / 9, &scene->camera);
+    // Of an empty scene, that it is empty is all there is to say; who draws it will.
+    if (scene->instance_count == 0)
+        return LOBE_OK;
+    if (!scene->has_camera)
         lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
                        scene->name);
-    }
     if (scene->light_count > 0)
         return LOBE_OK;
     lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no light; added a key light and a weaker fill",

@@ -40,6 +40,13 @@ static inline vector3 vector3_cross(vector3 a, vector3 b) {
     return (vector3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// A point under an affine transform, column-major.
+static inline vector3 vector3_transform(const float m[16], vector3 p) {
+    return (vector3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
+                     m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+                     m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
+}
+
 static inline double vector3_length(vector3 a) {
     return sqrt(vector3_dot(a, a));
 }

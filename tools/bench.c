@@ -114,6 +114,9 @@ static lobe_result measure_scene(const bench_request *request, const char *name,
                                  bench_result *results) {
     lobe_scene *scene;
     lobe_result result = lobe_scene_open(name, request->job.log, &scene);
+    const uint32_t *size = request->job.size;
+    if (result == LOBE_OK && !scene->has_camera)
+        lobe_scene_frame(scene, (double)size[0] / size[1], &scene->camera);
     if (result == LOBE_OK)
         result = bench_measure(&request->job, scene, name, results);
     lobe_scene_destroy(&scene);

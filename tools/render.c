@@ -118,6 +118,9 @@ static lobe_result open_scene(const render_request *request, render_state *state
             ? lobe_scene_open_material(request->material, (lobe_carrier)request->carrier,
                                        &state->log, &state->scene)
             : lobe_scene_open(request->scene, &state->log, &state->scene);
+    if (result == LOBE_OK && !state->scene->has_camera)
+        lobe_scene_frame(state->scene, (double)request->size[0] / request->size[1],
+                         &state->scene->camera);
     return result;
 }
 

@@ -225,24 +225,18 @@ static void camera_and_lights_are_added_and_said(void **state) {
     assert_false(scene->has_camera);
     assert_int_equal(scene->light_count, 2);
     assert_true(scene->lights[0].intensity[0] > scene->lights[1].intensity[0]);
-    // Every corner of the bounds lies inside the field of view, and beyond the near plane.
-    const lobe_camera *camera = &scene->camera;
-    float forward[3], length = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        forward[axis] = camera->target[axis] - camera->eye[axis];
-        length += forward[axis] * forward[axis];
-    }
-    for (int corner = 0; corner < 8; corner++) {
-        float along = 0, square = 0;
-        for (int axis = 0; axis < 3; axis++) {
-            float p = (corner >> axis & 1 ? scene->maximum : scene->minimum)[axis];
-            float d = p - camera->eye[axis];
-            along += d * forward[axis] / sqrtf(length);
-            square += d * d;
-        }
-        assert_true(along > camera->near_plane);
-        assert_true(acosf(along / sqrtf(square)) <= camera->vertical_field_of_view / 2 + 1e-4f);
-    }
+    lobe_camera framing;
+    lobe_scene_frame(scene, 16.0 / 9, &framing);
+    assert_memory_equal(&scene->camera, &framing, sizeof framing);
+    lobe_scene_destroy(&scene);
+}
+
+static void an_empty_scene_is_given_nothing(void **state) {
+    gltf_fixture *fixture = *state;
+    lobe_scene *scene = open_nodes(fixture, ",\"nodes\":[{}]");
+    assert_int_equal(scene->instance_count, 0);
+    assert_int_equal(scene->light_count, 0);
+    assert_int_equal(fixture->notices + fixture->warnings, 0);
     lobe_scene_destroy(&scene);
 }
 
@@ -313,6 +307,7 @@ int main(void) {
         cmocka_unit_test(orthographic_cameras_give_their_height),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(camera_and_lights_are_added_and_said),
+        cmocka_unit_test(an_empty_scene_is_given_nothing),
         cmocka_unit_test(bad_hierarchies_are_refused),
         cmocka_unit_test(long_chains_of_nodes_are_walked_without_recursion),
     };

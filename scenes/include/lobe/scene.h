@@ -176,10 +176,15 @@ typedef struct lobe_scene {
     lobe_light *lights;
     size_t light_count;
     lobe_camera camera;
-    bool has_camera;     ///< false: the file brought none; `camera` is one that frames the bounds
+    bool has_camera;     ///< false: the file brought none; `camera` is that of lobe_scene_frame
+                         ///< for a picture of 16:9
     float background[3]; ///< linear RGB radiance where nothing is hit
     float minimum[3], maximum[3]; ///< bounds of all instances in the world
 } lobe_scene;
+
+/// A perspective camera that sees all of a scene from the front, a little from the right and above,
+/// as large as fits into a picture of this aspect (width / height, above 0). Bounds must be set.
+void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera);
 
 /// Frees all and clears the pointer. NULL is fine.
 void lobe_scene_destroy(lobe_scene **scene);
@@ -198,8 +203,9 @@ const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 /// Of a file, what its default scene reaches is imported. Unsupported parts are named in one
 /// warning; triangles without area are dropped and normals of length zero recomputed, each
 /// counted in a warning. Triangles without normals are flat, as glTF asks. A missing camera or
-/// light is added, with a notice. On failure `*result` is NULL and the log has one line that names the file and
-/// the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
+/// light is added, with a notice. A file without anything to draw opens; lobe_renderer_set_scene
+/// refuses it. On failure `*result` is NULL and the log has one line that names
+/// the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
 /// _OUT_OF_MEMORY.
 lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
 
