@@ -196,8 +196,8 @@ static int run(int argc, char **argv) {
         {.name = "frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "frames timed of each filter, after a warm-up; of the filter reference at most "
-                    "3",
+         .summary = "frames timed of each filter, after a warm-up; at most 2 of the filter "
+                    "reference",
          .target = &request.job.frames,
          .fallback = "20",
          .minimum = 1,

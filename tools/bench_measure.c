@@ -3,7 +3,7 @@
 #include <lobe/renderer.h>
 
 /// A supersampled frame costs as much as dozens of others, and varies less.
-#define SUPERSAMPLED_FRAMES 3
+#define SUPERSAMPLED_FRAMES 2
 
 /// What is kept for one scene. Each filter has a renderer of its own: they take turns, and maps
 /// must be retained from turn to turn.

@@ -77,6 +77,18 @@ def test_absurd_sizes():
     leaves(folder)
 
 
+def test_device_memory_exhausted():
+    device = succeeds("info").stdout.split("Device in use:")[1]
+    memory = next(line.split() for line in device.splitlines() if line.startswith("  memory"))
+    if int(memory[1]) > 4096:
+        return "a device with more than 4 GiB"
+    folder = fresh_folder("memory")
+    fails("render", "bumps", "--filter", "direct", "--size", "16384x16384", "-o", folder / "a.exr",
+          says="memory")
+    leaves(folder)
+    return None
+
+
 def test_no_vulkan_device():
     folder = fresh_folder("device")
     fails("render", "bumps", *DIRECT, "-o", folder / "a.exr", says="Vulkan", **NO_DRIVER)
