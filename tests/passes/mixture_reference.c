@@ -87,29 +87,60 @@ static void add_texel(const lobe_material *material, const double normal[3], con
     }
 }
 
-reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
-                                   texel_frame frame, const void *user) {
-    const lobe_image *normals = image_of(scene, &material->normal_map);
-    const lobe_image *widths = width_image(scene, material);
+/// The larger of the normal and the width map, each way.
+static reference_layers allocate_texels(const lobe_image *normals, const lobe_image *widths,
+                                        uint32_t layers) {
     uint32_t width = normals ? normals->width : 1, height = normals ? normals->height : 1;
     if (widths && widths->width > width)
         width = widths->width;
     if (widths && widths->height > height)
         height = widths->height;
-    reference_layers layers = reference_layers_allocate(width, height, REFERENCE_MIXTURE_LAYERS);
-    for (uint32_t i = 0; i < width * height; i++) {
-        uint32_t x = i % width, y = i / width;
-        double texel[4], normal[3] = {0, 0, 1}, factor[4] = {1, 1, 1, 1};
-        double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        if (normals) {
-            nearest_texel(normals, &layers, x, y, texel);
-            reference_decode_normal(texel, (double)material->normal_scale, normal);
-        }
-        if (widths)
-            nearest_texel(widths, &layers, x, y, factor);
-        if (frame && !frame(user, (x + 0.5) / width, (y + 0.5) / height, axes))
+    return reference_layers_allocate(width, height, layers);
+}
+
+/// Normal and factor of the width of one texel.
+static void read_texel(const lobe_scene *scene, const lobe_material *material,
+                       const reference_layers *size, uint32_t x, uint32_t y, double normal[3],
+                       double width[4]) {
+    const lobe_image *normals = image_of(scene, &material->normal_map);
+    const lobe_image *widths = width_image(scene, material);
+    double texel[4];
+    normal[0] = normal[1] = 0;
+    normal[2] = width[0] = width[1] = width[2] = width[3] = 1;
+    if (normals) {
+        nearest_texel(normals, size, x, y, texel);
+        reference_decode_normal(texel, (double)material->normal_scale, normal);
+    }
+    if (widths)
+        nearest_texel(widths, size, x, y, width);
+}
+
+reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
+                                   texel_frame frame, const void *user) {
+    reference_layers layers =
+        allocate_texels(image_of(scene, &material->normal_map), width_image(scene, material),
+                        REFERENCE_MIXTURE_LAYERS);
+    for (uint32_t i = 0; i < layers.width * layers.height; i++) {
+        uint32_t x = i % layers.width, y = i / layers.width;
+        double normal[3], width[4], axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        if (frame && !frame(user, (x + 0.5) / layers.width, (y + 0.5) / layers.height, axes))
             continue;
-        add_texel(material, normal, factor, axes, &layers, x, y);
+        read_texel(scene, material, &layers, x, y, normal, width);
+        add_texel(material, normal, width, axes, &layers, x, y);
+    }
+    return layers;
+}
+
+reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
+                                               const lobe_material *material) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    reference_layers layers =
+        allocate_texels(image_of(scene, &material->normal_map), width_image(scene, material), 1);
+    for (uint32_t i = 0; i < layers.width * layers.height; i++) {
+        uint32_t x = i % layers.width, y = i / layers.width;
+        double width[4], *parameters = reference_texel(&layers, x, y, 0);
+        read_texel(scene, material, &layers, x, y, parameters, width);
+        parameters[3] = microfacet ? base_lobe_concentration(material, 0, width) : width[0];
     }
     return layers;
 }

@@ -19,6 +19,11 @@ typedef bool (*texel_frame)(const void *user, double u, double v, double frame[3
 reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
                                    texel_frame frame, const void *user);
 
+/// What parameter_averaging averages, of every texel: its normal, and the concentration of
+/// microfacets or the factor of the widths of half-vector lobes. To free by the caller.
+reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
+                                               const lobe_material *material);
+
 /// Layer of the reference that a layer of a mixture map holds.
 uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer);
 

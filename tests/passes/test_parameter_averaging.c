@@ -10,37 +10,6 @@
 #include "tests/passes/mixture_reference.h"
 #include "tests/passes/scene_builder.h"
 #include "tests/reference/box_reduction.h"
-#include "tests/reference/normal_map.h"
-
-/// Normal and width of every texel of the larger of the two maps, as the pass averages them:
-/// concentrations of microfacets, factors of the widths of half-vector lobes.
-static reference_layers parameters_of_texels(const lobe_scene *scene,
-                                             const lobe_material *material) {
-    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    const lobe_image *normals = &scene->images[material->normal_map.image].image;
-    int32_t width_map =
-        microfacet ? material->metallic_roughness_map.image : material->width_map.image;
-    const lobe_image *widths = width_map < 0 ? NULL : &scene->images[width_map].image;
-    uint32_t width = normals->width, height = normals->height;
-    if (widths && widths->width > width)
-        width = widths->width;
-    if (widths && widths->height > height)
-        height = widths->height;
-    reference_layers layers = reference_layers_allocate(width, height, 1);
-    for (uint32_t i = 0; i < width * height; i++) {
-        uint32_t x = i % width, y = i / width;
-        double texel[4], factor[4] = {1, 1, 1, 1};
-        double *parameters = reference_texel(&layers, x, y, 0);
-        reference_image_texel(normals, x * normals->width / width, y * normals->height / height,
-                              texel);
-        reference_decode_normal(texel, (double)material->normal_scale, parameters);
-        if (widths)
-            reference_image_texel(widths, x * widths->width / width, y * widths->height / height,
-                                  factor);
-        parameters[3] = microfacet ? base_lobe_concentration(material, 0, factor) : factor[0];
-    }
-    return layers;
-}
 
 static void check_map(const float *texel, const reduced_map *map, const reference_layers *texels) {
     reference_layers exact = reference_reduce(texels);
@@ -84,7 +53,7 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
-    reference_layers texels = parameters_of_texels(scene, material);
+    reference_layers texels = averaged_parameters_of_texels(scene, material);
     check_map(lobe_graph_data(f->graph, map.resource, NULL), &map, &texels);
     reference_layers_free(&texels);
     lobe_graph_begin(f->graph);

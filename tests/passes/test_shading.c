@@ -370,6 +370,66 @@ static void one_lobe_along_the_normal_needs_no_mean(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Averaged parameters
+
+/// The material of one lobe that the naive filter takes averaged parameters for.
+static lobe_material averaged_material(const lobe_material *material, double width) {
+    lobe_material result = *material;
+    // alpha is the square of roughness; s = kappa - 1 = 2 / alpha^2 - 2, otherwise kappa = 2 /
+    // alpha^2.
+    bool blinn_phong = material->distribution == LOBE_DISTRIBUTION_BLINN_PHONG;
+    result.roughness = (float)pow(2 / (blinn_phong ? width + 1 : width), 0.25);
+    result.normal_concentration = 0;
+    for (uint32_t i = 0; i < material->lobe_count; i++)
+        result.lobes[i].width *= (float)width;
+    return result;
+}
+
+/// As check_mixture, with varying widths.
+static void check_averages(fixture *f, lobe_material material, const char *what) {
+    lobe_scene *scene = scene_begin();
+    material.normal_map = scene_add_map(scene, random_normal_map(16, 16, 0.5, 34));
+    lobe_texture_use widths = scene_add_map(scene, random_map(16, 16, 0.5, 1, 35));
+    bool microfacet = material.model == LOBE_MATERIAL_MICROFACET;
+    *(microfacet ? &material.metallic_roughness_map : &material.width_map) = widths;
+    material.metallic = 0;
+    scene_add_square(scene, &material, 1, NULL);
+    add_lights_of_all_kinds(scene);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    picture_request request = {.filter = "mipmap", .settings = {NULL}, .width = 4, .height = 4};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    reference_layers texels = averaged_parameters_of_texels(scene, &material);
+    reference_layers half = reference_reduce(&texels), quarter = reference_reduce(&half);
+    for (uint32_t i = 0; i < 16; i++) {
+        uint32_t x = i % 4, y = i / 4;
+        const double *mean = reference_texel(&quarter, x, y, 0);
+        const double position[3] = {0.5 * x - 0.75, 0, 0.5 * y - 0.75}, up[3] = {0, 1, 0};
+        lobe_material averaged = averaged_material(&material, mean[3]);
+        base_point point = {&averaged, {mean[0], mean[1], mean[2]}};
+        double expected[3];
+        reference_normalise(point.normal);
+        light_point(scene, position, up, shade_base, &point, expected);
+        check_pixel(&frame, x, y, expected, 1e-3, what);
+    }
+    reference_layers_free(&texels);
+    reference_layers_free(&half);
+    reference_layers_free(&quarter);
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+}
+
+static void averages_are_taken_for_one_texel(void **state) {
+    static const char *const names[] = {"averaged GGX", "averaged Beckmann", "averaged Blinn-Phong",
+                                        "averaged vMF"};
+    for (int i = 0; i < 4; i++)
+        check_averages(*state, material_of(LOBE_MATERIAL_MICROFACET, (lobe_distribution)i),
+                       names[i]);
+    check_averages(*state, material_of(LOBE_MATERIAL_HALF_VECTOR_LOBES, LOBE_DISTRIBUTION_VMF),
+                   "averaged vMF lobes");
+}
+
+// ---------------------------------------------------------------------------------------------
 // Footprints
 
 /// The level at the middle of a square with a map of 64x32 texels, in a picture of 16x16 pixels
@@ -436,6 +496,7 @@ int main(void) {
         cmocka_unit_test(many_lights_add_up),
         cmocka_unit_test(lobes_are_refined_by_algorithm_1),
         cmocka_unit_test(one_lobe_along_the_normal_needs_no_mean),
+        cmocka_unit_test(averages_are_taken_for_one_texel),
         cmocka_unit_test(the_level_is_that_of_the_footprint),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
