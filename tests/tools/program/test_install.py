@@ -66,6 +66,15 @@ def test_every_public_header_is_installed():
         installed(f"lobe/{path.name}")
 
 
+def test_library_shows_its_public_names_alone():
+    lines = run(["nm", "--dynamic", "--defined-only", installed("liblobe.so")]).splitlines()
+    names = {line.split()[-1].split("@")[0] for line in lines}
+    check("lobe_renderer_render" in names, names)
+    headers = "".join(path.read_text() for path in ROOT.glob("*/include/lobe/*.h"))
+    declared = set(re.findall(r"\b(lobe_\w+)\(", headers))
+    check(names == declared, f"not declared: {names - declared}; missing: {declared - names}")
+
+
 def test_installed_program_runs():
     output = run([installed("bin/lobe"), "--version"])
     check(output.startswith("lobe "), output)
