@@ -42,20 +42,28 @@ def variants(folder, path):
     return found
 
 
-def compile_shader(compiler, folder, includes, shader, scratch):
-    """Gives the SPIR-V words of one shader, or raises with the compiler's own words."""
+def run(shader, command):
+    """Raises with the command's own words where it fails."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    if done.returncode != 0:
+        raise RuntimeError(f"{shader.name}:\n{done.stdout}")
+
+
+def compile_shader(tools, folder, includes, shader, scratch):
+    """Gives the SPIR-V words of one shader. The compiler is known to write invalid ones at times,
+    for a constant made of specialisation constants: they are looked at before a driver is."""
     output = Path(scratch) / (shader.name + ".spv")
     substitutes = Path(scratch) / (shader.name + ".include")
     substitutes.mkdir()
     if shader.substitute:
         (substitutes / "filter.glsl").write_text(f'#include "{shader.substitute}"\n')
-    command = [compiler, "-V", "--quiet", "--target-env", "vulkan1.3"]
+    command = [tools.compiler, "-V", "--quiet", "--target-env", "vulkan1.3"]
     command += [f"-I{path}" for path in (substitutes, *includes)]
     command += [f"-D{definition}" for definition in shader.definitions]
     command += ["-o", str(output), str(folder / shader.source)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{shader.name}:\n{done.stdout}")
+    run(shader, command)
+    run(shader, [tools.validator, "--target-env", "vulkan1.3", str(output)])
     code = output.read_bytes()
     return struct.unpack(f"<{len(code) // 4}I", code)
 
@@ -101,6 +109,7 @@ def replace_file(path, text):
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--compiler", required=True, help="glslangValidator")
+    parser.add_argument("--validator", required=True, help="spirv-val")
     parser.add_argument("--folder", required=True, type=Path, help="where the passes are")
     parser.add_argument("--include", action="append", default=[], type=Path,
                         help="folder to look for includes in, after --folder itself")
@@ -117,7 +126,7 @@ def main():
     shaders = [shader for path in sources for shader in variants(folders[0], path)]
     with tempfile.TemporaryDirectory() as scratch, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = [pool.submit(compile_shader, arguments.compiler, folders[0], folders, shader,
+        futures = [pool.submit(compile_shader, arguments, folders[0], folders, shader,
                                scratch) for shader in shaders]
         failures = [str(future.exception()) for future in futures if future.exception()]
         if failures:

@@ -1,0 +1,70 @@
+"""The build step that compiles shaders: what is wrong with one stops it, and leaves no table."""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import tap
+
+SCRIPT, COMPILER, VALIDATOR = sys.argv[1:4]
+GOOD = "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {}\n"
+LAYERED = """#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "filter.glsl"
+layout(local_size_x = 1) in;
+void main() { f(); }
+"""
+
+
+def embed(sources, compiler=COMPILER):
+    """Gives exit status, what was printed, and the table (None: none was written)."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder, output = Path(scratch) / "shaders", Path(scratch) / "table.c"
+        for name, text in sources.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
+        done = subprocess.run(
+            [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR, "--folder",
+             folder, "--table", "table", "--output", output, "--depfile", f"{scratch}/table.d"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        return done.returncode, done.stdout, output.read_text() if output.exists() else None
+
+
+def refuses(sources, *words, **options):
+    status, printed, table = embed(sources, **options)
+    assert status == 1 and table is None, (status, table)
+    for word in words:
+        assert word in printed, printed
+
+
+def test_shaders_become_a_table():
+    status, printed, table = embed({"b.comp": GOOD, "a.comp": GOOD, "notes.txt": "no shader"})
+    assert status == 0 and not printed, printed
+    assert table.index('"a.comp"') < table.index('"b.comp"')
+    assert "table_count = 2;" in table and "0x07230203," in table
+
+
+def test_each_filter_gives_two_variants():
+    status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
+    assert status == 0
+    assert '"pass_flat.comp"' in table and '"pass_flat_aov.comp"' in table
+
+
+def test_faulty_source_is_named():
+    refuses({"a.comp": GOOD, "broken.comp": GOOD + "x"}, "broken.comp", "syntax error")
+
+
+def test_invalid_words_are_refused():
+    with tempfile.TemporaryDirectory() as scratch:
+        compiler = Path(scratch) / "compiler"
+        # A header, and a module that lacks all that Vulkan asks for.
+        compiler.write_text("#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done\n"
+                            r"printf '\003\002\043\007\0\006\001\0\0\0\0\0\001\0\0\0\0\0\0\0'"
+                            ' > "$2"\n')
+        compiler.chmod(0o755)
+        refuses({"strange.comp": GOOD}, "strange.comp", compiler=str(compiler))
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))
