@@ -13,5 +13,7 @@ struct atlas_layout {
     uint padding_2;
 };
 INTERFACE_SIZE(atlas_layout, 48)
+INTERFACE_OFFSET(atlas_layout, v, 16)
+INTERFACE_OFFSET(atlas_layout, second_coordinates, 32)
 
 #endif

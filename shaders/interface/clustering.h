@@ -9,6 +9,7 @@ struct clustering_constants {
     uint height;
 };
 INTERFACE_SIZE(clustering_constants, 8)
+INTERFACE_OFFSET(clustering_constants, height, 4)
 
 // Push constants of lobe_clustering_atlas.
 struct atlas_constants {
@@ -21,5 +22,8 @@ struct atlas_constants {
     uint padding_1;
 };
 INTERFACE_SIZE(atlas_constants, 80)
+INTERFACE_OFFSET(atlas_constants, eye, 48)
+INTERFACE_OFFSET(atlas_constants, width, 64)
+INTERFACE_OFFSET(atlas_constants, height, 68)
 
 #endif

@@ -15,7 +15,11 @@ struct frame_constants {
     uint padding;
 };
 INTERFACE_SIZE(frame_constants, 176)
+INTERFACE_OFFSET(frame_constants, world_to_camera, 64)
 INTERFACE_OFFSET(frame_constants, eye, 128)
+INTERFACE_OFFSET(frame_constants, axis, 144)
 INTERFACE_OFFSET(frame_constants, directional_count, 160)
+INTERFACE_OFFSET(frame_constants, point_count, 164)
+INTERFACE_OFFSET(frame_constants, spot_count, 168)
 
 #endif

@@ -11,5 +11,8 @@ struct light {
     float4 cone;      // spot: x scale, y offset of the angular attenuation
 };
 INTERFACE_SIZE(light, 64)
+INTERFACE_OFFSET(light, direction, 16)
+INTERFACE_OFFSET(light, intensity, 32)
+INTERFACE_OFFSET(light, cone, 48)
 
 #endif

@@ -28,7 +28,11 @@ struct material_constants {
     float4 transforms[2 * MAP_COUNT];
 };
 INTERFACE_SIZE(material_constants, 336)
+INTERFACE_OFFSET(material_constants, emissive, 16)
 INTERFACE_OFFSET(material_constants, metallic, 32)
+INTERFACE_OFFSET(material_constants, roughness, 36)
+INTERFACE_OFFSET(material_constants, normal_scale, 40)
+INTERFACE_OFFSET(material_constants, normal_concentration, 44)
 INTERFACE_OFFSET(material_constants, lobe_direction, 48)
 INTERFACE_OFFSET(material_constants, lobe_colour, 112)
 INTERFACE_OFFSET(material_constants, transforms, 176)

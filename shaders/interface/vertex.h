@@ -12,6 +12,7 @@ struct vertex {
     float colour[4];
 };
 INTERFACE_SIZE(vertex, 72)
+INTERFACE_OFFSET(vertex, normal, 12)
 INTERFACE_OFFSET(vertex, tangent, 24)
 INTERFACE_OFFSET(vertex, texture_coordinates, 40)
 INTERFACE_OFFSET(vertex, colour, 56)

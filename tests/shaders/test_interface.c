@@ -1,0 +1,181 @@
+// The structures of shaders/interface lie in memory for GLSL, as its compiler decided, as they do
+// for C. Read from the SPIR-V of the library's own shaders.
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/shader.h"
+#include "shaders/interface/atlas.h"
+#include "shaders/interface/clustering.h"
+#include "shaders/interface/frame.h"
+#include "shaders/interface/instance.h"
+#include "shaders/interface/light.h"
+#include "shaders/interface/material.h"
+#include "shaders/interface/vertex.h"
+#include "tests/engine/cmocka_all.h"
+
+// ---------------------------------------------------------------------------------------------
+// What C says
+
+typedef struct known_member {
+    const char *structure, *name;
+    size_t size, offset; ///< bytes; the size is the structure's
+    uint32_t position;   ///< in the structure
+    bool seen;
+} known_member;
+
+#define MEMBER(type, member, position)                                                             \
+    { #type, #member, sizeof(struct type), offsetof(struct type, member), position, false }
+
+static known_member known[] = {
+    MEMBER(atlas_layout, u, 0),
+    MEMBER(atlas_layout, v, 1),
+    MEMBER(atlas_layout, second_coordinates, 2),
+    MEMBER(clustering_constants, width, 0),
+    MEMBER(clustering_constants, height, 1),
+    MEMBER(atlas_constants, rotation, 0),
+    MEMBER(atlas_constants, eye, 1),
+    MEMBER(atlas_constants, width, 2),
+    MEMBER(atlas_constants, height, 3),
+    MEMBER(frame_constants, world_to_clip, 0),
+    MEMBER(frame_constants, world_to_camera, 1),
+    MEMBER(frame_constants, eye, 2),
+    MEMBER(frame_constants, axis, 3),
+    MEMBER(frame_constants, directional_count, 4),
+    MEMBER(frame_constants, point_count, 5),
+    MEMBER(frame_constants, spot_count, 6),
+    MEMBER(instance_constants, rows, 0),
+    MEMBER(light, position, 0),
+    MEMBER(light, direction, 1),
+    MEMBER(light, intensity, 2),
+    MEMBER(light, cone, 3),
+    MEMBER(material_constants, base_colour, 0),
+    MEMBER(material_constants, emissive, 1),
+    MEMBER(material_constants, metallic, 2),
+    MEMBER(material_constants, roughness, 3),
+    MEMBER(material_constants, normal_scale, 4),
+    MEMBER(material_constants, normal_concentration, 5),
+    MEMBER(material_constants, lobe_direction, 6),
+    MEMBER(material_constants, lobe_colour, 7),
+    MEMBER(material_constants, transforms, 8),
+    MEMBER(vertex, position, 0),
+    MEMBER(vertex, normal, 1),
+    MEMBER(vertex, tangent, 2),
+    MEMBER(vertex, texture_coordinates, 3),
+    MEMBER(vertex, colour, 4),
+};
+static const size_t known_count = sizeof known / sizeof *known;
+
+static bool is_known(const char *structure) {
+    for (size_t i = 0; i < known_count; i++)
+        if (strcmp(known[i].structure, structure) == 0)
+            return true;
+    return false;
+}
+
+static known_member *find(const char *structure, const char *member) {
+    for (size_t i = 0; i < known_count; i++)
+        if (strcmp(known[i].structure, structure) == 0 && strcmp(known[i].name, member) == 0)
+            return &known[i];
+    return NULL;
+}
+
+// ---------------------------------------------------------------------------------------------
+// What GLSL says: SPIR-V specification 1.6, sections 2.3 (layout of a module) and 3.42
+// (instructions)
+
+enum {
+    OP_NAME = 5,
+    OP_MEMBER_NAME = 6,
+    OP_TYPE_ARRAY = 28,
+    OP_TYPE_RUNTIME_ARRAY = 29,
+    OP_DECORATE = 71,
+    OP_MEMBER_DECORATE = 72,
+    DECORATION_ARRAY_STRIDE = 6,
+    DECORATION_OFFSET = 35,
+    HEADER_WORDS = 5,
+    MAXIMUM_MEMBERS = 16,
+};
+
+/// What one module says of an id.
+typedef struct spirv_type {
+    const char *name;
+    const char *members[MAXIMUM_MEMBERS];
+    uint32_t stride;
+} spirv_type;
+
+typedef void visit(spirv_type *types, const uint32_t *instruction);
+
+static void visit_instructions(const engine_shader_code *code, spirv_type *types, visit *visit) {
+    const size_t count = code->size / sizeof *code->words;
+    for (size_t i = HEADER_WORDS; i < count; i += code->words[i] >> 16)
+        visit(types, code->words + i);
+}
+
+static void note_names(spirv_type *types, const uint32_t *instruction) {
+    const uint32_t operation = instruction[0] & 0xffff, id = instruction[1];
+    if (operation == OP_NAME)
+        types[id].name = (const char *)(instruction + 2);
+    if (operation == OP_MEMBER_NAME && instruction[2] < MAXIMUM_MEMBERS)
+        types[id].members[instruction[2]] = (const char *)(instruction + 3);
+    if (operation == OP_DECORATE && instruction[2] == DECORATION_ARRAY_STRIDE)
+        types[id].stride = instruction[3];
+}
+
+static void check_offset(const spirv_type *type, uint32_t position, uint32_t offset) {
+    assert_true(position < MAXIMUM_MEMBERS);
+    const char *name = type->members[position];
+    if (strncmp(name, "padding", 7) == 0)
+        return;
+    known_member *member = find(type->name, name);
+    if (!member)
+        fail_msg("%s.%s is not known to this test", type->name, name);
+    if (member->offset != offset || member->position != position)
+        fail_msg("%s.%s: at %zu in C, at %u in GLSL", type->name, name, member->offset, offset);
+    member->seen = true;
+}
+
+static void check_stride(const spirv_type *array, const spirv_type *element) {
+    for (size_t i = 0; i < known_count; i++)
+        if (strcmp(known[i].structure, element->name) == 0 && known[i].size != array->stride)
+            fail_msg("%s: %zu bytes in C, %u in an array of GLSL", element->name, known[i].size,
+                     array->stride);
+}
+
+static void check_instruction(spirv_type *types, const uint32_t *instruction) {
+    const uint32_t operation = instruction[0] & 0xffff;
+    const spirv_type *first = &types[instruction[1]];
+    if (operation == OP_MEMBER_DECORATE && instruction[3] == DECORATION_OFFSET && first->name &&
+        is_known(first->name))
+        check_offset(first, instruction[2], instruction[4]);
+    if ((operation == OP_TYPE_ARRAY || operation == OP_TYPE_RUNTIME_ARRAY) && first->stride) {
+        const spirv_type *element = &types[instruction[2]];
+        if (element->name && is_known(element->name))
+            check_stride(first, element);
+    }
+}
+
+static void members_lie_where_c_has_them(void **state) {
+    (void)state;
+    for (size_t i = 0; i < engine_embedded_shaders_count; i++) {
+        const engine_shader_code *code = &engine_embedded_shaders[i];
+        const uint32_t bound = code->words[3];
+        spirv_type *types = calloc(bound, sizeof *types);
+        assert_non_null(types);
+        visit_instructions(code, types, note_names);
+        visit_instructions(code, types, check_instruction);
+        free(types);
+    }
+    for (size_t i = 0; i < known_count; i++)
+        if (!known[i].seen)
+            fail_msg("no shader has %s.%s", known[i].structure, known[i].name);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(members_lie_where_c_has_them),
+    };
+    return cmocka_run_group_tests_name("structures shared by C and GLSL", tests, NULL, NULL);
+}
