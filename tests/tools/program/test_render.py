@@ -1,10 +1,13 @@
 """What `lobe render` writes and prints."""
 
+import os
+import pty
+import subprocess
 import sys
 
 import tap
 from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
-from program import SMALL, check, fresh_folder, leaves, report, succeeds
+from program import FOLDER, PROGRAM, SMALL, check, fresh_folder, leaves, report, succeeds
 
 DIRECT = ["--filter", "direct", *SMALL]
 
@@ -168,6 +171,19 @@ def test_quiet_where_there_is_nothing_to_say():
     folder = fresh_folder("quiet")
     result = succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
     check(result.stderr == "", report(result))
+
+
+def test_progress_on_a_terminal():
+    terminal, end = pty.openpty()
+    command = [PROGRAM, "render", "bumps", "--filter", "reference", *SMALL, "-o", FOLDER / "a.png"]
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=end, check=False,
+                            env={**os.environ, "XDG_CACHE_HOME": str(FOLDER / "cache")})
+    os.close(end)
+    shown = os.read(terminal, 65536).decode()
+    os.close(terminal)
+    check(result.returncode == 0, shown)
+    check("frame 1 of 1: 50 %" in shown and "frame 1 of 1: 100 %" in shown, repr(shown))
+    check(shown.endswith("\r\033[K"), repr(shown))
 
 
 def test_device_from_the_environment():
