@@ -14,7 +14,7 @@ const lobe_filter *filter_named(const char *name);
 /// What most tests say about a picture.
 typedef struct picture_request {
     const char *filter;
-    const char *settings[6]; ///< assignments, ended by NULL
+    const char *settings[8]; ///< assignments, ended by NULL
     uint32_t width, height;
     uint32_t samples;
     bool outputs; ///< arbitrary output variables too

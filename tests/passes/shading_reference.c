@@ -140,11 +140,48 @@ static const double *moment_of(const evaluation *e, uint32_t layer) {
     return reference_texel(e->mixture, e->x, e->y, layer);
 }
 
+/// The base lobe of a concentration, and of the material's kind.
+static double parameter_of(lobe_distribution distribution, double concentration) {
+    switch (distribution) {
+    case LOBE_DISTRIBUTION_BLINN_PHONG:
+        return fmax(concentration - 1, 0);
+    case LOBE_DISTRIBUTION_VMF:
+        return concentration;
+    default:
+        return sqrt(2 / concentration);
+    }
+}
+
+/// Of a cluster of microfacets, as a distribution of projected area one: von Mises-Fisher as far as
+/// the normals are spread, of the base lobes' own shape as far as those are
+/// (shaders/filters/lobes.glsl).
+static double evaluate_microfacet_cluster(const evaluation *e, uint32_t layer) {
+    const double *moment = moment_of(e, layer);
+    lobe_distribution distribution = e->material->distribution;
+    double complement = fmax(resultant_complement(moment), 1e-6);
+    double own =
+        distribution == LOBE_DISTRIBUTION_VMF ? 0 : fmin(e->base_complement / complement, 1);
+    // A mean of base lobes, each of which has this projected area above its own horizon.
+    double area = reference_von_mises_fisher_projected_area(
+        reference_concentration_from_complement(e->base_complement));
+    double kappa = reference_concentration_from_complement(complement);
+    double length = reference_length(moment);
+    const double axis[3] = {moment[0] / length, moment[1] / length, moment[2] / length};
+    double value = (1 - own) / area *
+                   reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
+    return value + own * moment[3] *
+                       reference_normal_distribution(distribution, axis, e->half_vector,
+                                                     parameter_of(distribution, kappa));
+}
+
 static void add_cluster(evaluation *e, uint32_t layer, double share) {
     double weight = moment_of(e, layer)[3];
     if (share <= 0 || weight <= 0)
         return;
-    e->sum += share * reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
+    bool microfacet = e->material->model == LOBE_MATERIAL_MICROFACET;
+    e->sum += share * (microfacet ? evaluate_microfacet_cluster(e, layer)
+                                  : reference_evaluate_cluster(e->mixture, e->x, e->y, layer,
+                                                               e->half_vector));
     e->count += share * weight > least_weight;
 }
 
@@ -185,9 +222,6 @@ static void shade_mixture_of_microfacets(const evaluation *e, const double mean[
     reflecting_normal(mean, e->half_vector, normal);
     if (reference_dot(normal, incoming) <= 0 || reference_dot(normal, outgoing) <= 0)
         return;
-    // A mean of base lobes, each of which has this projected area above its own horizon.
-    distribution /=
-        reference_von_mises_fisher_projected_area(reference_concentration_from_complement(mean[3]));
     double value = microfacet_geometry(e->material, normal, outgoing, incoming, distribution);
     for (int i = 0; i < 3; i++)
         radiance[i] = value * fresnel_of(e->material, i, incoming, e->half_vector);

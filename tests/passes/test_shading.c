@@ -300,11 +300,11 @@ static void check_mixture(fixture *f, lobe_material material, const char *const 
     scene_end(scene);
     static const char *const subdivisions[] = {"subdivision=0", "subdivision=1", "subdivision=2"};
     picture_request request = {.filter = "lobes",
-                               .settings = {subdivisions[knobs->subdivision]},
+                               .settings = {subdivisions[knobs->subdivision], "bias=0"},
                                .width = 4,
                                .height = 4,
                                .outputs = true};
-    memcpy(request.settings + 1, settings, 5 * sizeof *settings);
+    memcpy(request.settings + 2, settings, 5 * sizeof *settings);
     lobe_frame frame = draw_scene(f, scene, &request);
     reference_layers texels = mixture_of_texels(scene, &material, NULL, NULL);
     reference_layers half = reference_reduce(&texels), quarter = reference_reduce(&half);
@@ -355,6 +355,20 @@ static void lobes_are_refined_by_algorithm_1(void **state) {
         check_mixture(*state, lobes, c->settings, &c->knobs, c->name);
         lobe_material microfacets = material_of(LOBE_MATERIAL_MICROFACET, LOBE_DISTRIBUTION_GGX);
         check_mixture(*state, microfacets, c->settings, &c->knobs, c->name);
+    }
+}
+
+/// Microfacets of any distribution keep its shape as far as normals leave it.
+static void microfacets_keep_their_shape(void **state) {
+    static const char *const names[] = {"GGX", "Beckmann", "Blinn-Phong", "vMF"};
+    const char *const settings[5] = {NULL};
+    refinement_knobs knobs = {2, false, 0.95, 0.85, 0.02};
+    for (int i = 0; i < 4; i++) {
+        lobe_material material = material_of(LOBE_MATERIAL_MICROFACET, (lobe_distribution)i);
+        material.roughness = 0.4f;
+        check_mixture(*state, material, settings, &knobs, names[i]);
+        material.normal_concentration = 80;
+        check_mixture(*state, material, settings, &knobs, names[i]);
     }
 }
 
@@ -446,7 +460,7 @@ static double level_of_view(fixture *f, const char *filter, double height, doubl
     scene_look_down(scene, height);
     scene_end(scene);
     picture_request request = {.filter = filter,
-                               .settings = {knob, by_view ? "view=level" : NULL, NULL},
+                               .settings = {"bias=0", knob, by_view ? "view=level" : NULL, NULL},
                                .width = 16,
                                .height = 16,
                                .outputs = !by_view};
@@ -495,6 +509,7 @@ int main(void) {
         cmocka_unit_test(cameras_see_what_they_should),
         cmocka_unit_test(many_lights_add_up),
         cmocka_unit_test(lobes_are_refined_by_algorithm_1),
+        cmocka_unit_test(microfacets_keep_their_shape),
         cmocka_unit_test(one_lobe_along_the_normal_needs_no_mean),
         cmocka_unit_test(averages_are_taken_for_one_texel),
         cmocka_unit_test(the_level_is_that_of_the_footprint),
