@@ -27,7 +27,7 @@ void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene and forgets the one before. The scene must live as long as it is set; NULL
 /// only forgets. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY, LOBE_ERROR_MALFORMED
-/// (no triangles, an index out of range).
+/// (no triangles, an index out of range, a vertex or texel that is not finite).
 lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
 
 /// Largest number of samples a pixel of the reference.
