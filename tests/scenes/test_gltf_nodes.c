@@ -206,8 +206,8 @@ static void bad_cameras_are_refused(void **state) {
         "{\"type\":\"perspective\",\"perspective\":{\"yfov\":4,\"znear\":0.1}}",
         "{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":0}}",
         "{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":-1}}",
-        "{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":0,\"znear\":0,"
-        "\"zfar\":9}}",
+        ("{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1,\"ymag\":0,\"znear\":0,"
+         "\"zfar\":9}}"),
     };
     char members[512];
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
