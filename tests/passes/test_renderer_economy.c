@@ -134,8 +134,10 @@ static void a_constant_material_builds_nothing(void **state) {
     static const char *const filters[] = {"direct", "mipmap", "lobes"};
     for (int mapped = 0; mapped < 2; mapped++) {
         lobe_scene *scene = constant_scene(false, 1);
+        char *name = scene->materials[0].name;
         if (!mapped)
             scene->materials[0] = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
+        scene->materials[0].name = name;
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         for (size_t i = 0; i < 3; i++) {
             picture_request request = request_for(filters[i], NULL);
