@@ -40,3 +40,21 @@ lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, 
         lobe_scene_destroy(scene);
     return status;
 }
+
+lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lobe_log *log,
+                            int32_t *index) {
+    lobe_image image;
+    uint32_t added;
+    lobe_result status = lobe_image_allocate(&image, map->format, map->extent, map->extent, log);
+    if (status)
+        return status;
+    uint8_t *texel = image.texels;
+    for (uint32_t row = 0; row < map->extent; row++)
+        for (uint32_t column = 0; column < map->extent; column++) {
+            map->fill(column, row, texel);
+            texel += lobe_format_size(map->format);
+        }
+    status = scene_add_image(scene, map->name, &image, log, &added);
+    *index = status ? -1 : (int32_t)added;
+    return status;
+}

@@ -152,11 +152,7 @@ cleanup:
 static lobe_result add_plane(lobe_scene *scene, const lobe_log *log) {
     lobe_mesh mesh;
     lobe_result status = shape_plane(48, 48, 0.22f, log, &mesh);
-    if (!status)
-        status = scene_add_mesh(scene, &mesh, log, NULL);
-    if (!status)
-        status = scene_add_instance(scene, 0, 0, NULL, log);
-    return status;
+    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
 }
 
 static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {

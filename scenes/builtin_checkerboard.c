@@ -1,5 +1,7 @@
 #include "scenes/builtin.h"
 
+#include <string.h>
+
 #include "scenes/mesh.h"
 #include "scenes/scene.h"
 #include "scenes/scene_view.h"
@@ -19,50 +21,31 @@ static bool square_is_sharp(uint32_t column, uint32_t row) {
     return (column / SQUARE_EXTENT + row / SQUARE_EXTENT) % 2 != 0;
 }
 
-static lobe_result add_width_map(lobe_scene *scene, const lobe_log *log, uint32_t *index) {
-    lobe_image image;
-    lobe_result status =
-        lobe_image_allocate(&image, LOBE_FORMAT_R32_FLOAT, MAP_EXTENT, MAP_EXTENT, log);
-    if (status)
-        return status;
-    float *texel = image.texels;
-    for (uint32_t row = 0; row < MAP_EXTENT; row++)
-        for (uint32_t column = 0; column < MAP_EXTENT; column++)
-            *texel++ = square_is_sharp(column, row) ? sharp_width : broad_width;
-    return scene_add_image(scene, "checkerboard widths", &image, log, index);
+static void fill_width(uint32_t column, uint32_t row, void *texel) {
+    *(float *)texel = square_is_sharp(column, row) ? sharp_width : broad_width;
 }
 
-static lobe_result add_colour_map(lobe_scene *scene, const lobe_log *log, uint32_t *index) {
-    lobe_image image;
-    lobe_result status =
-        lobe_image_allocate(&image, LOBE_FORMAT_RGBA8_SRGB, MAP_EXTENT, MAP_EXTENT, log);
-    if (status)
-        return status;
-    uint8_t *texel = image.texels;
-    for (uint32_t row = 0; row < MAP_EXTENT; row++)
-        for (uint32_t column = 0; column < MAP_EXTENT; column++, texel += 4)
-            for (int channel = 0; channel < 4; channel++)
-                texel[channel] =
-                    square_is_sharp(column, row) ? sharp_colour[channel] : broad_colour[channel];
-    return scene_add_image(scene, "checkerboard colours", &image, log, index);
+static void fill_colour(uint32_t column, uint32_t row, void *texel) {
+    memcpy(texel, square_is_sharp(column, row) ? sharp_colour : broad_colour, 4);
 }
 
 static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
-    uint32_t width_map, colour_map;
-    lobe_result status = add_width_map(scene, log, &width_map);
-    if (!status)
-        status = add_colour_map(scene, log, &colour_map);
-    if (status)
-        return status;
+    static const builtin_map widths = {"checkerboard widths", LOBE_FORMAT_R32_FLOAT, MAP_EXTENT,
+                                       fill_width};
+    static const builtin_map colours = {"checkerboard colours", LOBE_FORMAT_RGBA8_SRGB, MAP_EXTENT,
+                                        fill_colour};
     lobe_material material;
     lobe_material_default(&material);
+    lobe_result status = builtin_add_map(scene, &widths, log, &material.width_map.image);
+    if (!status)
+        status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+    if (status)
+        return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
     material.distribution = LOBE_DISTRIBUTION_VMF;
     material.lobes[0] =
         (lobe_base_lobe){.direction = {0, 0, 1}, .width = 1, .colour = {0.06f, 0.06f, 0.06f}};
     material.lobe_count = 1;
-    material.width_map.image = (int32_t)width_map;
-    material.base_colour_map.image = (int32_t)colour_map;
     // Two BRDFs and none between them.
     material.width_map.nearest = material.base_colour_map.nearest = true;
     return scene_add_material(scene, "checkerboard", &material, log, NULL);
@@ -71,11 +54,7 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
 static lobe_result add_plane(lobe_scene *scene, const lobe_log *log) {
     lobe_mesh mesh;
     lobe_result status = shape_plane(160, 160, 1.5f, log, &mesh);
-    if (!status)
-        status = scene_add_mesh(scene, &mesh, log, NULL);
-    if (!status)
-        status = scene_add_instance(scene, 0, 0, NULL, log);
-    return status;
+    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
 }
 
 static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {

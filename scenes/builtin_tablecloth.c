@@ -28,7 +28,7 @@ typedef struct noise_octave {
     double slope; // scale of the slopes
 } noise_octave;
 
-static void fill_normal(uint32_t column, uint32_t row, uint8_t texel[4]) {
+static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     static const noise_octave octaves[] = {{96, 0.06}, {192, 0.22}, {256, 0.22}};
     double sum[2] = {0, 0};
     for (uint32_t i = 0; i < sizeof octaves / sizeof *octaves; i++) {
@@ -40,54 +40,32 @@ static void fill_normal(uint32_t column, uint32_t row, uint8_t texel[4]) {
     normal_map_store_slope(texel, sum[0], sum[1]);
 }
 
-static lobe_result add_normal_map(lobe_scene *scene, const lobe_log *log, uint32_t *index) {
-    lobe_image image;
-    lobe_result status =
-        lobe_image_allocate(&image, LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT, MAP_EXTENT, log);
-    if (status)
-        return status;
-    uint8_t *texel = image.texels;
-    for (uint32_t row = 0; row < MAP_EXTENT; row++)
-        for (uint32_t column = 0; column < MAP_EXTENT; column++, texel += 4)
-            fill_normal(column, row, texel);
-    return scene_add_image(scene, "tablecloth normals", &image, log, index);
-}
-
 // A check of two blended bands, as woven from threads of two colours.
-static void fill_colour(uint32_t column, uint32_t row, uint8_t texel[4]) {
+static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     static const double plain[3] = {206, 196, 178}, dyed[3] = {150, 52, 48}; // sRGB
     bool warp = column >= COLOUR_EXTENT / 2, weft = row >= COLOUR_EXTENT / 2;
     bool warp_on_top = (column / 2 + row / 2) % 2 != 0;
     double grain = 1 + 0.2 * noise_gradient(column / 8.0, row / 8.0, COLOUR_EXTENT / 8, 7, NULL);
     const double *colour = (warp_on_top ? warp : weft) ? dyed : plain;
+    uint8_t *channels = texel;
     for (int channel = 0; channel < 3; channel++)
-        texel[channel] = (uint8_t)fmin(colour[channel] * grain + 0.5, 255);
-    texel[3] = 255;
-}
-
-static lobe_result add_colour_map(lobe_scene *scene, const lobe_log *log, uint32_t *index) {
-    lobe_image image;
-    lobe_result status =
-        lobe_image_allocate(&image, LOBE_FORMAT_RGBA8_SRGB, COLOUR_EXTENT, COLOUR_EXTENT, log);
-    if (status)
-        return status;
-    uint8_t *texel = image.texels;
-    for (uint32_t row = 0; row < COLOUR_EXTENT; row++)
-        for (uint32_t column = 0; column < COLOUR_EXTENT; column++, texel += 4)
-            fill_colour(column, row, texel);
-    return scene_add_image(scene, "tablecloth colours", &image, log, index);
+        channels[channel] = (uint8_t)fmin(colour[channel] * grain + 0.5, 255);
+    channels[3] = 255;
 }
 
 static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
-    uint32_t normal_map, colour_map;
-    lobe_result status = add_normal_map(scene, log, &normal_map);
-    if (!status)
-        status = add_colour_map(scene, log, &colour_map);
-    if (status)
-        return status;
+    static const builtin_map normals = {"tablecloth normals", LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT,
+                                        fill_normal};
+    static const builtin_map colours = {"tablecloth colours", LOBE_FORMAT_RGBA8_SRGB, COLOUR_EXTENT,
+                                        fill_colour};
     const float half_root = 0.70710678f;
     lobe_material material;
     lobe_material_default(&material);
+    lobe_result status = builtin_add_map(scene, &normals, log, &material.normal_map.image);
+    if (!status)
+        status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+    if (status)
+        return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
     material.distribution = LOBE_DISTRIBUTION_VMF;
     for (int i = 0; i < 2; i++)
@@ -96,8 +74,6 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
                              .width = 128,
                              .colour = {0.25f, 0.25f, 0.25f}};
     material.lobe_count = 2;
-    material.normal_map.image = (int32_t)normal_map;
-    material.base_colour_map.image = (int32_t)colour_map;
     material.double_sided = true;
     return scene_add_material(scene, "tablecloth", &material, log, NULL);
 }
@@ -152,9 +128,7 @@ static lobe_result add_cloth(lobe_scene *scene, const lobe_log *log) {
     if (!status)
         status = mesh_compute_tangents(&mesh, NULL, log);
     if (!status)
-        status = scene_add_mesh(scene, &mesh, log, NULL);
-    if (!status)
-        status = scene_add_instance(scene, 0, 0, NULL, log);
+        status = scene_place_mesh(scene, &mesh, 0, log);
     mesh_free(&mesh);
     return status;
 }

@@ -207,11 +207,7 @@ static lobe_result add_carrier(lobe_scene *scene, lobe_carrier carrier, const lo
     lobe_mesh mesh;
     lobe_result status = carrier == LOBE_CARRIER_SPHERE ? shape_sphere(64, 128, 4, 2, log, &mesh)
                                                         : shape_plane(4, 4, 1, log, &mesh);
-    if (!status)
-        status = scene_add_mesh(scene, &mesh, log, NULL);
-    if (!status)
-        status = scene_add_instance(scene, 0, 0, NULL, log);
-    return status;
+    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
 }
 
 // A plane is lit from behind, so that highlights lie between its light and the camera; a sphere

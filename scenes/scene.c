@@ -89,6 +89,13 @@ lobe_result scene_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t materi
     return out_of_memory(scene, log);
 }
 
+lobe_result scene_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t material,
+                             const lobe_log *log) {
+    uint32_t index;
+    const lobe_result result = scene_add_mesh(scene, mesh, log, &index);
+    return result != LOBE_OK ? result : scene_add_instance(scene, index, material, NULL, log);
+}
+
 lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log) {
     if (append((void **)&scene->lights, &scene->light_count, light, sizeof *light, NULL))
         return LOBE_OK;

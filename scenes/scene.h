@@ -28,6 +28,11 @@ lobe_result scene_add_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_log *l
 lobe_result scene_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t material,
                                const float transform[16], const lobe_log *log);
 
+/// Adds a mesh and one instance of it, with a transform of identity. `mesh` is left empty, on
+/// failure too.
+lobe_result scene_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t material,
+                             const lobe_log *log);
+
 lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log);
 
 /// The last step: sets the scene's bounds; where `has_camera` is false, sets a camera that frames
