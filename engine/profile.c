@@ -1,16 +1,18 @@
 #include <lobe/profile.h>
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "engine/growing_array.h"
 
-/// Milliseconds of each frame; frames before its first are 0.
+/// Milliseconds in each frame in which it ran.
 typedef struct time_series {
     char *name;
     double *milliseconds;
     uint32_t capacity;
     uint32_t runs;
+    bool running; ///< in the frame that is being added
 } time_series;
 
 struct lobe_profile {
@@ -18,7 +20,6 @@ struct lobe_profile {
     time_series frame;
     time_series *passes;
     uint32_t pass_count, pass_capacity;
-    uint32_t frames;
     lobe_profile_times *times; ///< of the passes, for the last summary
     uint32_t time_capacity;
     double *scratch; ///< for sorting
@@ -77,16 +78,9 @@ static bool add_pass(lobe_profile *profile, const char *name) {
     return true;
 }
 
-/// Room for the frame to come, which starts at 0, and for those from before the first one.
-static bool extend(time_series *series, uint32_t frames) {
-    uint32_t before = series->capacity;
-    if (!engine_array_reserve((void **)&series->milliseconds, &series->capacity,
-                              (uint64_t)frames + 1, sizeof *series->milliseconds))
-        return false;
-    for (uint32_t n = before; n < series->capacity; n++)
-        series->milliseconds[n] = 0.0;
-    series->milliseconds[frames] = 0.0;
-    return true;
+static bool make_room_for_run(time_series *series) {
+    return engine_array_reserve((void **)&series->milliseconds, &series->capacity,
+                                (uint64_t)series->runs + 1, sizeof *series->milliseconds);
 }
 
 /// All that can fail comes first, so that a frame counts as a whole or not at all.
@@ -97,32 +91,28 @@ static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
             !add_pass(profile, report->passes[n].name))
             return false;
     for (uint32_t n = 0; n < profile->pass_count; n++)
-        if (!extend(&profile->passes[n], profile->frames))
+        if (!make_room_for_run(&profile->passes[n]))
             return false;
-    return extend(&profile->frame, profile->frames);
+    return make_room_for_run(&profile->frame);
 }
 
-static bool ran_before(const lobe_graph_report *report, size_t pass) {
-    for (size_t n = 0; n < pass; n++)
-        if (report->passes[n].state == LOBE_PASS_RUN &&
-            strcmp(report->passes[n].name, report->passes[pass].name) == 0)
-            return true;
-    return false;
+static void add_time(time_series *series, double milliseconds) {
+    if (!series->running)
+        series->milliseconds[series->runs++] = 0.0;
+    series->running = true;
+    series->milliseconds[series->runs - 1] += milliseconds;
 }
 
 lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report) {
     if (!make_room(profile, report))
         return fail_memory(profile);
-    for (size_t n = 0; n < report->pass_count; n++) {
-        if (report->passes[n].state != LOBE_PASS_RUN)
-            continue;
-        time_series *series = find_pass(profile, report->passes[n].name);
-        series->milliseconds[profile->frames] += report->passes[n].milliseconds;
-        series->runs += !ran_before(report, n);
-    }
-    profile->frame.milliseconds[profile->frames] = report->milliseconds;
-    profile->frame.runs++;
-    profile->frames++;
+    for (size_t n = 0; n < report->pass_count; n++)
+        if (report->passes[n].state == LOBE_PASS_RUN)
+            add_time(find_pass(profile, report->passes[n].name), report->passes[n].milliseconds);
+    add_time(&profile->frame, report->milliseconds);
+    profile->frame.running = false;
+    for (uint32_t n = 0; n < profile->pass_count; n++)
+        profile->passes[n].running = false;
     return LOBE_OK;
 }
 
@@ -134,16 +124,16 @@ static int compare_times(const void *a, const void *b) {
     return (first > second) - (first < second);
 }
 
-static double sum_of(const time_series *series, uint32_t frames) {
+static double sum_of(const time_series *series) {
     double sum = 0.0;
-    for (uint32_t n = 0; n < frames; n++)
+    for (uint32_t n = 0; n < series->runs; n++)
         sum += series->milliseconds[n];
     return sum;
 }
 
 static lobe_profile_times times_of(const lobe_profile *profile, const time_series *series,
                                    double whole) {
-    uint32_t count = profile->frames;
+    uint32_t count = series->runs;
     double *sorted = profile->scratch;
     memcpy(sorted, series->milliseconds, count * sizeof *sorted);
     qsort(sorted, count, sizeof *sorted, compare_times);
@@ -152,32 +142,31 @@ static lobe_profile_times times_of(const lobe_profile *profile, const time_serie
                                 .median_milliseconds =
                                     0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
                                 .p95_milliseconds = sorted[p95],
-                                .share = whole > 0.0 ? sum_of(series, count) / whole : 0.0,
-                                .runs = series->runs};
+                                .share = whole > 0.0 ? sum_of(series) / whole : 0.0,
+                                .runs = count};
 }
 
 static lobe_result reserve_results(lobe_profile *profile) {
     if (engine_array_reserve((void **)&profile->times, &profile->time_capacity,
                              (uint64_t)profile->pass_count + 1, sizeof *profile->times) &&
         engine_array_reserve((void **)&profile->scratch, &profile->scratch_capacity,
-                             profile->frames, sizeof *profile->scratch))
+                             profile->frame.runs, sizeof *profile->scratch))
         return LOBE_OK;
     return fail_memory(profile);
 }
 
 lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary) {
-    *summary = (lobe_profile_summary){0};
-    if (profile->frames == 0)
+    *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name}};
+    if (profile->frame.runs == 0)
         return LOBE_OK;
     lobe_result result = reserve_results(profile);
     if (result != LOBE_OK)
         return result;
-    double whole = sum_of(&profile->frame, profile->frames);
+    double whole = sum_of(&profile->frame);
+    summary->passes = profile->times;
     for (uint32_t n = 0; n < profile->pass_count; n++)
-        profile->times[n] = times_of(profile, &profile->passes[n], whole);
-    *summary = (lobe_profile_summary){.passes = profile->times,
-                                      .pass_count = profile->pass_count,
-                                      .frame = times_of(profile, &profile->frame, whole),
-                                      .frames = profile->frames};
+        if (profile->passes[n].runs > 0)
+            profile->times[summary->pass_count++] = times_of(profile, &profile->passes[n], whole);
+    summary->frame = times_of(profile, &profile->frame, whole);
     return LOBE_OK;
 }

@@ -3,11 +3,11 @@
 
 #include <lobe/device.h>
 #include <lobe/filter.h>
+#include <lobe/profile.h>
 #include <lobe/scene.h>
 
 #include "tools/error_metrics.h"
 #include "tools/progress.h"
-#include "tools/timing.h"
 
 #define BENCH_MAXIMUM_FILTERS 32
 /// Samples a pixel of the filter reference where it is measured like any other.
@@ -37,9 +37,11 @@ typedef struct bench_job {
 typedef struct bench_result {
     const char *scene;
     const bench_filter *filter;
-    timing rebuilt, retained; ///< every map built again in each frame; or none
-    uint64_t memory_bytes;    ///< most device memory in use for the scene, its maps and the frame
-    double bytes_per_texel;   ///< of filtered maps, for each texel of base maps; 0: no maps
+    /// Every map built again in each frame; or none. The profiles own what the summaries point to.
+    lobe_profile *profiles[2];
+    lobe_profile_summary rebuilt, retained;
+    uint64_t memory_bytes;  ///< most device memory in use for the scene, its maps and the frame
+    double bytes_per_texel; ///< of filtered maps, for each texel of base maps; 0: no maps
     error_metrics error, error_lobe_base;
 } bench_result;
 

@@ -2,6 +2,8 @@
 
 #include <lobe/renderer.h>
 
+#include "tools/timing.h"
+
 /// A supersampled frame costs as much as dozens of others, and varies less.
 #define SUPERSAMPLED_FRAMES 2
 
@@ -21,8 +23,8 @@ uint32_t bench_frames(const bench_job *job, const bench_filter *filter) {
 }
 
 void bench_result_free(bench_result *result) {
-    timing_free(&result->rebuilt);
-    timing_free(&result->retained);
+    for (int kind = 0; kind < 2; ++kind)
+        lobe_profile_destroy(&result->profiles[kind]);
 }
 
 static lobe_render_parameters parameters_of(const bench_job *job, const bench_filter *filter) {
@@ -127,17 +129,15 @@ static lobe_result measure_error(const bench_run *run, size_t index, bench_resul
 // Time
 
 static lobe_result time_frame(const bench_run *run, size_t index, const bench_filter *filter,
-                              bool rebuild, timing *timing) {
+                              bool rebuild, lobe_profile *profile) {
     lobe_render_parameters parameters = parameters_of(run->job, filter);
     parameters.rebuild = rebuild;
     parameters.discard = true;
     parameters.progress = NULL;
     lobe_frame frame;
     lobe_result result = lobe_renderer_render(run->renderers[index], &parameters, &frame);
-    if (result == LOBE_OK && timing && !timing_add(timing, &frame)) {
-        lobe_log_print(run->job->log, LOBE_LOG_ERROR, "%s: out of memory", run->name);
-        result = LOBE_ERROR_OUT_OF_MEMORY;
-    }
+    if (result == LOBE_OK && profile)
+        result = timing_add(profile, &frame, run->job->log);
     lobe_frame_free(&frame);
     return result;
 }
@@ -153,20 +153,37 @@ static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
                              : lobe_filter_supersamples(filter->filter);
         if (left_out)
             continue;
-        status = time_frame(run, i, filter, true, keep ? &results[i].rebuilt : NULL);
+        status = time_frame(run, i, filter, true, keep ? results[i].profiles[0] : NULL);
         if (status == LOBE_OK)
-            status = time_frame(run, i, filter, false, keep ? &results[i].retained : NULL);
+            status = time_frame(run, i, filter, false, keep ? results[i].profiles[1] : NULL);
     }
     return status;
 }
 
+static lobe_result open_profiles(const bench_run *run, bench_result *result) {
+    lobe_result status = lobe_profile_create(run->job->log, &result->profiles[0]);
+    return status == LOBE_OK ? lobe_profile_create(run->job->log, &result->profiles[1]) : status;
+}
+
+static lobe_result summarise(bench_result *result) {
+    lobe_result status = lobe_profile_statistics(result->profiles[0], &result->rebuilt);
+    return status == LOBE_OK ? lobe_profile_statistics(result->profiles[1], &result->retained)
+                             : status;
+}
+
 static lobe_result measure_times(const bench_run *run, bench_result *results) {
     progress_step(run->job->progress, "%s: times of %u frames", run->name, run->job->frames);
-    lobe_result result = time_round(run, 0, false, results);
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+        result = open_profiles(run, &results[i]);
+    if (result == LOBE_OK)
+        result = time_round(run, 0, false, results);
     for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; ++round) {
         result = time_round(run, round, true, results);
         progress_part(run->job->progress, (round + 1.0) / run->job->frames);
     }
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+        result = summarise(&results[i]);
     return result;
 }
 

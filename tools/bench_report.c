@@ -6,33 +6,26 @@
 #include <cjson/cJSON.h>
 #include <lobe/lobe.h>
 
-static double median(const timing_samples *samples) {
-    return timing_quantile(samples, 0.5);
-}
-
-static double p95(const timing_samples *samples) {
-    return timing_quantile(samples, 0.95);
-}
-
 // ---------------------------------------------------------------------------------------------
 // For people
 
 static void print_passes(const bench_result *result) {
     printf("  %s\n", lobe_filter_name(result->filter->filter));
     for (size_t i = 0; i < result->rebuilt.pass_count; ++i) {
-        const timing_pass *pass = &result->rebuilt.passes[i];
-        printf("    %-36s %12.3f %12.3f\n", pass->name, median(&pass->samples),
-               p95(&pass->samples));
+        const lobe_profile_times *pass = &result->rebuilt.passes[i];
+        printf("    %-36s %12.3f %12.3f\n", pass->name, pass->median_milliseconds,
+               pass->p95_milliseconds);
     }
 }
 
 static void print_summary(const bench_result *result) {
+    const lobe_profile_times *rebuilt = &result->rebuilt.frame, *retained = &result->retained.frame;
     printf("  %-10s %10.2f %10.2f %10.2f %10.2f %8.1f %8.1f %9.4f %9.4f %9.4f %9.4f\n",
-           lobe_filter_name(result->filter->filter), median(&result->rebuilt.frames),
-           p95(&result->rebuilt.frames), median(&result->retained.frames),
-           p95(&result->retained.frames), (double)result->memory_bytes / (1 << 20),
-           result->bytes_per_texel, result->error.relative_l2, result->error.relative_l1,
-           result->error.flip, result->error_lobe_base.relative_l2);
+           lobe_filter_name(result->filter->filter), rebuilt->median_milliseconds,
+           rebuilt->p95_milliseconds, retained->median_milliseconds, retained->p95_milliseconds,
+           (double)result->memory_bytes / (1 << 20), result->bytes_per_texel,
+           result->error.relative_l2, result->error.relative_l1, result->error.flip,
+           result->error_lobe_base.relative_l2);
 }
 
 static void print_scene(const bench_job *job, const bench_result *results) {
@@ -69,10 +62,10 @@ static void add_number(cJSON *object, const char *name, double value) {
     cJSON_AddNumberToObject(object, name, strtod(digits, NULL));
 }
 
-static void add_quantiles(cJSON *object, const char *name, const timing_samples *samples) {
+static void add_quantiles(cJSON *object, const char *name, const lobe_profile_times *times) {
     cJSON *quantiles = cJSON_AddObjectToObject(object, name);
-    add_number(quantiles, "median", median(samples));
-    add_number(quantiles, "p95", p95(samples));
+    add_number(quantiles, "median", times->median_milliseconds);
+    add_number(quantiles, "p95", times->p95_milliseconds);
 }
 
 static void add_error(cJSON *object, const char *name, const error_metrics *error) {
@@ -94,13 +87,13 @@ static void add_knobs(cJSON *object, const bench_filter *filter) {
     }
 }
 
-static void add_passes(cJSON *object, const timing *timing) {
-    cJSON *passes = cJSON_AddArrayToObject(object, "passes");
-    for (size_t i = 0; i < timing->pass_count; ++i) {
+static void add_passes(cJSON *object, const char *name, const lobe_profile_summary *summary) {
+    cJSON *passes = cJSON_AddArrayToObject(object, name);
+    for (size_t i = 0; i < summary->pass_count; ++i) {
         cJSON *pass = cJSON_CreateObject();
-        cJSON_AddStringToObject(pass, "name", timing->passes[i].name);
-        add_number(pass, "median_ms", median(&timing->passes[i].samples));
-        add_number(pass, "p95_ms", p95(&timing->passes[i].samples));
+        cJSON_AddStringToObject(pass, "name", summary->passes[i].name);
+        add_number(pass, "median_ms", summary->passes[i].median_milliseconds);
+        add_number(pass, "p95_ms", summary->passes[i].p95_milliseconds);
         cJSON_AddItemToArray(passes, pass);
     }
 }
@@ -116,9 +109,10 @@ static cJSON *describe_result(const bench_job *job, const bench_result *result) 
     cJSON_AddNumberToObject(object, "samples", supersamples ? BENCH_TIMED_SAMPLES : 1);
     cJSON_AddNumberToObject(object, "frames", bench_frames(job, filter));
     add_knobs(object, filter);
-    add_passes(object, &result->rebuilt);
-    add_quantiles(object, "rebuilt_ms", &result->rebuilt.frames);
-    add_quantiles(object, "retained_ms", &result->retained.frames);
+    add_passes(object, "passes", &result->rebuilt);
+    add_passes(object, "retained_passes", &result->retained);
+    add_quantiles(object, "rebuilt_ms", &result->rebuilt.frame);
+    add_quantiles(object, "retained_ms", &result->retained.frame);
     cJSON_AddNumberToObject(object, "memory_bytes", (double)result->memory_bytes);
     add_number(object, "bytes_per_texel", result->bytes_per_texel);
     add_error(object, "error", &result->error);

@@ -51,19 +51,19 @@ static void append_knob(attribute_list *list, const lobe_knob *knob, double valu
         append(list, "knob.", knob->name, LOBE_EXR_NUMBER)->number = (float)value;
 }
 
-static void append_times(attribute_list *list, const timing *timing) {
+static void append_times(attribute_list *list, const lobe_profile_summary *times) {
     append(list, "milliseconds", "", LOBE_EXR_NUMBER)->number =
-        (float)timing_quantile(&timing->frames, 0.5);
-    for (size_t i = 0; i < timing->pass_count; ++i)
-        append(list, "milliseconds.", timing->passes[i].name, LOBE_EXR_NUMBER)->number =
-            (float)timing_quantile(&timing->passes[i].samples, 0.5);
+        (float)times->frame.median_milliseconds;
+    for (size_t i = 0; i < times->pass_count; ++i)
+        append(list, "milliseconds.", times->passes[i].name, LOBE_EXR_NUMBER)->number =
+            (float)times->passes[i].median_milliseconds;
 }
 
 enum { FIXED_ATTRIBUTES = 7 };
 
 static bool describe(const capture *capture, attribute_list *list) {
     size_t knobs = lobe_filter_knob_count(capture->filter);
-    if (!attributes_allocate(list, FIXED_ATTRIBUTES + knobs + capture->timing->pass_count))
+    if (!attributes_allocate(list, FIXED_ATTRIBUTES + knobs + capture->times->pass_count))
         return false;
     append_text(list, "lobeVersion", lobe_version());
     append_text(list, "scene", capture->scene);
@@ -73,7 +73,7 @@ static bool describe(const capture *capture, attribute_list *list) {
     append(list, "samples", "", LOBE_EXR_INTEGER)->integer = (int32_t)capture->samples;
     for (size_t i = 0; i < knobs; ++i)
         append_knob(list, lobe_filter_knob(capture->filter, i), capture->settings->values[i]);
-    append_times(list, capture->timing);
+    append_times(list, capture->times);
     return true;
 }
 

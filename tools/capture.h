@@ -4,9 +4,8 @@
 #include <lobe/device.h>
 #include <lobe/exr.h>
 #include <lobe/filter.h>
+#include <lobe/profile.h>
 #include <lobe/renderer.h>
-
-#include "tools/timing.h"
 
 /// A rendered frame with all there is to know about it.
 typedef struct capture {
@@ -16,7 +15,7 @@ typedef struct capture {
     const lobe_settings *settings;
     uint32_t samples; ///< a pixel
     const lobe_device_information *device;
-    const timing *timing;
+    const lobe_profile_summary *times;
     lobe_exr_depth depth; ///< of the radiance; other layers are float
     double exposure;      ///< stops, PNG only
 } capture;

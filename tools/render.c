@@ -9,6 +9,7 @@
 #include "tools/output_file.h"
 #include "tools/progress.h"
 #include "tools/subcommand.h"
+#include "tools/timing.h"
 #include "tools/view_options.h"
 
 /// What the command line asks for.
@@ -41,7 +42,8 @@ typedef struct render_state {
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_frame frame;
-    timing timing;
+    lobe_profile *profile;
+    lobe_profile_summary times;
     progress progress;
 } render_state;
 
@@ -152,22 +154,20 @@ static lobe_result render_frame(const render_request *request, render_state *sta
             .user = &state->progress,
         },
         &state->frame);
-    if (result == LOBE_OK && !timing_add(&state->timing, &state->frame)) {
-        lobe_log_print(&state->log, LOBE_LOG_ERROR, "render: out of memory");
-        result = LOBE_ERROR_OUT_OF_MEMORY;
-    }
-    return result;
+    return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->log) : result;
 }
 
 /// The first frame builds the maps, later ones find them ready.
 static lobe_result render_frames(const render_request *request, render_state *state) {
-    lobe_result result = LOBE_OK;
+    lobe_result result = lobe_profile_create(&state->log, &state->profile);
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames; ++i) {
         progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
                       request->frames);
         result = render_frame(request, state);
     }
     progress_end(&state->progress);
+    if (result == LOBE_OK)
+        result = lobe_profile_statistics(state->profile, &state->times);
     return result == LOBE_OK ? device_options_check(state->device, &state->log) : result;
 }
 
@@ -194,7 +194,7 @@ static lobe_result write_images(const render_request *request, render_state *sta
         .settings = &request->settings,
         .samples = samples_of(request),
         .device = lobe_device_describe(state->device),
-        .timing = &state->timing,
+        .times = &state->times,
         .depth = (lobe_exr_depth)request->depth,
         .exposure = request->exposure,
     };
@@ -209,18 +209,18 @@ static lobe_result write_images(const render_request *request, render_state *sta
 
 static void print_times(const render_request *request, const render_state *state) {
     const lobe_device_information *device = lobe_device_describe(state->device);
-    const timing *timing = &state->timing;
+    const lobe_profile_summary *times = &state->times;
     printf("%s, filter %s, %ux%u, %u sample%s a pixel, on %s%s\n", state->scene->name,
            lobe_filter_name(request->filter), request->size[0], request->size[1],
            samples_of(request), samples_of(request) == 1 ? "" : "s", device->name,
            device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
                                            : "");
     printf("  %-36s %8s %12s\n", "pass", "frames", "median ms");
-    for (size_t i = 0; i < timing->pass_count; ++i)
-        printf("  %-36s %8zu %12.3f\n", timing->passes[i].name, timing->passes[i].samples.count,
-               timing_quantile(&timing->passes[i].samples, 0.5));
-    printf("  %-36s %8zu %12.3f\n", "whole frame", timing->frames.count,
-           timing_quantile(&timing->frames, 0.5));
+    for (size_t i = 0; i < times->pass_count; ++i)
+        printf("  %-36s %8u %12.3f\n", times->passes[i].name, times->passes[i].runs,
+               times->passes[i].median_milliseconds);
+    printf("  %-36s %8u %12.3f\n", "whole frame", times->frame.runs,
+           times->frame.median_milliseconds);
 }
 
 /// Nobody should wait minutes to learn of a misspelt folder.
@@ -256,7 +256,7 @@ static lobe_result render(render_request *request, render_state *state) {
 }
 
 static void free_state(render_state *state) {
-    timing_free(&state->timing);
+    lobe_profile_destroy(&state->profile);
     lobe_frame_free(&state->frame);
     lobe_renderer_destroy(&state->renderer);
     lobe_device_destroy(&state->device);

@@ -26,7 +26,7 @@ void lobe_profile_destroy(lobe_profile **profile);
 /// Errors: LOBE_ERROR_OUT_OF_MEMORY; the frame is then not counted.
 lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report);
 
-/// Times of one pass, or of whole frames. A frame in which the pass did not run counts as 0.
+/// Times of one pass in the frames in which it ran, or of whole frames.
 typedef struct lobe_profile_times {
     const char *name;
     double median_milliseconds; ///< of an even number of frames: the mean of the middle two
@@ -39,11 +39,10 @@ typedef struct lobe_profile_summary {
     const lobe_profile_times *passes; ///< all that ran at least once, in order of appearance
     size_t pass_count;
     lobe_profile_times frame; ///< whole frames
-    uint32_t frames;
 } lobe_profile_summary;
 
 /// Statistics of all frames so far; with none, all is 0. Pointers live until the next call with
-/// the profile. Errors: LOBE_ERROR_OUT_OF_MEMORY; `*summary` is then all zero.
+/// the profile. Errors: LOBE_ERROR_OUT_OF_MEMORY; there are then no passes, and no frames.
 lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary);
 
 #ifdef __cplusplus

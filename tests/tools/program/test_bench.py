@@ -73,6 +73,8 @@ def test_what_is_measured_makes_sense():
     passes = {name: [one["name"] for one in result["passes"]] for name, result in results.items()}
     check("lobe_clustering" in passes["lobes"] and "lobe_clustering" not in passes["direct"],
           str(passes))
+    retained = [one["name"] for one in results["lobes"]["retained_passes"]]
+    check("shading" in retained and "lobe_clustering" not in retained, str(retained))
     check(results["direct"]["bytes_per_texel"] == 0, "direct has no maps")
     check(results["lobes"]["bytes_per_texel"] > 1, "lobes has maps")
     check(results["lobes"]["memory_bytes"] > results["direct"]["memory_bytes"], "maps take memory")
