@@ -110,8 +110,11 @@ typedef void visit(spirv_type *types, const uint32_t *instruction);
 
 static void visit_instructions(const engine_shader_code *code, spirv_type *types, visit *visit) {
     const size_t count = code->size / sizeof *code->words;
-    for (size_t i = HEADER_WORDS; i < count; i += code->words[i] >> 16)
-        visit(types, code->words + i);
+    for (size_t i = HEADER_WORDS; i < count; i += code->words[i] >> 16) {
+        // Instructions of one word name nothing; the last of a module is one.
+        if (code->words[i] >> 16 > 1)
+            visit(types, code->words + i);
+    }
 }
 
 static void note_names(spirv_type *types, const uint32_t *instruction) {
@@ -146,6 +149,9 @@ static void check_stride(const spirv_type *array, const spirv_type *element) {
 
 static void check_instruction(spirv_type *types, const uint32_t *instruction) {
     const uint32_t operation = instruction[0] & 0xffff;
+    if (operation != OP_MEMBER_DECORATE && operation != OP_TYPE_ARRAY &&
+        operation != OP_TYPE_RUNTIME_ARRAY)
+        return;
     const spirv_type *first = &types[instruction[1]];
     if (operation == OP_MEMBER_DECORATE && instruction[3] == DECORATION_OFFSET && first->name &&
         is_known(first->name))
