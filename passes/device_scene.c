@@ -1,6 +1,7 @@
 #include "passes/device_scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,16 @@
 #include "passes/subdivision_choice.h"
 #include "shaders/interface/vertex.h"
 
+#define ONE_PLACE(member)                                                                          \
+    static_assert(offsetof(struct vertex, member) == offsetof(lobe_scene_vertex, member),          \
+                  "one vertex, two descriptions")
+
 static_assert(sizeof(struct vertex) == sizeof(lobe_scene_vertex), "one vertex, two descriptions");
+ONE_PLACE(position);
+ONE_PLACE(normal);
+ONE_PLACE(tangent);
+ONE_PLACE(texture_coordinates);
+ONE_PLACE(colour);
 
 static const lobe_texture_use *material_map(const lobe_material *material, uint32_t map) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
@@ -181,11 +191,12 @@ static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32
     if (status != LOBE_OK)
         return status;
     result->densities[index] = mesh_density_measure(mesh);
+    char name[128];
+    snprintf(name, sizeof name, "indices of %s", mesh->name);
     return lobe_buffer_create(
         device,
-        &(lobe_buffer_parameters){.name = mesh->name,
-                                  .size = mesh->index_count * sizeof *mesh->indices,
-                                  .data = mesh->indices},
+        &(lobe_buffer_parameters){
+            .name = name, .size = mesh->index_count * sizeof *mesh->indices, .data = mesh->indices},
         &result->indices[index]);
 }
 
