@@ -8,7 +8,7 @@
 #include "passes/device_scene.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
-#define FILTER_MAXIMUM_SPECIALISATIONS 24
+#define FILTER_MAXIMUM_SPECIALISATIONS 40
 
 /// What the filter's maps of one instance come to: inputs of its draw in the shading pass.
 typedef struct filtered_appearance {
@@ -44,8 +44,7 @@ struct lobe_filter {
     const char *paper;
     /// File in shaders/filters that shades, without its ending.
     const char *shading;
-    const lobe_knob *knobs; ///< its own
-    size_t knob_count;
+    const lobe_knob *const *knobs; ///< its own, ended by NULL; NULL: none
     bool supersamples;
     /// True where the maps depend on the instance (its mesh, its transform, the camera) and not
     /// on the material alone. NULL: never.

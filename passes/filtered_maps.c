@@ -8,7 +8,39 @@
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
-const char *const storage_choices[] = {"float32", "float16", NULL};
+static const char *const storages[] = {"float32", "float16", NULL};
+
+const lobe_knob knob_probes = {
+    .name = "probes",
+    .summary = "samples along the longer axis of a pixel's footprint",
+    .kind = LOBE_KNOB_INTEGER,
+    .minimum = 1,
+    .maximum = 16,
+    .initial = 1,
+    .sweep = "2,4",
+};
+const lobe_knob knob_bias = {
+    .name = "bias",
+    .summary = "added to the MIP level: below 0 sharper, above 0 smoother",
+    .minimum = -2,
+    .maximum = 2,
+    .initial = -0.5,
+};
+const lobe_knob knob_curvature = {
+    .name = "curvature",
+    .summary = "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
+    .maximum = 4,
+    .initial = 1,
+    .sweep = "0",
+};
+const lobe_knob knob_storage = {
+    .name = "storage",
+    .summary = "format of filtered maps: float16 halves memory, for kappa below some 200",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 1,
+    .choices = storages,
+    .sweep = "float16",
+};
 
 static const char *const filtered_names[MAP_COUNT] = {
     [MAP_BASE_COLOUR] = "base_colour_filtered",
@@ -119,4 +151,6 @@ void filtered_maps_build(const filter_context *context, uint32_t index,
                           (uint32_t)filter_setting(context, "probes"));
     appearance_specialise_number(appearance, SPECIALISE_LEVEL_BIAS,
                                  (float)filter_setting(context, "bias"));
+    appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
+                                 (float)filter_setting(context, "curvature"));
 }

@@ -25,29 +25,13 @@ lobe_sampler filtered_map_sampler(const device_material *material, uint32_t map)
 /// Half a level less is nearer: error of `lobes` against 64 samples at 640x360, bias 0 and -0.5:
 /// tablecloth 0.1365, 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
 ///
-/// storage: float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs
+/// curvature: 1 is the variance that the interpolated normals have under the pixel's box.
+extern const lobe_knob knob_probes, knob_bias, knob_curvature;
+
+/// The format of maps of numbers that lie between 0 and 1, or are directions.
+/// float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs
 /// 6 % of kappa at 128 and half of it at 1000, where float32 loses 4e-5. In pictures: tablecloth
 /// (kappa 128) 1.3 % apart (relative L2), errors against the reference equal to three digits.
-extern const char *const storage_choices[];
-#define FILTERED_MAP_KNOBS                                                                         \
-    {                                                                                              \
-        "probes",                                                                                  \
-        "samples along the longer axis of a pixel's footprint",                                    \
-        LOBE_KNOB_INTEGER,                                                                         \
-        1,                                                                                         \
-        16,                                                                                        \
-        1,                                                                                         \
-        NULL},                                                                                     \
-        {"bias",                                                                                   \
-         "added to the MIP level: below 0 sharper, above 0 smoother",                              \
-         LOBE_KNOB_NUMBER,                                                                         \
-         -2,                                                                                       \
-         2,                                                                                        \
-         -0.5,                                                                                     \
-         NULL},                                                                                    \
-    {                                                                                              \
-        "storage", "format of filtered maps: float16 halves memory, for kappa below some 200",     \
-            LOBE_KNOB_CHOICE, 0, 1, 0, storage_choices                                             \
-    }
+extern const lobe_knob knob_storage;
 
 #endif

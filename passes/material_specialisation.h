@@ -5,7 +5,7 @@
 
 #include "passes/device_scene.h"
 
-#define MAXIMUM_SPECIALISATIONS 48
+#define MAXIMUM_SPECIALISATIONS 64
 
 typedef struct specialisation_list {
     lobe_specialisation items[MAXIMUM_SPECIALISATIONS];

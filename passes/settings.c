@@ -12,10 +12,20 @@ static const char *const bases[] = {"exact", "lobe", NULL};
 
 // Knobs of every filter, after its own.
 static const lobe_knob shared_knobs[] = {
-    {"view", "what the picture shows: radiance, lobes evaluated, or MIP level", LOBE_KNOB_CHOICE, 0,
-     2, 0, views},
-    {"base", "evaluate base lobes as they are, or turned into von Mises-Fisher lobes first",
-     LOBE_KNOB_CHOICE, 0, 1, 0, bases},
+    {
+        .name = "view",
+        .summary = "what the picture shows: radiance, lobes evaluated, or MIP level",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 2,
+        .choices = views,
+    },
+    {
+        .name = "base",
+        .summary = "evaluate base lobes as they are, or turned into von Mises-Fisher lobes first",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 1,
+        .choices = bases,
+    },
 };
 static const size_t shared_knob_count = sizeof shared_knobs / sizeof *shared_knobs;
 
@@ -65,15 +75,22 @@ bool lobe_filter_supersamples(const lobe_filter *filter) {
     return filter->supersamples;
 }
 
+static size_t own_knob_count(const lobe_filter *filter) {
+    size_t count = 0;
+    while (filter->knobs && filter->knobs[count])
+        ++count;
+    return count;
+}
+
 size_t lobe_filter_knob_count(const lobe_filter *filter) {
-    return filter->knob_count + shared_knob_count;
+    return own_knob_count(filter) + shared_knob_count;
 }
 
 const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index) {
-    if (index < filter->knob_count)
-        return &filter->knobs[index];
-    index -= filter->knob_count;
-    return index < shared_knob_count ? &shared_knobs[index] : NULL;
+    size_t own = own_knob_count(filter);
+    if (index < own)
+        return filter->knobs[index];
+    return index - own < shared_knob_count ? &shared_knobs[index - own] : NULL;
 }
 
 void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {

@@ -27,6 +27,7 @@ layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
+layout(constant_id = SPECIALISE_CURVATURE) const float CURVATURE = 0.0;
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
 layout(set = 0, binding = 3, std140) uniform material_block { material_constants material; };
@@ -54,6 +55,8 @@ struct surface_point {
     vec4 coordinates_dx;     // their change to the next pixel
     vec4 coordinates_dy;
     vec4 colour;
+    vec3 curvature; // covariance (xx, yy, xy) of the interpolated normals under the pixel, in the
+                    // plane of the tangent frame; zero where the knob curvature is 0
 };
 
 bool has_map(int map) {
@@ -62,6 +65,19 @@ bool has_map(int map) {
 
 bool front_side() {
     return gl_FrontFacing != MIRRORED;
+}
+
+// Beyond this variance a pixel holds a silhouette, where derivatives mean nothing.
+const float CURVATURE_MAXIMUM = 0.1;
+
+// Covariance of the macro-surface's normal over the pixel's box: its change from pixel to pixel,
+// taken as linear; a box of width one has the variance 1/12.
+vec3 normal_covariance(vec3 normal, mat3 world_from_tangent) {
+    vec2 dx = (dFdx(normal) * world_from_tangent).xy;
+    vec2 dy = (dFdy(normal) * world_from_tangent).xy;
+    vec3 covariance = (CURVATURE / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
+    float variance = max(covariance.x, covariance.y);
+    return covariance * min(1.0, CURVATURE_MAXIMUM / max(variance, 1e-30));
 }
 
 surface_point read_surface() {
@@ -76,6 +92,10 @@ surface_point read_surface() {
     surface.coordinates_dx = dFdx(interpolated_coordinates);
     surface.coordinates_dy = dFdy(interpolated_coordinates);
     surface.colour = interpolated_colour;
+    surface.curvature = vec3(0.0);
+    if (CURVATURE > 0.0)
+        surface.curvature =
+            normal_covariance(surface.world_from_tangent[2], surface.world_from_tangent);
     return surface;
 }
 

@@ -10,22 +10,53 @@ static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL
 static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
 static const char *const thresholds[] = {"length", "dispersion", NULL};
 
-static const lobe_knob knobs[] = {
-    {"space", "where mixtures are built; auto: as the scene says", LOBE_KNOB_CHOICE, 0, 3, 0,
-     spaces},
-    {"subdivision",
-     "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; auto: as few as serve the "
-     "material's maps as well",
-     LOBE_KNOB_CHOICE, 0, 3, 0, subdivisions},
-    {"threshold",
-     "what is held against epsilon: the length |r|, or the base lobes' share of the "
-     "breadth",
-     LOBE_KNOB_CHOICE, 0, 1, 0, thresholds},
-    {"epsilon0", "below it one lobe becomes four", LOBE_KNOB_NUMBER, 0, 1, 0.95, NULL},
-    {"epsilon1", "below it one of four becomes two", LOBE_KNOB_NUMBER, 0, 1, 0.85, NULL},
-    {"blend", "half width of the transition at a threshold; 0: a switch", LOBE_KNOB_NUMBER, 0, 0.5,
-     0.02, NULL},
-    FILTERED_MAP_KNOBS,
+static const lobe_knob space_knob = {
+    .name = "space",
+    .summary = "where mixtures are built; auto: as the scene says",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 3,
+    .choices = spaces,
+};
+static const lobe_knob subdivision_knob = {
+    .name = "subdivision",
+    .summary = "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; auto: as few as "
+               "serve the material's maps as well",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 3,
+    .choices = subdivisions,
+    .sweep = "0,1,2",
+};
+static const lobe_knob threshold_knob = {
+    .name = "threshold",
+    .summary = "what is held against epsilon: the length |r|, or the base lobes' share of the "
+               "breadth",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 1,
+    .choices = thresholds,
+    .sweep = "dispersion",
+};
+static const lobe_knob epsilon0_knob = {
+    .name = "epsilon0",
+    .summary = "below it one lobe becomes four",
+    .maximum = 1,
+    .initial = 0.95,
+    .sweep = "0.85,0.99",
+};
+static const lobe_knob epsilon1_knob = {
+    .name = "epsilon1",
+    .summary = "below it one of four becomes two",
+    .maximum = 1,
+    .initial = 0.85,
+};
+static const lobe_knob blend_knob = {
+    .name = "blend",
+    .summary = "half width of the transition at a threshold; 0: a switch",
+    .maximum = 0.5,
+    .initial = 0.02,
+};
+static const lobe_knob *const knobs[] = {
+    &space_knob, &subdivision_knob, &threshold_knob, &epsilon0_knob, &epsilon1_knob,
+    &blend_knob, &knob_probes,      &knob_bias,      &knob_storage,  NULL,
 };
 
 /// The space asked for by the user, or else by the material; tangent where the mesh's texture
@@ -167,7 +198,6 @@ const lobe_filter filter_lobes = {
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
     .shading = "lobes",
     .knobs = knobs,
-    .knob_count = sizeof knobs / sizeof *knobs,
     .for_each_instance = for_each_instance,
     .build = build,
     .ignores = ignores,

@@ -3,7 +3,7 @@
 #include "passes/parameter_averaging.h"
 #include "shaders/interface/mixture.h"
 
-static const lobe_knob knobs[] = {FILTERED_MAP_KNOBS};
+static const lobe_knob *const knobs[] = {&knob_probes, &knob_bias, &knob_storage, NULL};
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
     uint32_t index = context->scene->instances[instance].material;
@@ -31,6 +31,5 @@ const lobe_filter filter_mipmap = {
     .paper = "Xu et al. 2017, section 5.2 (naive MIP-mapping)",
     .shading = "mipmap",
     .knobs = knobs,
-    .knob_count = sizeof knobs / sizeof *knobs,
     .build = build,
 };

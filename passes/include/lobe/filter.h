@@ -31,6 +31,9 @@ typedef struct lobe_knob {
     double minimum, maximum;    ///< numbers and integers
     double initial;             ///< default; for a choice the index
     const char *const *choices; ///< NULL-terminated; choices only
+    /// Values worth comparing, as a user would write them, with commas between: what a sweep of
+    /// the benchmark goes through. NULL: none but the default.
+    const char *sweep;
 } lobe_knob;
 
 /// Most knobs a filter may have, the shared ones included.

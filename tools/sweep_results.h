@@ -1,0 +1,94 @@
+#ifndef TOOLS_SWEEP_RESULTS_H
+#define TOOLS_SWEEP_RESULTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+#include "tools/error_metrics.h"
+
+/// What a sweep of the benchmark measures: every filter, over the values of its knobs, in every
+/// scene. `lobe bench --sweep` writes it, `lobe report` draws it, `lobe render --budget` and
+/// `--error` choose by it. As JSON each structure is an object with members of the same names.
+
+/// All passes of one name in a frame.
+typedef struct sweep_pass {
+    char name[64];
+    double milliseconds; ///< median over the frames
+    uint32_t count;
+    bool building; ///< builds maps; else it is paid in every frame
+    /// Bytes that the pass must read and write, each texel once; 0 where that is not known.
+    double bytes;
+    double copy_milliseconds; ///< a plain device copy of as many bytes, in the same run; 0: none
+} sweep_pass;
+
+/// A knob and its value, as a user would write them.
+typedef struct sweep_setting {
+    char name[32], value[32];
+} sweep_setting;
+
+/// One filter with one choice of knobs in one scene.
+typedef struct sweep_row {
+    char *scene;
+    char *filter;
+    sweep_setting *settings; ///< every knob of the filter
+    size_t setting_count;
+    /// The knob whose value is not the default; "" in the row of the defaults.
+    char varied[32];
+    // Milliseconds, medians and 95th percentiles over the frames.
+    double rebuilt_ms, rebuilt_p95_ms;   ///< every map built in the frame
+    double retained_ms, retained_p95_ms; ///< no map built
+    double building_ms, shading_ms;      ///< parts of rebuilt_ms: passes that build, all others
+    sweep_pass *passes;                  ///< of a frame in which every map is built
+    size_t pass_count;
+    uint64_t memory_bytes;
+    double bytes_per_texel;
+    error_metrics error;           ///< of the still picture against the reference
+    error_metrics error_lobe_base; ///< against one whose base lobes were converted first
+    /// Along the path: |(a' - a) - (r' - r)| / |r|, relative L2 over all pairs of frames, a and a'
+    /// the filter's, r and r' the reference's. Negative where it was not measured.
+    double flicker;
+    /// EXR file of the still picture, relative to the JSON file; NULL where none was kept.
+    char *picture;
+} sweep_row;
+
+typedef struct sweep_scene {
+    char *name;
+    uint64_t triangles;
+    char *reference; ///< EXR file of the reference, relative to the JSON file
+    char *skipped;   ///< why the scene was not measured; NULL: it was
+} sweep_scene;
+
+typedef struct sweep_results {
+    char *version;                            ///< of lobe
+    char *device, *driver, *device_type;      ///< as lobe_device_describe has them
+    uint32_t size[2];                         ///< pixels
+    uint32_t reference_samples, path_samples; ///< a pixel
+    uint32_t frames;                          ///< timed of each row
+    bool complete;                            ///< false: it was interrupted, and can go on
+    sweep_scene *scenes;
+    size_t scene_count;
+    sweep_row *rows;
+    size_t row_count;
+} sweep_results;
+
+/// Reads what sweep_results_write wrote; unknown members are passed over. On failure `*results` is
+/// zero. Free with sweep_results_free.
+/// Errors: LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (the line names the file and the member),
+/// LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result sweep_results_read(const char *path, const lobe_log *log, sweep_results *results);
+
+/// Writes JSON, whole or not at all.
+lobe_result sweep_results_write(const char *path, const sweep_results *results,
+                                const lobe_log *log);
+
+void sweep_results_free(sweep_results *results);
+
+/// The row of a scene and filter at its defaults; NULL where there is none.
+const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
+                                       const char *filter);
+
+#endif
