@@ -93,8 +93,10 @@ static lobe_result check_texture(const lobe_scene *scene, const char *material,
 lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lobe_log *log) {
     const lobe_material *material = &scene->materials[index];
     const lobe_texture_use *uses[] = {
-        &material->base_colour_map,        &material->normal_map, &material->emissive_map,
-        &material->metallic_roughness_map, &material->width_map,  &material->specular_map,
+        &material->base_colour_map, &material->normal_map,
+        &material->emissive_map,    &material->metallic_roughness_map,
+        &material->width_map,       &material->specular_map,
+        &material->height_map,
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
         lobe_result result = check_texture(scene, material->name, uses[i], log);

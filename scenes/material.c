@@ -9,6 +9,7 @@ void lobe_material_default(lobe_material *material) {
         .base_colour_map = LOBE_TEXTURE_NONE,
         .normal_map = LOBE_TEXTURE_NONE,
         .normal_scale = 1,
+        .height_map = LOBE_TEXTURE_NONE,
         .emissive_map = LOBE_TEXTURE_NONE,
         .occlusion_map = LOBE_TEXTURE_NONE,
         .occlusion_strength = 1,

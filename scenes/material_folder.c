@@ -16,6 +16,9 @@
 // What stands in for a map that the folder lacks.
 static const float default_grey = 0.5f, default_roughness = 0.5f;
 
+// No file says how deep its relief is; this is a usual one for stone, bark and cloth.
+static const float default_height_scale = 0.05f;
+
 typedef struct material_folder {
     const char *path;
     const lobe_log *log;
@@ -121,6 +124,16 @@ static lobe_result add_normals(material_folder *folder) {
     return attach(folder, folder->files[map], &image, &folder->material.normal_map);
 }
 
+static lobe_result add_heights(material_folder *folder) {
+    lobe_image image;
+    lobe_result status = load(folder, MATERIAL_MAP_DISPLACEMENT, SCENE_IMAGE_DATA, &image);
+    if (status || !image.texels)
+        return status;
+    folder->material.height_scale = default_height_scale;
+    return attach(folder, folder->files[MATERIAL_MAP_DISPLACEMENT], &image,
+                  &folder->material.height_map);
+}
+
 // One image with roughness and metallic in their channels, as glTF wants them.
 static lobe_result add_packed(material_folder *folder) {
     lobe_material *material = &folder->material;
@@ -186,14 +199,13 @@ static lobe_result add_material(material_folder *folder) {
     if (folder->files[MATERIAL_MAP_EMISSIVE])
         for (int channel = 0; channel < 3; channel++)
             material->emissive[channel] = 1;
-    if (folder->files[MATERIAL_MAP_DISPLACEMENT])
-        lobe_log_print(folder->log, LOBE_LOG_DEBUG, "%s/%s: displacement is not used", folder->path,
-                       folder->files[MATERIAL_MAP_DISPLACEMENT]);
     lobe_result status = add_colour(folder, MATERIAL_MAP_ALBEDO, &material->base_colour_map);
     if (!status)
         status = add_colour(folder, MATERIAL_MAP_EMISSIVE, &material->emissive_map);
     if (!status)
         status = add_normals(folder);
+    if (!status)
+        status = add_heights(folder);
     if (!status)
         status = add_roughness_and_metallic(folder);
     if (!status)

@@ -107,7 +107,7 @@ void scene_check(const lobe_scene *scene) {
         const lobe_texture_use *uses[] = {
             &material->base_colour_map, &material->normal_map, &material->emissive_map,
             &material->occlusion_map,   &material->width_map,  &material->metallic_roughness_map,
-            &material->specular_map};
+            &material->specular_map,    &material->height_map};
         for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
             check_use(scene, uses[k]);
     }

@@ -118,10 +118,10 @@ static void separate_maps_are_packed(void **state) {
     write_image(fixture, "Wall_Roughness.png", 2, 6, 90, 90, 90);
     write_image(fixture, "Wall_Metalness.png", 5, 3, 200, 200, 200);
     write_image(fixture, "Wall_AmbientOcclusion.png", 1, 1, 60, 60, 60);
-    write_image(fixture, "Wall_Displacement.png", 1, 1, 60, 60, 60);
+    write_image(fixture, "Wall_Displacement.png", 1, 1, 70, 70, 70);
     write_text(fixture, "Wall_normal.txt", "not an image");
     const lobe_material *material = must_open(fixture, LOBE_CARRIER_PLANE);
-    assert_int_equal(fixture->scene->image_count, 4);
+    assert_int_equal(fixture->scene->image_count, 5);
     assert_int_equal(material->model, LOBE_MATERIAL_MICROFACET);
     const lobe_image *albedo = image_of(fixture, &material->base_colour_map);
     assert_int_equal(albedo->format, LOBE_FORMAT_RGBA8_SRGB);
@@ -134,6 +134,8 @@ static void separate_maps_are_packed(void **state) {
     assert_true(packed->width == 5 && packed->height == 6);
     assert_texel(packed, 255, 90, 200);
     assert_texel(image_of(fixture, &material->occlusion_map), 60, 60, 60);
+    assert_texel(image_of(fixture, &material->height_map), 70, 70, 70);
+    assert_true(material->height_scale > 0);
     assert_true(material->roughness == 1 && material->metallic == 1);
     for (int i = 0; i < 3; i++)
         assert_true(material->base_colour[i] == 1 && material->emissive[i] == 0);
@@ -181,6 +183,7 @@ static void missing_maps_become_factors(void **state) {
     assert_true(material->metallic == 1 && material->roughness == 0.5f);
     assert_int_equal(material->metallic_roughness_map.image, -1);
     assert_int_equal(material->base_colour_map.image, -1);
+    assert_true(material->height_map.image == -1 && material->height_scale == 0);
     write_image(fixture, "albedo.png", 2, 2, 1, 2, 3);
     material = must_open(fixture, LOBE_CARRIER_PLANE);
     assert_true(material->base_colour[0] == 1 && material->metallic == 0);
@@ -272,15 +275,15 @@ static void real_sets_are_understood(void **state) {
     static const struct {
         const char *folder;
         size_t images;
-        bool albedo, normal, packed, occlusion;
+        bool albedo, normal, packed, occlusion, height;
     } sets[] = {
-        {"ambientcg_Bark014", 3, true, true, true, false},
-        {"ambientcg_Metal053C", 3, true, true, true, false},
-        {"ambientcg_Rock058", 3, true, true, true, false},
-        {"godot_tps", 1, false, true, false, false},
-        {"godot_wool", 2, true, true, false, false},
-        {"materialx_brick", 3, true, true, true, false},
-        {"polyhaven_fabric_pattern_07", 3, true, true, true, true},
+        {"ambientcg_Bark014", 4, true, true, true, false, true},
+        {"ambientcg_Metal053C", 4, true, true, true, false, true},
+        {"ambientcg_Rock058", 4, true, true, true, false, true},
+        {"godot_tps", 1, false, true, false, false, false},
+        {"godot_wool", 3, true, true, false, false, true},
+        {"materialx_brick", 3, true, true, true, false, false},
+        {"polyhaven_fabric_pattern_07", 3, true, true, true, true, false},
     };
     folder_fixture *fixture = *state;
     const char *assets = LOBE_TEST_ASSETS;
@@ -302,6 +305,7 @@ static void real_sets_are_understood(void **state) {
         assert_int_equal(material->normal_map.image >= 0, sets[i].normal);
         assert_int_equal(material->metallic_roughness_map.image >= 0, sets[i].packed);
         assert_int_equal(material->occlusion_map.image >= 0, sets[i].occlusion);
+        assert_int_equal(material->height_map.image >= 0, sets[i].height);
         lobe_scene_destroy(&scene);
     }
 }

@@ -90,6 +90,13 @@ typedef struct lobe_material {
     /// Concentration kappa_N of the normals inside one texel of the normal map; each base lobe is
     /// convolved with it (Xu et al. 2017, Eqs. 11-14). 0: none, the texel's normal is exact.
     float normal_concentration;
+    lobe_texture_use height_map; ///< red: height outwards [0, 1]; read by filters that take moments
+                                 ///< of its slopes, never in place of a normal map by others
+    /// What the range [0, 1] of the height map spans, as a part of the map's own width in the world
+    /// (the length over which u grows by 1): the relief scales with the map, as that of a normal
+    /// map does. Texels are taken to be square. Of a map w texels wide, neighbouring texels that
+    /// differ by d have a slope of height_scale * w * d. Negative: heights are depths. 0: none.
+    float height_scale;
     float emissive[3]; ///< linear RGB radiance
     lobe_texture_use emissive_map;
     lobe_texture_use occlusion_map; ///< red; scales indirect light only
