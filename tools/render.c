@@ -325,6 +325,7 @@ static int run(int argc, char **argv) {
         view_option_eye(&request.view),
         view_option_target(&request.view),
         view_option_field_of_view(&request.view),
+        view_option_path(&request.view),
         view_option_light(&request.view),
         {.name = "frames",
          .kind = OPTION_INTEGER,

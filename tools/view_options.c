@@ -33,6 +33,18 @@ option view_option_field_of_view(view_options *options) {
                     .maximum = 170};
 }
 
+option view_option_path(view_options *options) {
+    return (option){.name = "path",
+                    .kind = OPTION_NUMBER,
+                    .argument = "PART",
+                    .summary = "how far the camera has gone along its path: from 0 to 1/2 it zooms "
+                               "out by 64, then it comes back to 8 and turns once around",
+                    .target = &options->path,
+                    .fallback = "0",
+                    .minimum = 0,
+                    .maximum = 1};
+}
+
 option view_option_light(view_options *options) {
     return (option){.name = "light",
                     .kind = OPTION_LIST,
@@ -137,6 +149,8 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     // What one looks at closely must not be cut away by a plane meant for another distance.
     if (options->has_eye || options->has_target)
         camera.near_plane = fminf(camera.near_plane, (float)(1e-3 * reach));
+    scene->camera = camera;
+    lobe_scene_path(scene, options->path, &camera);
     scene->camera = camera;
     if (lights) {
         free(scene->lights);

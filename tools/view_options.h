@@ -11,6 +11,7 @@
 typedef struct view_options {
     float eye[3], target[3];
     double field_of_view; ///< vertical, degrees
+    double path;          ///< part of the scene's path [0, 1]
     bool has_eye, has_target, has_field_of_view;
     option_list lights; ///< see view_option_light
 } view_options;
@@ -19,6 +20,7 @@ typedef struct view_options {
 option view_option_eye(view_options *options);
 option view_option_target(view_options *options);
 option view_option_field_of_view(view_options *options);
+option view_option_path(view_options *options);
 option view_option_light(view_options *options);
 
 /// Reads the lights' texts. On success `*lights` (NULL where there are none) is to free() by the

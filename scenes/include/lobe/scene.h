@@ -193,6 +193,17 @@ typedef struct lobe_scene {
 /// as large as fits into a picture of this aspect (width / height, above 0). Bounds must be set.
 void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera);
 
+/// A camera on the scene's path, on which measurements over time are taken. `part` [0, 1] says how
+/// far along (clamped; NaN is 0). The target stays where it is.
+/// - From 0 to 1/2 the path zooms out: the distance from target to eye grows exponentially, to 64
+///   times that of the scene's own camera, which is what part 0 gives.
+/// - From 1/2 to 3/4 the distance shrinks at the same pace to 8 times that, and stays so until 1.
+///   Meanwhile, from 1/2 to 1, the eye turns once around the vertical (+Y) through the target, at
+///   constant speed, counter-clockwise as seen from above, and the up vector with it.
+/// The near plane's distance and an orthographic camera's height grow and shrink with the distance.
+/// The eye moves continuously. `scene->camera` must be set, with eye and target apart.
+void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera);
+
 /// Frees all and clears the pointer. NULL is fine.
 void lobe_scene_destroy(lobe_scene **scene);
 

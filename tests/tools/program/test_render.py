@@ -142,11 +142,14 @@ def test_camera():
     folder = fresh_folder("camera")
     camera = ["--eye", "0,2,2", "--target", "0,0,0"]
     for name, options in {"scene": [], "moved": camera, "again": camera,
-                          "wide": [*camera, "--fov", "80"]}.items():
+                          "wide": [*camera, "--fov", "80"], "path": [*camera, "--path", "0.25"],
+                          "away": ["--eye", "0,16,16", "--target", "0,0,0"]}.items():
         succeeds("render", "bumps", *DIRECT, *options, "-o", folder / f"{name}.exr")
     check(compare(folder / "again.exr", folder / "moved.exr")["rmse"] == 0, "not reproducible")
     check(compare(folder / "moved.exr", folder / "scene.exr")["rmse"] > 0, "the eye does nothing")
     check(compare(folder / "wide.exr", folder / "moved.exr")["rmse"] > 0, "--fov does nothing")
+    error = compare(folder / "path.exr", folder / "away.exr")["relative_l2"]
+    check(error < 1e-4, f"--path 0.25 is not 8 times as far: {error}")
 
 
 def test_exposure():

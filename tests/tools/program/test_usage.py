@@ -104,6 +104,7 @@ def test_numbers_out_of_range():
     for option, values in {"samples": ["0", "4097", "-1", "many", "1e3", "99999999999"],
                            "frames": ["0", "100001", "2.5"],
                            "fov": ["0", "180", "wide", "nan"],
+                           "path": ["-0.1", "1.1", "half"],
                            "exposure": ["101", "inf"],
                            "depth": ["double", ""],
                            "carrier": ["cube"],
