@@ -12,7 +12,9 @@
 
 /// What a sweep of the benchmark measures: every filter, over the values of its knobs, in every
 /// scene. `lobe bench --sweep` writes it, `lobe report` draws it, `lobe render --budget` and
-/// `--error` choose by it. As JSON each structure is an object with members of the same names.
+/// `--error` choose by it. As JSON each structure is an object with members of the same names, an
+/// array is a list without its count. JSON has no infinity: a number that is not finite is null
+/// there, and read as NAN. Of other numbers six digits are kept, of whole numbers all.
 
 /// All passes of one name in a frame.
 typedef struct sweep_pass {
@@ -22,7 +24,8 @@ typedef struct sweep_pass {
     bool building; ///< builds maps; else it is paid in every frame
     /// Bytes that the pass must read and write, each texel once; 0 where that is not known.
     double bytes;
-    double copy_milliseconds; ///< a plain device copy of as many bytes, in the same run; 0: none
+    /// A plain device copy that reads and writes as many bytes together, in the same run; 0: none.
+    double copy_milliseconds;
 } sweep_pass;
 
 /// A knob and its value, as a user would write them.
@@ -44,8 +47,8 @@ typedef struct sweep_row {
     double building_ms, shading_ms;      ///< parts of rebuilt_ms: passes that build, all others
     sweep_pass *passes;                  ///< of a frame in which every map is built
     size_t pass_count;
-    uint64_t memory_bytes;
-    double bytes_per_texel;
+    uint64_t memory_bytes;         ///< most device memory in use: scene, maps and frame
+    double bytes_per_texel;        ///< of filtered maps, for each texel of base maps; 0: no maps
     error_metrics error;           ///< of the still picture against the reference
     error_metrics error_lobe_base; ///< against one whose base lobes were converted first
     /// Along the path: |(a' - a) - (r' - r)| / |r|, relative L2 over all pairs of frames, a and a'
@@ -56,9 +59,9 @@ typedef struct sweep_row {
 } sweep_row;
 
 typedef struct sweep_scene {
-    char *name;
+    char *name; ///< as the user gave it
     uint64_t triangles;
-    char *reference; ///< EXR file of the reference, relative to the JSON file
+    char *reference; ///< EXR file of the reference, relative to the JSON file; NULL: none
     char *skipped;   ///< why the scene was not measured; NULL: it was
 } sweep_scene;
 
@@ -67,28 +70,41 @@ typedef struct sweep_results {
     char *device, *driver, *device_type;      ///< as lobe_device_describe has them
     uint32_t size[2];                         ///< pixels
     uint32_t reference_samples, path_samples; ///< a pixel
+    uint32_t stations;                        ///< pairs of frames along the path
     uint32_t frames;                          ///< timed of each row
     bool complete;                            ///< false: it was interrupted, and can go on
     sweep_scene *scenes;
     size_t scene_count;
-    sweep_row *rows;
+    sweep_row *rows; ///< those of a scene stand together, a filter's defaults before its others
     size_t row_count;
 } sweep_results;
 
 /// Reads what sweep_results_write wrote; unknown members are passed over. On failure `*results` is
 /// zero. Free with sweep_results_free.
-/// Errors: LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (the line names the file and the member),
-/// LOBE_ERROR_OUT_OF_MEMORY.
+/// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (the line names the file
+/// and the member), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result sweep_results_read(const char *path, const lobe_log *log, sweep_results *results);
 
-/// Writes JSON, whole or not at all.
+/// Writes JSON, whole or not at all. Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result sweep_results_write(const char *path, const sweep_results *results,
                                 const lobe_log *log);
 
+/// Frees all that `*results` points to, each text and list a block of malloc, and zeroes it.
 void sweep_results_free(sweep_results *results);
+/// The same for one of its parts.
+void sweep_row_free(sweep_row *row);
+void sweep_scene_free(sweep_scene *scene);
+
+/// A scene by name; NULL where there is none.
+const sweep_scene *sweep_results_scene(const sweep_results *results, const char *name);
 
 /// The row of a scene and filter at its defaults; NULL where there is none.
 const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
                                        const char *filter);
+
+/// The row with exactly these settings, in any order; NULL where there is none.
+const sweep_row *sweep_results_row(const sweep_results *results, const char *scene,
+                                   const char *filter, const sweep_setting *settings,
+                                   size_t setting_count);
 
 #endif
