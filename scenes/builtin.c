@@ -11,6 +11,8 @@ static const builtin_scene table[] = {
      builtin_bumps},
     {{"tablecloth", "a draped cloth with two lobes at 45 degrees and a noise normal map"},
      builtin_tablecloth},
+    {{"pillow", "a cushion of brocade, woven of sharp silk one way and broad gold the other"},
+     builtin_pillow},
 };
 
 size_t lobe_builtin_scene_count(void) {
@@ -45,12 +47,12 @@ lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lob
                             int32_t *index) {
     lobe_image image;
     uint32_t added;
-    lobe_result status = lobe_image_allocate(&image, map->format, map->extent, map->extent, log);
+    lobe_result status = lobe_image_allocate(&image, map->format, map->width, map->height, log);
     if (status)
         return status;
     uint8_t *texel = image.texels;
-    for (uint32_t row = 0; row < map->extent; row++)
-        for (uint32_t column = 0; column < map->extent; column++) {
+    for (uint32_t row = 0; row < map->height; row++)
+        for (uint32_t column = 0; column < map->width; column++) {
             map->fill(column, row, texel);
             texel += lobe_format_size(map->format);
         }

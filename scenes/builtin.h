@@ -25,11 +25,11 @@ typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_log *log);
 lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, const lobe_log *log,
                                    lobe_scene **scene);
 
-/// A square map whose texels are told one by one.
+/// A map whose texels are told one by one.
 typedef struct builtin_map {
     const char *name;
     lobe_format format;
-    uint32_t extent; ///< texels
+    uint32_t width, height; ///< texels
     void (*fill)(uint32_t column, uint32_t row, void *texel);
 } builtin_map;
 
@@ -39,5 +39,6 @@ lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lob
 lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_pillow(const lobe_log *log, lobe_scene **scene);
 
 #endif

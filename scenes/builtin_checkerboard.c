@@ -31,9 +31,9 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
 
 static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     static const builtin_map widths = {"checkerboard widths", LOBE_FORMAT_R32_FLOAT, MAP_EXTENT,
-                                       fill_width};
+                                       MAP_EXTENT, fill_width};
     static const builtin_map colours = {"checkerboard colours", LOBE_FORMAT_RGBA8_SRGB, MAP_EXTENT,
-                                        fill_colour};
+                                        MAP_EXTENT, fill_colour};
     lobe_material material;
     lobe_material_default(&material);
     lobe_result status = builtin_add_map(scene, &widths, log, &material.width_map.image);

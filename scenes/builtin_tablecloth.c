@@ -55,9 +55,9 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
 
 static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     static const builtin_map normals = {"tablecloth normals", LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT,
-                                        fill_normal};
+                                        MAP_EXTENT, fill_normal};
     static const builtin_map colours = {"tablecloth colours", LOBE_FORMAT_RGBA8_SRGB, COLOUR_EXTENT,
-                                        fill_colour};
+                                        COLOUR_EXTENT, fill_colour};
     const float half_root = 0.70710678f;
     lobe_material material;
     lobe_material_default(&material);

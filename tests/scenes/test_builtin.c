@@ -22,23 +22,29 @@ static const lobe_image *image_of(const lobe_scene *scene, const lobe_texture_us
     return &scene->images[use->image].image;
 }
 
-static void assert_extent(const lobe_image *image, lobe_format format, uint32_t extent) {
+static void assert_size(const lobe_image *image, lobe_format format, uint32_t width,
+                        uint32_t height) {
     assert_int_equal(image->format, format);
-    assert_int_equal(image->width, extent);
-    assert_int_equal(image->height, extent);
+    assert_int_equal(image->width, width);
+    assert_int_equal(image->height, height);
 }
 
-static void the_table_lists_three_scenes(void **state) {
+static void assert_extent(const lobe_image *image, lobe_format format, uint32_t extent) {
+    assert_size(image, format, extent, extent);
+}
+
+static void the_table_lists_the_scenes(void **state) {
     (void)state;
-    static const char *const names[] = {"checkerboard", "bumps", "tablecloth"};
-    assert_int_equal(lobe_builtin_scene_count(), 3);
-    for (size_t i = 0; i < 3; i++) {
+    static const char *const names[] = {"checkerboard", "bumps", "tablecloth", "pillow"};
+    const size_t count = sizeof names / sizeof *names;
+    assert_int_equal(lobe_builtin_scene_count(), count);
+    for (size_t i = 0; i < count; i++) {
         const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
         assert_string_equal(scene->name, names[i]);
         assert_true(strlen(scene->summary) > 20 && !strchr(scene->summary, '\n'));
         assert_string_equal(builtin_scene_find(names[i])->description.name, names[i]);
     }
-    assert_null(lobe_builtin_scene_get(3));
+    assert_null(lobe_builtin_scene_get(count));
     assert_null(builtin_scene_find("teapot"));
     assert_null(builtin_scene_find(""));
     lobe_scene *opened = NULL;
@@ -53,7 +59,7 @@ static void every_scene_is_sound(void **state) {
         const char *name = lobe_builtin_scene_get(i)->name;
         lobe_scene *scene = build(name);
         assert_string_equal(scene->name, name);
-        assert_true(scene->light_count >= 2 && scene->light_count <= 3);
+        assert_true(scene->light_count >= 2 && scene->light_count <= 4);
         scene_check(scene);
         lobe_scene_destroy(&scene);
     }
@@ -81,6 +87,7 @@ static void every_machine_makes_these_bytes(void **state) {
         {"checkerboard", 0x7e52d90864b27576},
         {"bumps", 0xb56df8d6b67c3308},
         {"tablecloth", 0xd79e3f2d2d81abbd},
+        {"pillow", 0x5b45f63a2d50c032},
     };
     int different = 0;
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
@@ -131,16 +138,18 @@ static void checkerboard_has_two_widths_in_equal_parts(void **state) {
 // across its edges.
 static double step_over_edge(const lobe_image *image, bool rows, bool edge) {
     const uint8_t *texels = image->texels;
-    uint32_t extent = image->width;
+    uint32_t extent = rows ? image->height : image->width;
+    uint32_t count = rows ? image->width : image->height;
+    size_t stride = image->width;
     double sum = 0;
-    for (uint32_t i = 0; i < extent; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         uint32_t a = edge ? extent - 1 : extent / 3, b = edge ? 0 : extent / 3 + 1;
-        size_t from = (rows ? (size_t)a * extent + i : (size_t)i * extent + a) * 4;
-        size_t to = (rows ? (size_t)b * extent + i : (size_t)i * extent + b) * 4;
+        size_t from = (rows ? a * stride + i : i * stride + a) * 4;
+        size_t to = (rows ? b * stride + i : i * stride + b) * 4;
         for (int channel = 0; channel < 3; channel++)
             sum += pow(texels[from + channel] - texels[to + channel], 2);
     }
-    return sqrt(sum / extent);
+    return sqrt(sum / count);
 }
 
 // An edge that did not fit would jump by far more than neighbours in the middle do.
@@ -295,38 +304,114 @@ static double area(double a[2], double b[2], double c[2]) {
     return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
 }
 
-static void tablecloth_fills_the_picture_with_small_texels(void **state) {
-    (void)state;
-    lobe_scene *scene = build("tablecloth");
-    const lobe_mesh *mesh = &scene->meshes[0];
+typedef struct coverage {
+    double seen;    // pixels
+    double fitting; // of them, those under which texels lie in the range
+} coverage;
+
+// Measures fronts of a mesh that lie in the picture; one unit of the coordinates is a map of
+// `width` x `height` texels. Texels a pixel are told along one axis of the pixel.
+static coverage measure_texels(const lobe_scene *scene, const lobe_instance *instance, double width,
+                               double height, double least, double most) {
+    const lobe_mesh *mesh = &scene->meshes[instance->mesh];
     projection view = look(&scene->camera);
-    double seen = 0, fitting = 0;
+    coverage found = {0};
     for (size_t i = 0; i < mesh->index_count; i += 3) {
         double pixel[3][2] = {{0}}, texel[3][2];
         bool inside = true;
         for (int k = 0; k < 3; k++) {
             const lobe_scene_vertex *vertex = &mesh->vertices[mesh->indices[i + k]];
-            inside &= project(&view, vertex->position, pixel[k]);
-            for (int axis = 0; axis < 2; axis++)
-                texel[k][axis] = vertex->texture_coordinates[0][axis] * 1024.0;
+            float position[3];
+            vector3_store(vector3_transform(instance->transform, vector3_load(vertex->position)),
+                          position);
+            inside &= project(&view, position, pixel[k]);
+            texel[k][0] = vertex->texture_coordinates[0][0] * width;
+            texel[k][1] = vertex->texture_coordinates[0][1] * height;
         }
         // Rows of pixels run downwards: a front is clockwise.
         double pixels = -area(pixel[0], pixel[1], pixel[2]);
         if (!inside || pixels <= 0)
             continue;
         double texels_a_pixel = sqrt(fabs(area(texel[0], texel[1], texel[2])) / pixels);
-        seen += pixels;
-        if (texels_a_pixel > 2 && texels_a_pixel < 16)
-            fitting += pixels;
+        found.seen += pixels;
+        if (texels_a_pixel > least && texels_a_pixel < most)
+            found.fitting += pixels;
     }
-    assert_true(seen > 0.6 * 1280 * 720);
-    assert_true(fitting > 0.9 * seen);
+    return found;
+}
+
+static void tablecloth_fills_the_picture_with_small_texels(void **state) {
+    (void)state;
+    lobe_scene *scene = build("tablecloth");
+    coverage found = measure_texels(scene, &scene->instances[0], 1024, 1024, 2, 16);
+    assert_true(found.seen > 0.6 * 1280 * 720);
+    assert_true(found.fitting > 0.9 * found.seen);
+    lobe_scene_destroy(&scene);
+}
+
+static void pillow_is_woven_of_sharp_and_broad_threads(void **state) {
+    (void)state;
+    lobe_scene *scene = build("pillow");
+    const lobe_material *material = &scene->materials[0];
+    assert_int_equal(material->model, LOBE_MATERIAL_HALF_VECTOR_LOBES);
+    assert_int_equal(material->distribution, LOBE_DISTRIBUTION_BLINN_PHONG);
+    assert_int_equal(material->lobe_count, 1);
+    assert_true(material->lobes[0].direction[2] == 1 && material->lobes[0].width == 1);
+    const lobe_image *exponents = image_of(scene, &material->width_map);
+    const lobe_image *specular = image_of(scene, &material->specular_map);
+    assert_size(exponents, LOBE_FORMAT_R32_FLOAT, 2048, 1024);
+    assert_size(specular, LOBE_FORMAT_RGBA8_SRGB, 2048, 1024);
+    assert_size(image_of(scene, &material->base_colour_map), LOBE_FORMAT_RGBA8_SRGB, 2048, 1024);
+    const float *exponent = exponents->texels;
+    const uint8_t *colour = specular->texels;
+    size_t sharp = 0;
+    for (size_t i = 0; i < 2048 * 1024; i++) {
+        // Two kinds of thread, far apart in both parameters.
+        bool is_sharp = exponent[i] > 100;
+        assert_true(is_sharp ? exponent[i] < 200 : exponent[i] > 5 && exponent[i] < 12);
+        assert_true(is_sharp == (colour[4 * i + 2] > 0.7 * colour[4 * i]));
+        sharp += is_sharp;
+        // All of a crossing of threads shows the one on top.
+        assert_true(is_sharp == (exponent[i & ~(size_t)3] > 100));
+    }
+    assert_in_range(sharp, 2048 * 1024 * 5 / 10, 2048 * 1024 * 7 / 10);
+    lobe_scene_destroy(&scene);
+}
+
+static void pillow_is_a_closed_cushion_on_the_ground(void **state) {
+    (void)state;
+    lobe_scene *scene = build("pillow");
+    const lobe_mesh *upper = &scene->meshes[0], *lower = &scene->meshes[1];
+    assert_int_equal(upper->vertex_count, lower->vertex_count);
+    size_t side = (size_t)(sqrt((double)upper->vertex_count) + 0.5), seam = 0;
+    for (size_t i = 0; i < upper->vertex_count; i++) {
+        size_t row = i / side, column = i % side;
+        const float *above = upper->vertices[i].position;
+        const float *below = lower->vertices[row * side + side - 1 - column].position;
+        assert_true(fabsf(above[0] - below[0]) < 1e-6f && fabsf(above[2] - below[2]) < 1e-6f);
+        bool edge = row == 0 || row == side - 1 || column == 0 || column == side - 1;
+        assert_true(edge ? fabsf(above[1] - below[1]) < 1e-6f : above[1] > below[1]);
+        seam += edge;
+    }
+    assert_int_equal(seam, 4 * (side - 1));
+    assert_true(upper->maximum[1] > 0.08f && upper->maximum[0] < 0.25f);
+    float ground = scene->instances[0].transform[13] + lower->minimum[1];
+    assert_true(ground > -0.005f && ground < 0.002f);
+    lobe_scene_destroy(&scene);
+}
+
+static void pillow_has_several_texels_under_a_pixel(void **state) {
+    (void)state;
+    lobe_scene *scene = build("pillow");
+    coverage found = measure_texels(scene, &scene->instances[0], 2048, 1024, 3, 10);
+    assert_true(found.seen > 0.25 * 1280 * 720);
+    assert_true(found.fitting > 0.9 * found.seen);
     lobe_scene_destroy(&scene);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_table_lists_three_scenes),
+        cmocka_unit_test(the_table_lists_the_scenes),
         cmocka_unit_test(every_scene_is_sound),
         cmocka_unit_test(building_twice_gives_the_same_bytes),
         cmocka_unit_test(every_machine_makes_these_bytes),
@@ -336,6 +421,9 @@ int main(void) {
         cmocka_unit_test(tablecloth_has_two_lobes_at_45_degrees),
         cmocka_unit_test(tablecloth_lies_on_its_table),
         cmocka_unit_test(tablecloth_fills_the_picture_with_small_texels),
+        cmocka_unit_test(pillow_is_woven_of_sharp_and_broad_threads),
+        cmocka_unit_test(pillow_is_a_closed_cushion_on_the_ground),
+        cmocka_unit_test(pillow_has_several_texels_under_a_pixel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
