@@ -11,6 +11,7 @@
 #include "engine/graph_report.h"
 #include "engine/graph_retain.h"
 #include "engine/graph_signature.h"
+#include "engine/graph_traffic.h"
 #include "engine/vulkan_check.h"
 
 #define LINE_SIZE 1024
@@ -157,6 +158,7 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
     engine_graph_place_retained,   // memory of their own
     engine_graph_place_transients, // memory shared between those not alive together
     derive_barriers,               // transitions, and waits for former tenants of the memory
+    engine_graph_count_traffic,    // what each pass must read and write
     engine_graph_report_compiled,
 };
 

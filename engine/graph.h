@@ -157,6 +157,7 @@ struct lobe_pass {
     VkExtent2D extent; ///< of the attachments
     uint32_t samples;
     double milliseconds;
+    uint64_t read_bytes, written_bytes;
 };
 
 typedef enum engine_graph_phase {

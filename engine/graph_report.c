@@ -10,7 +10,9 @@ static void add_pass(lobe_graph *graph, uint32_t index) {
         (lobe_pass_report){.name = pass->name,
                            .kind = pass->kind,
                            .state = graph->dependencies.passes[index].state,
-                           .milliseconds = pass->milliseconds};
+                           .milliseconds = pass->milliseconds,
+                           .read_bytes = pass->read_bytes,
+                           .written_bytes = pass->written_bytes};
 }
 
 static lobe_result list_passes(lobe_graph *graph) {

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "engine/graph_traffic.h"
+
 static const engine_access_state copy_source = {
     .stages = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
     .access = VK_ACCESS_2_TRANSFER_READ_BIT,
@@ -98,16 +100,6 @@ void lobe_graph_output(lobe_graph *graph, lobe_resource resource) {
         engine_graph_fail_dependency(graph);
 }
 
-static uint64_t range_bytes(const engine_graph_resource *resource, const lobe_range *range) {
-    if (!resource->is_image)
-        return resource->size;
-    uint64_t texels = 0;
-    for (uint32_t n = 0; n < range->level_count; n++)
-        texels += (uint64_t)level_extent(resource->width, range->first_level + n) *
-                  level_extent(resource->height, range->first_level + n);
-    return texels * range->layer_count * lobe_format_size(resource->format);
-}
-
 /// A pass of the graph's own, so that dependencies and barriers need no special case.
 void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range) {
     if (!engine_graph_may_declare(graph, "a read back"))
@@ -125,8 +117,8 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
     command->source_access = transfer_access(pass, &resource, range, false);
     if (graph->result != LOBE_OK)
         return;
-    command->read_back_size =
-        range_bytes(source, &graph->dependencies.accesses[command->source_access].range);
+    command->read_back_size = engine_graph_range_bytes(
+        source, &graph->dependencies.accesses[command->source_access].range);
     if (source->is_image && source->samples > 1)
         engine_graph_fail(graph, LOBE_ERROR_GRAPH,
                           "resource '%s' is multisampled: resolve it before it is read back",

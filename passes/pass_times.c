@@ -30,6 +30,8 @@ bool pass_times_add(lobe_frame *frame, const lobe_graph_report *report) {
             return false;
         time->milliseconds += report->passes[i].milliseconds;
         ++time->count;
+        time->read_bytes += report->passes[i].read_bytes;
+        time->written_bytes += report->passes[i].written_bytes;
     }
     return true;
 }

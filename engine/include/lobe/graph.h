@@ -249,6 +249,9 @@ typedef struct lobe_pass_report {
     lobe_pass_kind kind;
     lobe_pass_state state;
     double milliseconds; ///< device time, from timestamps; 0 where it did not run
+    /// What it must move, whatever the device's caches do: every level and layer that it declares
+    /// to read, and to write, once each. A pass that modifies does both; a shader may fetch less.
+    uint64_t read_bytes, written_bytes;
 } lobe_pass_report;
 
 typedef struct lobe_graph_report {

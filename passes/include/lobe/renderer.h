@@ -57,6 +57,8 @@ typedef struct lobe_pass_time {
     char name[64];
     double milliseconds;
     uint32_t count; ///< how many of the name ran
+    /// What they must read and write together: see lobe_pass_report.
+    uint64_t read_bytes, written_bytes;
 } lobe_pass_time;
 
 /// A finished frame. Images are owned by the frame; free with lobe_frame_free.
