@@ -6,6 +6,7 @@
 #include "passes/filtered_maps.h"
 #include "passes/material_specialisation.h"
 #include "shaders/interface/clustering.h"
+#include "shaders/interface/mixture.h"
 
 reduced_map parameter_averaging(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
@@ -32,4 +33,25 @@ reduced_map parameter_averaging(const filter_context *context, uint32_t index) {
                              });
     level_reduction(context->graph, &map);
     return map;
+}
+
+void parameter_averaging_build(const filter_context *context, size_t instance,
+                               filtered_appearance *appearance) {
+    uint32_t index = context->scene->instances[instance].material;
+    const device_material *material = &context->scene->materials[index];
+    uint32_t width, height;
+    bool averaged = lobe_map_extent(material, &width, &height) && width * height > 1;
+    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
+    lobe_resource resource;
+    if (averaged) {
+        reduced_map reduced = parameter_averaging(context, index);
+        resource = reduced.resource;
+        appearance->bytes = reduced_map_bytes(&reduced, filtered_map_format(context));
+        appearance->base_texels = (uint64_t)width * height;
+    } else {
+        resource = lobe_graph_import_texture(context->graph, context->scene->white);
+    }
+    appearance_bind(appearance, "parameter_map", resource, filtered_map_sampler(material, map));
+    appearance_specialise(appearance, SPECIALISE_MIXTURE, averaged);
+    filtered_maps_build(context, index, appearance);
 }

@@ -9,6 +9,7 @@
 #include "lib/half_vector_lobe.glsl"
 #include "lib/microfacet.glsl"
 #include "lib/normal_map.glsl"
+#include "lib/normal_variance.glsl"
 #include "lib/von_mises_fisher.glsl"
 #include "surface.glsl"
 
@@ -17,6 +18,7 @@ struct base_material {
     vec3 diffuse;  // albedo of the Lambert part
     vec3 specular; // microfacets: F0; half-vector lobes: factor of every lobe's colour
     float width;   // microfacets: the distribution's parameter; lobes: factor of their widths
+    float variance; // of normals under the pixel, which widens the lobes; 0: none
 };
 
 // A lobe's parameter with the spread of normals inside a texel.
@@ -34,6 +36,7 @@ base_material assemble_material(surface_point surface, vec3 normal, vec4 base_co
     if (VERTEX_COLOUR)
         albedo *= surface.colour.rgb;
     base.normal = normal;
+    base.variance = isotropic_variance(surface.curvature);
     if (MODEL == MODEL_MICROFACET) {
         float metallic = material.metallic * (METALLIC_MAP ? width.b : 1.0);
         // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
@@ -50,6 +53,17 @@ base_material assemble_material(surface_point surface, vec3 normal, vec4 base_co
 
 float half_vector_lobe_parameter(int i, float factor) {
     return convolved(base_lobe_parameter(DISTRIBUTION, material.lobe_direction[i].w * factor));
+}
+
+float widened_lobe_parameter(int i, base_material base) {
+    return widened_parameter(DISTRIBUTION, half_vector_lobe_parameter(i, base.width),
+                             base.variance);
+}
+
+// Of microfacets. Their masking is widened too: facets that lean away hide each other, and at a
+// silhouette nothing else holds a broad distribution down.
+float widened_width(base_material base) {
+    return widened_parameter(DISTRIBUTION, base.width, base.variance);
 }
 
 float evaluate_half_vector_lobe(vec3 half_vector, vec3 axis, float parameter) {
@@ -85,26 +99,30 @@ vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     for (int i = 0; i < LOBE_COUNT; ++i) {
         vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
         sum += material.lobe_colour[i].rgb *
-               evaluate_half_vector_lobe(halfway, axis, half_vector_lobe_parameter(i, base.width));
+               evaluate_half_vector_lobe(halfway, axis, widened_lobe_parameter(i, base));
     }
     return sum;
 }
 
 // Reflectance times cosine, for unit directions in the tangent frame. Nothing reaches a point
-// from below the macro-surface.
-vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
+// from below the macro-surface. `mean_normal` is the Lambert part's: as in evaluate_microfacets.
+vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, outgoing);
     if (MODEL == MODEL_MICROFACET) {
+        base.width = widened_width(base);
         float distribution = evaluate_normal_distribution(base.normal, halfway, base.width);
-        return evaluate_microfacets(base, base.normal, distribution, halfway, outgoing,
-                                    incoming);
+        return evaluate_microfacets(base, mean_normal, distribution, halfway, outgoing, incoming);
     }
     vec3 sum = base.specular * evaluate_half_vector_lobes(base, halfway);
     if (DIFFUSE)
-        sum += microfacet_diffuse(base.diffuse, vec3(0.0), dot(base.normal, incoming));
+        sum += microfacet_diffuse(base.diffuse, vec3(0.0), dot(mean_normal, incoming));
     return sum;
+}
+
+vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
+    return evaluate_base_material(base, base.normal, outgoing, incoming);
 }
 
 #endif

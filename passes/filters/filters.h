@@ -6,6 +6,7 @@
 // One a file beside this one.
 extern const lobe_filter filter_direct;
 extern const lobe_filter filter_mipmap;
+extern const lobe_filter filter_toksvig;
 extern const lobe_filter filter_lobes;
 extern const lobe_filter filter_reference;
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 shaders = glslang = spirv_opt = spirv_dis = None
 
-FILTERS = ("direct", "mipmap", "lobes")
+FILTERS = ("direct", "mipmap", "toksvig", "lobes")
 
 
 def identifiers():

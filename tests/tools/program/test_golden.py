@@ -11,7 +11,7 @@ from program import FOLDER, ROOT, check, report, succeeds
 
 GOLDEN = ROOT / "tests" / "golden"
 SCENES = ["checkerboard", "bumps", "tablecloth"]
-FILTERS = ["direct", "mipmap", "lobes"]
+FILTERS = ["direct", "mipmap", "toksvig", "lobes"]
 # Relative L2 of linear radiance. Half floats round to 5e-4 at most; one texel of a wrong layer or
 # level moves these small pictures by 1e-2 and more.
 TOLERANCE = 1e-3
