@@ -6,6 +6,7 @@
 #include <lobe/scene.h>
 
 #include "passes/mesh_density.h"
+#include "passes/moment_partition.h"
 #include "shaders/interface/material.h"
 
 /// A map of a material, ready to be bound.
@@ -24,6 +25,7 @@ typedef struct device_material {
     float metallic;              ///< its metallic factor, times the map's where that is constant
     uint32_t subdivision;        ///< [0, 2]: what its mixtures of lobes need in tangent space
     bool widths_differ;          ///< base lobes of one texel differ in width
+    moment_partition_cache partition; ///< of lobes into bins, where a filter asked for one
 } device_material;
 
 typedef struct device_instance {

@@ -1,6 +1,7 @@
 #include "passes/material_specialisation.h"
 
 #include <assert.h>
+#include <string.h>
 
 #include "shaders/interface/specialisation.h"
 
@@ -15,6 +16,12 @@ static_assert(LOBE_DISTRIBUTION_VMF == DISTRIBUTION_VMF, "one list of distributi
 void specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
     assert(list->count < MAXIMUM_SPECIALISATIONS);
     list->items[list->count++] = (lobe_specialisation){id, bits};
+}
+
+void specialise_number(specialisation_list *list, uint32_t id, float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    specialise(list, id, bits);
 }
 
 static bool any(const float colour[3]) {

@@ -13,6 +13,7 @@ typedef struct specialisation_list {
 } specialisation_list;
 
 void specialise(specialisation_list *list, uint32_t id, uint32_t bits);
+void specialise_number(specialisation_list *list, uint32_t id, float value);
 
 /// What the shaders compile out for a material: maps, lobes and features that it lacks.
 void material_specialise(const device_material *material, specialisation_list *list);

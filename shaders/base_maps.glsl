@@ -39,15 +39,19 @@ float texel_width(ivec2 texel, ivec2 base_size) {
     return MODEL == MODEL_MICROFACET ? value.g : value.r;
 }
 
-// Concentration kappa of base lobe `i` as a von Mises-Fisher lobe, normals inside a texel
-// included.
-float base_concentration(int i, float factor) {
+// The parameter of base lobe `i`, normals inside a texel included.
+float base_parameter(int i, float factor) {
     float parameter = MODEL == MODEL_MICROFACET
                           ? microfacet_parameter(DISTRIBUTION, material.roughness * factor)
                           : base_lobe_parameter(DISTRIBUTION, material.lobe_direction[i].w * factor);
     if (NORMAL_CONCENTRATION)
         parameter = convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration);
-    return base_lobe_concentration(DISTRIBUTION, parameter);
+    return parameter;
+}
+
+// Its concentration kappa as a von Mises-Fisher lobe.
+float base_concentration(int i, float factor) {
+    return base_lobe_concentration(DISTRIBUTION, base_parameter(i, factor));
 }
 
 #endif

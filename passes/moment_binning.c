@@ -1,0 +1,65 @@
+#include "passes/moment_binning.h"
+
+#include <stdio.h>
+
+#include "passes/base_maps.h"
+#include "passes/filtered_maps.h"
+#include "passes/material_specialisation.h"
+
+static void read_colours(const filter_context *context, const device_material *material,
+                         lobe_pass *pass) {
+    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
+    static const char *const names[] = {"base_colour_map", "specular_map"};
+    for (int i = 0; i < 2; ++i)
+        lobe_pass_read(pass,
+                       &(lobe_binding){.name = names[i],
+                                       .resource = device_map_import(context->graph, context->scene,
+                                                                     material, maps[i])});
+}
+
+static void specialise_binning(const filter_context *context, const device_material *material,
+                               const moment_partition *partition, bool colour, float colour_scale,
+                               specialisation_list *list) {
+    material_specialise(material, list);
+    specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
+    specialise(list, SPECIALISE_BINS, partition->bins);
+    specialise(list, SPECIALISE_PARTITION, partition->kind);
+    specialise(list, SPECIALISE_BIN_COLOUR, colour);
+    specialise_number(list, SPECIALISE_ORIGIN_X, partition->origin[0]);
+    specialise_number(list, SPECIALISE_ORIGIN_Y, partition->origin[1]);
+    specialise_number(list, SPECIALISE_RANGE, partition->range);
+    specialise_number(list, SPECIALISE_MASS_SCALE, partition->mass_scale);
+    specialise_number(list, SPECIALISE_SHARP_SCALE, partition->sharp_scale);
+    specialise_number(list, SPECIALISE_COLOUR_SCALE, colour_scale);
+}
+
+moment_map moment_binning(const filter_context *context, uint32_t index,
+                          const moment_partition *partition, lobe_format format, bool colour,
+                          float colour_scale) {
+    const device_material *material = &context->scene->materials[index];
+    char name[64];
+    snprintf(name, sizeof name, "moments of material %u", index);
+    uint32_t layers = partition->bins * (colour ? 3 : 2);
+    moment_map result = {.format = format};
+    result.map = reduced_map_declare(context->graph, name, format, partition->constants.width,
+                                     partition->constants.height, layers);
+    snprintf(name, sizeof name, "bins of material %u", index);
+    lobe_resource bins =
+        lobe_graph_upload(context->graph, name, &partition->constants, sizeof partition->constants);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
+    base_maps_read(context, material, pass);
+    read_colours(context, material, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
+    result.map.resource = lobe_pass_write(
+        pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
+    specialisation_list list = {0};
+    specialise_binning(context, material, partition, colour, colour_scale, &list);
+    lobe_pass_dispatch(pass, &(lobe_dispatch){
+                                 .shader = "moment_binning.comp",
+                                 .threads = {result.map.width, result.map.height, 1},
+                                 .specialisation = list.items,
+                                 .specialisation_count = list.count,
+                             });
+    level_reduction(context->graph, &result.map);
+    return result;
+}

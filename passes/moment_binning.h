@@ -1,0 +1,20 @@
+#ifndef PASSES_MOMENT_BINNING_H
+#define PASSES_MOMENT_BINNING_H
+
+#include "passes/filter.h"
+#include "passes/level_reduction.h"
+#include "passes/moment_partition.h"
+
+/// A map of lobe moments; its layers are described in shaders/interface/moment_bins.h.
+typedef struct moment_map {
+    reduced_map map;
+    lobe_format format;
+} moment_map;
+
+/// Adds the pass that shares a material's lobes out to bins, and the reduction of what it writes.
+/// The material has a normal or width map. `colour`: bins keep their mean specular colour.
+moment_map moment_binning(const filter_context *context, uint32_t material,
+                          const moment_partition *partition, lobe_format format, bool colour,
+                          float colour_scale);
+
+#endif

@@ -1,0 +1,305 @@
+// Moments of lobes in the Lambert plane, by bins. A material's lobes are shared out to a few bins
+// that fit them (see passes/moment_partition.h); under a pixel each bin is a Gaussian of the
+// normals, convolved with the base lobe's own shape. Our own, after Olano, Baker 2010, LEAN
+// Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
+
+#include "filtered_maps.glsl"
+#include "interface/moment_bins.h"
+#include "lib/characteristic_vector.glsl"
+#include "lib/lambert_plane.glsl"
+#include "lib/plane_gaussian.glsl"
+#include "lib/plane_lobe.glsl"
+
+layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
+layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
+layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
+layout(constant_id = SPECIALISE_ORIGIN_X) const float ORIGIN_X = 0.0;
+layout(constant_id = SPECIALISE_ORIGIN_Y) const float ORIGIN_Y = 0.0;
+layout(constant_id = SPECIALISE_RANGE) const float RANGE = 1.0;
+layout(constant_id = SPECIALISE_MASS_SCALE) const float MASS_SCALE = 1.0;
+layout(constant_id = SPECIALISE_SHARP_SCALE) const float SHARP_SCALE = 1.0;
+layout(constant_id = SPECIALISE_COLOUR_SCALE) const float COLOUR_SCALE = 1.0;
+layout(constant_id = SPECIALISE_LEAST_SHARE) const float LEAST_SHARE = 0.0;
+
+layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+
+// What the bins come to for one light.
+struct light_sum {
+    float distribution;
+    vec3 normal;     // of the texels that reflect, weighted by their part of the distribution
+    float sharpness; // of their base lobes, likewise
+    vec3 colour;
+};
+
+struct appearance {
+    base_material base;     // level 0, where it may be seen; colours are the footprint's
+    base_material filtered; // averaged over the footprint
+    map_area area;
+    float base_share;    // [0, 1]: how much of the appearance is level 0
+    vec3 diffuse_normal; // mean of the texels' normals, at most of unit length
+    light_sum first, second, third, fourth;
+    // Of the whole pixel.
+    vec3 emission;
+    float alpha;
+    vec3 normal;
+    float lobe_count;
+    float level;
+};
+
+// A bin under the pixel.
+struct plane_bin {
+    float mass;
+    float sharpness;
+    float variance; // of the base lobes
+    vec2 mean;      // of their places
+    float spread;   // half the trace of their covariance
+    vec3 axis;      // the same as a direction
+    mat2 gain;      // the mean place of those that reflect moves so with the half vector's
+    plane_gaussian narrow, middle, wide;
+    float own;           // [0, 1]: how much of the bin has the base lobe's exact shape
+    float own_parameter; // of the base lobe as broad as the bin
+    float own_share;
+    vec3 colour;
+};
+
+uint distribution_kind() {
+    return BASE_AS_LOBE ? DISTRIBUTION_VMF : DISTRIBUTION;
+}
+
+vec4 fetch_moments(map_area area, uint layer) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < PROBES; ++i)
+        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
+                          max(area.level - 1.0, 0.0));
+    return sum / float(PROBES);
+}
+
+mat2 inverse_of(vec3 covariance) {
+    float determinant =
+        max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-14);
+    return mat2(covariance.y, -covariance.z, -covariance.z, covariance.x) / determinant;
+}
+
+// The base lobe's own shape, which no sum of Gaussians has exactly; as long as the normals' spread
+// is small beside it, it is the bin's shape too.
+void keep_shape(inout plane_bin bin) {
+    float variance = bin.variance + bin.spread;
+    float own = bin.variance / variance;
+    float square = own * own;
+    bin.own = square * square * square * square;
+    bin.own_parameter = parameter_of_plane_variance(distribution_kind(), variance);
+    bin.own_share = bin.mass / plane_mass(MODEL, distribution_kind(), bin.own_parameter);
+}
+
+plane_bin read_bin(map_area area, uint index, vec3 curvature) {
+    uint layers = BIN_COLOUR ? 3u : 2u;
+    vec4 place = fetch_moments(area, layers * index);
+    vec3 spread = fetch_moments(area, layers * index + 1u).xyz;
+    float scale = 1.0 / max(place.x, 1e-6);
+    plane_bin bin;
+    bin.mass = place.x * MASS_SCALE;
+    vec2 mean = place.yz * scale;
+    bin.mean = mean * RANGE + vec2(ORIGIN_X, ORIGIN_Y);
+    bin.axis = direction_from_plane(bin.mean);
+    bin.sharpness = max(place.w * scale * SHARP_SCALE, 0.4);
+    bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
+    vec3 covariance = covariance_of(mean, spread * scale) * (RANGE * RANGE) + curvature;
+    vec3 base = bin.variance * plane_distortion(bin.mean);
+    bin.gain = mat2(covariance.x, covariance.z, covariance.z, covariance.y) *
+               inverse_of(covariance + base);
+    if (distribution_kind() == DISTRIBUTION_GGX) {
+        bin.narrow =
+            make_plane_gaussian(covariance + TAIL_SPREAD.x * base, TAIL_WEIGHT.x * bin.mass);
+        bin.middle =
+            make_plane_gaussian(covariance + TAIL_SPREAD.y * base, TAIL_WEIGHT.y * bin.mass);
+        bin.wide =
+            make_plane_gaussian(covariance + TAIL_SPREAD.z * base, TAIL_WEIGHT.z * bin.mass);
+    } else {
+        bin.narrow = make_plane_gaussian(covariance + base, bin.mass);
+    }
+    bin.spread = 0.5 * (covariance.x + covariance.y);
+    keep_shape(bin);
+    if (BIN_COLOUR)
+        bin.colour = fetch_moments(area, layers * index + 2u).rgb * (scale * COLOUR_SCALE);
+    return bin;
+}
+
+float evaluate_own_shape(plane_bin bin, vec3 halfway) {
+    return MODEL == MODEL_MICROFACET
+               ? normal_distribution(distribution_kind(), bin.axis, halfway, bin.own_parameter)
+               : half_vector_lobe(distribution_kind(), halfway, bin.axis, bin.own_parameter);
+}
+
+void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place) {
+    vec2 d = place - bin.mean;
+    float value = evaluate_plane_gaussian(bin.narrow, d);
+    if (distribution_kind() == DISTRIBUTION_GGX)
+        value += evaluate_plane_gaussian(bin.middle, d) + evaluate_plane_gaussian(bin.wide, d);
+    value = mix(value, bin.own_share * evaluate_own_shape(bin, halfway), bin.own);
+    sum.distribution += value;
+    sum.sharpness += value * bin.sharpness;
+    // With normals and base lobes both Gaussian, the normals of given half vectors are, too.
+    if (MODEL == MODEL_MICROFACET)
+        sum.normal += value * direction_from_plane(bin.mean + bin.gain * d);
+    if (BIN_COLOUR)
+        sum.colour += value * bin.colour;
+}
+
+// What all bins say about the footprint: the mean direction of the lobes, and their sharpness.
+struct bin_means {
+    float mass;
+    vec3 axis;
+    float sharpness;
+};
+
+vec3 bin_half_vector(surface_point surface, vec3 incoming) {
+    return half_vector(incoming, surface.outgoing);
+}
+
+light_sum no_light() {
+    return light_sum(0.0, vec3(0.0), 0.0, vec3(0.0));
+}
+
+// The mean normal of the texels, from the mean axis of their lobes: lobes turn with the normals,
+//   axis_z = n_z l_z - <n_xy, l_xy>,   axis_xy = l_xy + n_xy l_z + ...,
+// l the mean of the base lobes' directions about the pole; the rest is quadratic in n_xy and l_xy.
+vec3 normal_from_axis(vec3 axis) {
+    if (MODEL == MODEL_MICROFACET)
+        return axis;
+    vec3 local = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        local += material.lobe_colour[i].w * material.lobe_direction[i].xyz;
+    float height = max(local.z, 0.1);
+    vec2 planar = (axis.xy - local.xy) / height;
+    return vec3(planar, (axis.z + dot(planar, local.xy)) / height);
+}
+
+void add_to_means(inout bin_means means, plane_bin bin) {
+    means.mass += bin.mass;
+    means.sharpness += bin.mass * bin.sharpness;
+    // The mean of 1 - |q|^2 / 2 is that of the directions' third coordinate, exactly.
+    means.axis += bin.mass * vec3(bin.axis.xy, bin.axis.z - bin.spread);
+}
+
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (!MIXTURE)
+        return;
+    vec3 halfway[4];
+    vec2 places[4];
+    for (int i = 0; i < 4; ++i) {
+        halfway[i] = bin_half_vector(surface, incoming[i]);
+        places[i] = plane_from_direction(halfway[i]);
+    }
+    fetched.first = fetched.second = fetched.third = fetched.fourth = no_light();
+    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    bin_means means = bin_means(0.0, vec3(0.0), 0.0);
+    for (uint i = 0u; i < BINS; ++i) {
+        plane_bin bin = read_bin(fetched.area, i, surface.curvature);
+        if (bin.mass <= LEAST_SHARE * MASS_SCALE)
+            continue;
+        add_to_means(means, bin);
+        fetched.lobe_count += 1.0;
+        add_bin_to_light(fetched.first, bin, halfway[0], places[0]);
+        if (LIGHTS_AT_ONCE > 1u)
+            add_bin_to_light(fetched.second, bin, halfway[1], places[1]);
+        if (LIGHTS_AT_ONCE > 2u)
+            add_bin_to_light(fetched.third, bin, halfway[2], places[2]);
+        if (LIGHTS_AT_ONCE > 3u)
+            add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
+    }
+    float scale = 1.0 / max(means.mass, 1e-6);
+    fetched.diffuse_normal = normal_from_axis(means.axis * scale);
+    if (may_see_level_0(lobe_map()))
+        fetched.diffuse_normal =
+            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
+    fetched.normal = mean_direction(fetched.diffuse_normal, vec3(0.0, 0.0, 1.0));
+    fetched.filtered.normal = fetched.normal;
+}
+
+appearance fetch_appearance(surface_point surface) {
+    appearance result;
+    result.area = lobe_area(surface);
+    result.base_share = 1.0;
+    result.lobe_count = float(LOBE_COUNT);
+    result.level = 0.0;
+    result.diffuse_normal = unfiltered_normal(surface);
+    result.normal = result.diffuse_normal;
+    result.filtered = filtered_material(surface, result.normal, result.area);
+    if (MIXTURE) {
+        result.level = result.area.level;
+        result.base_share =
+            may_see_level_0(lobe_map()) ? clamp(1.0 - result.level, 0.0, 1.0) : 0.0;
+        if (may_see_level_0(lobe_map()))
+            result.base = unfiltered_material(surface);
+    }
+    result.alpha = 1.0;
+    if (ALPHA_MASK)
+        result.alpha = filtered_base_colour(surface, result.area).a * material.base_colour.a *
+                       surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
+    return result;
+}
+
+light_sum sum_of_light(appearance fetched, uint light) {
+    return light == 0u   ? fetched.first
+           : light == 1u ? fetched.second
+           : light == 2u ? fetched.third
+                         : fetched.fourth;
+}
+
+vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                              vec3 incoming) {
+    base_material frame = fetched.filtered;
+    float scale = 1.0 / max(sum.distribution, 1e-20);
+    vec3 normal = sum.normal * scale;
+    float sharpness = max(sum.sharpness * scale, 0.4);
+    frame.width =
+        parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
+    if (BIN_COLOUR)
+        frame.specular = sum.colour * scale;
+    float distribution = (1.0 - fetched.base_share) * sum.distribution;
+    if (may_see_level_0(lobe_map())) {
+        frame.width = mix(frame.width, fetched.base.width, fetched.base_share);
+        normal = mix(normal, fetched.base.normal, fetched.base_share);
+        distribution +=
+            fetched.base_share *
+            evaluate_normal_distribution(fetched.base.normal, halfway, fetched.base.width);
+    }
+    frame.normal = mean_direction(normal, fetched.normal);
+    return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
+                                incoming);
+}
+
+// The colour of all base lobes together.
+vec3 mixture_colour() {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        sum += material.lobe_colour[i].rgb;
+    return sum;
+}
+
+vec3 evaluate_bin_lobes(appearance fetched, light_sum sum, vec3 halfway, vec3 incoming) {
+    vec3 value = BIN_COLOUR
+                     ? sum.colour
+                     : fetched.filtered.specular * mixture_colour() * sum.distribution;
+    value *= 1.0 - fetched.base_share;
+    if (may_see_level_0(lobe_map()))
+        value += fetched.base_share * fetched.filtered.specular *
+                 evaluate_half_vector_lobes(fetched.base, halfway);
+    if (DIFFUSE)
+        value += microfacet_diffuse(fetched.filtered.diffuse, vec3(0.0),
+                                    dot(fetched.diffuse_normal, incoming));
+    return value;
+}
+
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
+    if (!MIXTURE)
+        return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
+    if (incoming.z <= 0.0)
+        return vec3(0.0);
+    vec3 halfway = bin_half_vector(surface, incoming);
+    light_sum sum = sum_of_light(fetched, light);
+    return MODEL == MODEL_MICROFACET
+               ? evaluate_bin_microfacets(fetched, sum, halfway, surface.outgoing, incoming)
+               : evaluate_bin_lobes(fetched, sum, halfway, incoming);
+}

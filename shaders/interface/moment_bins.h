@@ -1,0 +1,60 @@
+#ifndef INTERFACE_MOMENT_BINS_H
+#define INTERFACE_MOMENT_BINS_H
+
+#include "specialisation.h"
+#include "types.h"
+
+// How moments of lobes in the Lambert plane lie in the layers of a map, and how lobes are shared
+// out to bins (see shaders/moment_binning.comp).
+//
+// With p the lobe's place in the plane and g its sharpness, both scaled to [-1, 1] by the
+// material's own range, and m its mass, bin b has
+// [b layers + 0]  sums of m, m p_x, m p_y, m g
+// [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y
+// [b layers + 2]  where bins have colours: sum of m times the specular colour
+#define MOMENT_MAXIMUM_BINS 6
+
+#define SPECIALISE_BINS          (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
+#define SPECIALISE_PARTITION     (SPECIALISE_FILTER + 33) // uint, PARTITION_...
+#define SPECIALISE_BIN_COLOUR    (SPECIALISE_FILTER + 34) // bool: bins have colours
+#define SPECIALISE_ORIGIN_X      (SPECIALISE_FILTER + 35) // float, plane: middle of the range
+#define SPECIALISE_ORIGIN_Y      (SPECIALISE_FILTER + 36) // float
+#define SPECIALISE_RANGE         (SPECIALISE_FILTER + 37) // float: half its width
+#define SPECIALISE_MASS_SCALE    (SPECIALISE_FILTER + 38) // float: largest mass of a lobe
+#define SPECIALISE_SHARP_SCALE   (SPECIALISE_FILTER + 39) // float: largest sharpness
+#define SPECIALISE_COLOUR_SCALE  (SPECIALISE_FILTER + 40) // float: largest specular colour
+#define SPECIALISE_LEAST_SHARE   (SPECIALISE_FILTER + 41) // float: bins with less are passed over
+
+#define PARTITION_FITTED 0
+#define PARTITION_HATS   1
+#define PARTITION_CAP    2
+
+// One bin of a fitted partition: its membership is exp(offset - quadratic - trace v) over the sum
+// of all bins', for a lobe of variance v at the place q, with d = q - centre and
+// quadratic = xx d_x d_x + yy d_y d_y + 2 xy d_x d_y.
+struct moment_bin {
+    float4 centre; // x, y; z: offset; w: trace
+    float4 shape;  // xx, yy, xy
+};
+INTERFACE_SIZE(moment_bin, 32)
+INTERFACE_OFFSET(moment_bin, shape, 16)
+#ifndef VULKAN
+typedef struct moment_bin moment_bin;
+#endif
+
+// Uniform block of moment_binning (std140).
+struct moment_binning_constants {
+    uint width; // of the base maps, texels: the larger of the normal and the width map
+    uint height;
+    uint padding_0;
+    uint padding_1;
+    // Partitions by hats: x, y: the middle; z: 1 / width of a hat; w: variance from which a lobe
+    // is rough.
+    float4 hats;
+    moment_bin bins[MOMENT_MAXIMUM_BINS];
+};
+INTERFACE_SIZE(moment_binning_constants, 224)
+INTERFACE_OFFSET(moment_binning_constants, hats, 16)
+INTERFACE_OFFSET(moment_binning_constants, bins, 32)
+
+#endif

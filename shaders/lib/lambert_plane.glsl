@@ -1,0 +1,34 @@
+#ifndef LIB_LAMBERT_PLANE_GLSL
+#define LIB_LAMBERT_PLANE_GLSL
+
+// Lambert, 1772, Anmerkungen und Zusaetze zur Entwerfung der Land- und Himmelscharten: the
+// azimuthal projection that preserves areas. A direction at the angle theta from the pole
+// (0, 0, 1) lies at |q| = 2 sin(theta / 2), dA = d omega; the hemisphere is a disc of radius
+// sqrt(2), the sphere one of radius 2. A von Mises-Fisher lobe at the pole becomes a Gaussian of
+// variance 1/kappa, exactly.
+
+// Of a unit direction; the pole's opposite, which is a whole circle, goes to (2, 0).
+vec2 plane_from_direction(vec3 direction) {
+    float opposite = 1.0 + direction.z;
+    if (opposite < 1e-6)
+        return vec2(2.0, 0.0);
+    return direction.xy * sqrt(2.0 / opposite);
+}
+
+// The unit direction of a place; beyond the disc of the sphere that of its rim.
+vec3 direction_from_plane(vec2 place) {
+    float square = min(dot(place, place), 4.0);
+    return vec3(place * sqrt(max(1.0 - 0.25 * square, 0.0)), 1.0 - 0.5 * square);
+}
+
+// How an isotropic variance about a direction looks in the plane at its place (xx, yy, xy): the
+// map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With
+// c = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,
+//   c r r^T + (1/c) (I - r r^T) = I/c - (1 + c) / (4 c) q q^T.
+vec3 plane_distortion(vec2 place) {
+    float c = max(1.0 - 0.25 * dot(place, place), 0.05);
+    float outward = (1.0 + c) / (4.0 * c);
+    return vec3(1.0 / c - outward * place * place, -outward * place.x * place.y);
+}
+
+#endif
