@@ -21,7 +21,7 @@ OWNED = {
     re.compile(r"vulkan/"): {"engine"},
     re.compile(r"spirv_cross/|glslang/"): {"engine"},
     re.compile(r"openexr"): {"engine"},
-    re.compile(r"tiny_gltf|jpeglib\.h"): {"third_party"},
+    re.compile(r"tiny_gltf|jpeglib\.h|zlib\.h"): {"third_party"},
     re.compile(r"png\.h"): {"engine", "third_party"},
 }
 

@@ -1,0 +1,95 @@
+#include "third_party/gzip.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <zlib.h>
+
+// zlib's name for "a window of 32 KiB, with the header and checksum of gzip".
+enum { GZIP_WINDOW = 15 + 16, PIECE = 1 << 16 };
+
+typedef struct gzip_job {
+    z_stream stream;
+    uint8_t *bytes; // unpacked so far
+    size_t size, room, maximum;
+    size_t left; // packed bytes that zlib has not been told of
+    const char *cause;
+} gzip_job;
+
+bool gzip_recognise(const void *bytes, size_t size) {
+    const uint8_t *first = bytes;
+    return size >= 2 && first[0] == 0x1f && first[1] == 0x8b;
+}
+
+static bool fail(gzip_job *job, const char *cause) {
+    job->cause = cause;
+    return false;
+}
+
+// Room for a piece more, and for the zero byte behind it.
+static bool grow(gzip_job *job) {
+    if (job->room - job->size > PIECE)
+        return true;
+    size_t room = 2 * job->room + 2 * PIECE;
+    uint8_t *larger = realloc(job->bytes, room);
+    if (!larger)
+        return fail(job, "out of memory");
+    job->bytes = larger;
+    job->room = room;
+    return true;
+}
+
+// zlib counts in 32 bits.
+static void feed(gzip_job *job) {
+    if (job->stream.avail_in > 0 || job->left == 0)
+        return;
+    job->stream.avail_in = (uInt)(job->left < PIECE ? job->left : PIECE);
+    job->left -= job->stream.avail_in;
+}
+
+static bool unpack_piece(gzip_job *job, bool *ended) {
+    if (!grow(job))
+        return false;
+    feed(job);
+    job->stream.next_out = job->bytes + job->size;
+    job->stream.avail_out = PIECE;
+    int status = inflate(&job->stream, Z_NO_FLUSH);
+    job->size += PIECE - job->stream.avail_out;
+    if (job->size > job->maximum)
+        return fail(job, "larger than lobe unpacks");
+    *ended = status == Z_STREAM_END;
+    if (status == Z_BUF_ERROR)
+        return fail(job, "ends early");
+    if (status == Z_MEM_ERROR)
+        return fail(job, "out of memory");
+    return status == Z_OK || *ended || fail(job, "broken gzip data");
+}
+
+static bool unpack(gzip_job *job) {
+    bool ended = false;
+    while (!ended || job->stream.avail_in > 0 || job->left > 0) {
+        if (ended && inflateReset(&job->stream) != Z_OK)
+            return fail(job, "broken gzip data");
+        if (!unpack_piece(job, &ended))
+            return false;
+    }
+    return true;
+}
+
+bool gzip_unpack(const void *bytes, size_t size, size_t maximum, uint8_t **unpacked,
+                 size_t *unpacked_size, char message[GZIP_MESSAGE_SIZE]) {
+    gzip_job job = {.maximum = maximum, .left = size, .cause = "out of memory"};
+    job.stream.next_in = (Bytef *)bytes; // read only
+    bool done = inflateInit2(&job.stream, GZIP_WINDOW) == Z_OK && unpack(&job);
+    inflateEnd(&job.stream);
+    if (done) {
+        job.bytes[job.size] = 0;
+    } else {
+        snprintf(message, GZIP_MESSAGE_SIZE, "%s", job.cause);
+        free(job.bytes);
+        job.bytes = NULL;
+    }
+    *unpacked = job.bytes;
+    *unpacked_size = done ? job.size : 0;
+    return done;
+}
