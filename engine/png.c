@@ -81,20 +81,38 @@ static bool encode(png_writer *writer, const lobe_image *image) {
     return true;
 }
 
-lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log) {
+/// On success the writer's output is the whole file. `name` is for messages.
+static lobe_result encode_image(png_writer *writer, const char *name, const lobe_image *image,
+                                const lobe_log *log) {
+    *writer = (png_writer){0};
     if (image->format != LOBE_FORMAT_RGBA8_SRGB && image->format != LOBE_FORMAT_RGBA8_UNORM)
         return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: PNG files are written from RGBA8 images, not from %s", path,
+                             "%s: PNG files are written from RGBA8 images, not from %s", name,
                              lobe_format_name(image->format));
-    png_writer writer = {0};
-    lobe_result result;
-    if (create(&writer) && encode(&writer, image))
+    bool done = create(writer) && encode(writer, image);
+    png_destroy_write_struct(&writer->png, &writer->information);
+    return done ? LOBE_OK
+                : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", name,
+                                writer->message);
+}
+
+lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log) {
+    png_writer writer;
+    lobe_result result = encode_image(&writer, path, image, log);
+    if (result == LOBE_OK)
         result = lobe_file_write(path, writer.output.data, writer.output.size, log);
-    else
-        result = lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", path,
-                               writer.message);
-    png_destroy_write_struct(&writer.png, &writer.information);
     engine_bytes_free(&writer.output);
+    return result;
+}
+
+lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_log *log,
+                            uint8_t **data, size_t *size) {
+    png_writer writer;
+    lobe_result result = encode_image(&writer, name, image, log);
+    *data = result == LOBE_OK ? writer.output.data : NULL;
+    *size = result == LOBE_OK ? writer.output.size : 0;
+    if (result != LOBE_OK)
+        engine_bytes_free(&writer.output);
     return result;
 }
 

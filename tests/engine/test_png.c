@@ -49,6 +49,30 @@ static void what_was_written_is_read(void **state) {
     }
 }
 
+static void memory_holds_what_a_file_would(void **state) {
+    (void)state;
+    const char *path = temporary_folder_file(&test_folder, "memory.png");
+    lobe_image image = make_pattern(67, 45, true);
+    uint8_t *encoded, *file;
+    size_t encoded_size, file_size;
+    assert_int_equal(lobe_png_encode("memory", &image, NULL, &encoded, &encoded_size), LOBE_OK);
+    assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &file, &file_size), LOBE_OK);
+    assert_int_equal(encoded_size, file_size);
+    assert_memory_equal(encoded, file, file_size);
+    free(encoded);
+    free(file);
+    image.format = LOBE_FORMAT_R32_FLOAT;
+    log_recorder recorder;
+    log_recorder_start(&recorder);
+    assert_int_equal(lobe_png_encode("memory", &image, &recorder.log, &encoded, &encoded_size),
+                     LOBE_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(recorder.errors, 1);
+    assert_non_null(strstr(recorder.last_error, "memory"));
+    assert_true(encoded == NULL && encoded_size == 0);
+    lobe_image_free(&image);
+}
+
 static void header_byte(const char *path, size_t offset, int expected) {
     uint8_t *data;
     size_t size;
@@ -251,6 +275,7 @@ static void damaged_files_of_the_wild_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(what_was_written_is_read),
+        IN_TEST_FOLDER(memory_holds_what_a_file_would),
         IN_TEST_FOLDER(alpha_is_stored_only_where_there_is_any),
         IN_TEST_FOLDER(equal_images_give_equal_bytes),
         IN_TEST_FOLDER(sixteen_bits_are_kept_in_this_machines_order),

@@ -1,6 +1,9 @@
 #ifndef LOBE_PNG_H
 #define LOBE_PNG_H
 
+#include <stddef.h>
+#include <stdint.h>
+
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/result.h>
@@ -14,6 +17,11 @@ extern "C" {
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log);
+
+/// Makes in memory what lobe_png_write would write. `*data` is to free() by the caller; `name` is
+/// for messages. On failure `*data` is NULL. Errors: those of lobe_png_write but LOBE_ERROR_WRITE.
+lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_log *log,
+                            uint8_t **data, size_t *size);
 
 /// Reads any PNG: into RGBA16_UNORM where it has 16 bits a channel, else into RGBA8_SRGB. Grey is
 /// spread to R, G and B, palettes are looked up, missing alpha is opaque. Values are as stored: of
