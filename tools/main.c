@@ -8,7 +8,7 @@
 #include "tools/subcommand.h"
 
 static const subcommand *const subcommands[] = {
-    &render_subcommand, &bench_subcommand,   &compare_subcommand,
+    &render_subcommand, &bench_subcommand,   &report_subcommand, &compare_subcommand,
     &scenes_subcommand, &filters_subcommand, &info_subcommand,
 };
 static const size_t subcommand_count = sizeof subcommands / sizeof *subcommands;

@@ -12,6 +12,7 @@ typedef struct subcommand {
 
 extern const subcommand render_subcommand;
 extern const subcommand bench_subcommand;
+extern const subcommand report_subcommand;
 extern const subcommand compare_subcommand;
 extern const subcommand scenes_subcommand;
 extern const subcommand filters_subcommand;

@@ -5,7 +5,7 @@ import sys
 import tap
 from program import check, fails, is_wrong_usage, leaves, fresh_folder, lobe, report, succeeds
 
-SUBCOMMANDS = ["render", "bench", "compare", "scenes", "filters", "info"]
+SUBCOMMANDS = ["render", "bench", "report", "compare", "scenes", "filters", "info"]
 OUTPUT = ["-o", "never.exr"]
 
 
@@ -66,6 +66,7 @@ def test_missing_operands():
     is_wrong_usage("render", *OUTPUT, says="SCENE")
     is_wrong_usage("bench", says="SCENE")
     is_wrong_usage("compare", "one.exr")
+    is_wrong_usage("report", "-o", "folder", says="RESULTS.json")
 
 
 def test_missing_and_odd_outputs():
@@ -74,6 +75,12 @@ def test_missing_and_odd_outputs():
     is_wrong_usage("render", "bumps", "-o", "picture.jpeg", says="picture.jpeg")
     is_wrong_usage("render", "bumps", "-o", ".png", says=".png")
     is_wrong_usage("render", "bumps", *OUTPUT, "-o", "picture", says="picture")
+
+
+def test_report_needs_a_folder():
+    is_wrong_usage("report", "results.json", says="-o DIR")
+    is_wrong_usage("report", "results.json", "-o", "folder", "--picture-width", "0",
+                   says="--picture-width")
 
 
 def test_unknown_filter():
