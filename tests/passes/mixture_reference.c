@@ -1,12 +1,15 @@
 #include "tests/passes/mixture_reference.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "shaders/interface/slope_moments.h"
 #include "tests/reference/base_lobe.h"
 #include "tests/reference/half_vector_lobe.h"
 #include "tests/reference/lobe_mixture.h"
 #include "tests/reference/normal_map.h"
+#include "tests/reference/slope_distribution.h"
 
 void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]) {
     uint32_t channels = lobe_format_channels(image->format);
@@ -141,6 +144,42 @@ reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
         double width[4], *parameters = reference_texel(&layers, x, y, 0);
         read_texel(scene, material, &layers, x, y, parameters, width);
         parameters[3] = microfacet ? base_lobe_concentration(material, 0, width) : width[0];
+    }
+    return layers;
+}
+
+/// Moments of the slopes of one base lobe's direction, and its variance.
+static void add_slopes(const double direction[3], double variance, double weight, double *first,
+                       double *second) {
+    double slope[2];
+    reference_slope_of_normal(direction, slope);
+    for (int i = 0; i < 2; i++) {
+        first[i] += weight * slope[i];
+        second[i] += weight * slope[i] * slope[i];
+    }
+    first[3] += weight * variance;
+    second[2] += weight * slope[0] * slope[1];
+}
+
+reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    reference_layers layers = allocate_texels(image_of(scene, &material->normal_map),
+                                              width_image(scene, material), SLOPE_LAYERS);
+    for (uint32_t at = 0; at < layers.width * layers.height; at++) {
+        uint32_t x = at % layers.width, y = at / layers.width;
+        double *first = reference_texel(&layers, x, y, SLOPE_LAYER_FIRST);
+        double *second = reference_texel(&layers, x, y, SLOPE_LAYER_SECOND);
+        double normal[3], width[4];
+        read_texel(scene, material, &layers, x, y, normal, width);
+        first[2] = normal[2];
+        for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
+            double local[3] = {0, 0, 1}, axis[3];
+            for (int j = 0; j < 3 && !microfacet; j++)
+                local[j] = (double)material->lobes[i].direction[j];
+            reference_rotate_from_pole(normal, local, axis);
+            add_slopes(axis, 1 / fmax(base_lobe_concentration(material, i, width), 1),
+                       share_of(material, i), first, second);
+        }
     }
     return layers;
 }

@@ -24,6 +24,10 @@ reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material 
 reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
                                                const lobe_material *material);
 
+/// What slope_moments takes of every texel: the layers of shaders/interface/slope_moments.h. To
+/// free by the caller.
+reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material);
+
 /// Layer of the reference that a layer of a mixture map holds.
 uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer);
 

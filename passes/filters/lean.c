@@ -1,0 +1,25 @@
+#include "passes/filtered_maps.h"
+#include "passes/filters/filters.h"
+#include "passes/slope_moments.h"
+
+static const lobe_knob *const knobs[] = {&knob_probes, &knob_bias, &knob_curvature, &knob_storage,
+                                         NULL};
+
+static const char *ignores(const lobe_material *material) {
+    if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES && material->lobe_count > 1)
+        return "its lobes become one, as wide as they are apart, in their mean colour";
+    if (material->model == LOBE_MATERIAL_MICROFACET &&
+        material->distribution == LOBE_DISTRIBUTION_GGX)
+        return "a Beckmann lobe of equal width stands for GGX, whose tails are lost";
+    return NULL;
+}
+
+const lobe_filter filter_lean = {
+    .name = "lean",
+    .summary = "one anisotropic Beckmann lobe, from moments of the maps' slopes",
+    .paper = "Olano, Baker 2010, LEAN Mapping",
+    .shading = "lean",
+    .knobs = knobs,
+    .build = slope_moments_build,
+    .ignores = ignores,
+};

@@ -1,0 +1,75 @@
+// One anisotropic Beckmann lobe a footprint, from moments of slopes: Olano, Baker 2010, LEAN
+// Mapping. Theirs has the lobe over the surface's plane. Here it lies over the plane of the mean
+// normal, and base lobes are added to it there, so that a footprint of one normal is exactly the
+// Beckmann distribution about it; where the normals' mean is the surface's, the two are the same.
+//
+// The frame is the one of all filters: masked as the base lobes, about the mean normal of the
+// texels that reflect.
+
+#include "slope_maps.glsl"
+
+struct footprint_lobe {
+    mat3 tangent_from_mean; // z: the mean normal
+    slope_distribution slopes; // over the mean normal's plane, base lobes included
+};
+
+#include "slope_appearance.glsl"
+
+footprint_lobe footprint_lobe_of(slope_moments moments) {
+    footprint_lobe result;
+    vec3 normal = normal_of_slope(moments.mean);
+    result.tangent_from_mean = mat3(rotate_from_pole(normal, vec3(1.0, 0.0, 0.0)),
+                                    rotate_from_pole(normal, vec3(0.0, 1.0, 0.0)), normal);
+    vec3 covariance =
+        transformed_covariance(tilted_from_flat_slopes(moments.mean), moments.covariance);
+    result.slopes = slope_distribution_of(
+        vec2(0.0), covariance + vec3(vec2(moments.base_variance), 0.0));
+    return result;
+}
+
+void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+}
+
+// The mean normal of the texels that reflect about `halfway` (here over the mean normal's plane).
+// Of two Gaussians, texels' slopes with covariance C and base lobes with b I, whose sum is given as
+// s, the mean of the first is C (C + b I)^-1 s = s - b (C + b I)^-1 s.
+vec3 reflecting_normal(appearance fetched, vec3 halfway) {
+    vec2 slope = halfway.xy / -max(halfway.z, COSINE_MINIMUM);
+    slope_distribution slopes = fetched.lobe.slopes;
+    vec2 standardised = standardised_slope(slopes, slope);
+    float y = standardised.y / slopes.root.y;
+    vec2 solved = vec2((standardised.x - slopes.root.z * y) / slopes.root.x, y);
+    vec2 texels = slope - fetched.moments.base_variance * solved;
+    return fetched.lobe.tangent_from_mean * normal_of_slope(texels);
+}
+
+// Texels of a normal map count alike, each with a distribution of projected area one about its own
+// normal. Their sum is the lobe, of area one, over the cosine to the normals of those that reflect:
+// for a single normal 1/cos^4, for sharp lobes about many normals 1/cos^3.
+float distribution_about(vec3 normal, vec3 halfway, float lobe) {
+    return lobe / max(dot(normal, halfway), COSINE_MINIMUM);
+}
+
+// Its product with the incoming direction is the mean of the texels' cosines, where their slopes
+// and n_z are not correlated.
+vec3 lambert_normal(slope_moments moments) {
+    return vec3(-moments.mean, 1.0) * moments.mean_cosine;
+}
+
+vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
+    vec3 halfway = half_vector(incoming, outgoing);
+    vec3 over_mean = halfway * fetched.lobe.tangent_from_mean;
+    float lobe = lobe_of_slopes(fetched.lobe.slopes, over_mean);
+    vec3 lambert = lambert_normal(fetched.moments);
+    if (MODEL == MODEL_MICROFACET) {
+        base_material frame = fetched.filtered;
+        frame.normal = reflecting_normal(fetched, over_mean);
+        return evaluate_microfacets(frame, lambert,
+                                    distribution_about(frame.normal, halfway, lobe), halfway,
+                                    outgoing, incoming);
+    }
+    vec3 sum = lobes_colour() * fetched.filtered.specular * lobe;
+    if (DIFFUSE)
+        sum += microfacet_diffuse(fetched.filtered.diffuse, vec3(0.0), dot(lambert, incoming));
+    return sum;
+}

@@ -1,0 +1,33 @@
+#ifndef INTERFACE_SLOPE_MOMENTS_H
+#define INTERFACE_SLOPE_MOMENTS_H
+
+#include "specialisation.h"
+#include "types.h"
+
+// How moments of slopes lie in the layers of a map (see shaders/slope_moments.comp). A slope is
+// that of the surface a normal stands on, (x, y) = -n_xy/n_z; E: the mean over texels.
+//
+// [0]  E[x], E[y], E[n_z], mean variance of the base lobes in slopes
+// [1]  E[x^2], E[y^2], E[xy], 0
+//
+// x and y are those of the base lobes' directions, n_z is the normals'.
+#define SLOPE_LAYER_FIRST  0
+#define SLOPE_LAYER_SECOND 1
+#define SLOPE_LAYERS       2
+
+// Steepest slope that is kept: the tangent of 83 degrees. Directions nearer to the horizon, or
+// below it, count as that steep: their slopes tend to infinity, and so would all means that they
+// are in.
+#define SLOPE_MAXIMUM 8.0
+
+// Push constants of slope_moments.
+struct slope_moments_constants {
+    uint width; // of the base maps, texels
+    uint height;
+};
+INTERFACE_SIZE(slope_moments_constants, 8)
+INTERFACE_OFFSET(slope_moments_constants, height, 4)
+
+#define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
+
+#endif

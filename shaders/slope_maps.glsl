@@ -1,0 +1,45 @@
+#ifndef SLOPE_MAPS_GLSL
+#define SLOPE_MAPS_GLSL
+
+// Reading maps of slope moments over a pixel's footprint.
+
+#include "filtered_maps.glsl"
+#include "interface/slope_moments.h"
+#include "lib/characteristic_vector.glsl"
+#include "lib/slope_distribution.glsl"
+#include "lib/tilted_slopes.glsl"
+
+layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
+
+layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+
+// Of the directions in a footprint, and of the base lobes about them.
+struct slope_moments {
+    vec2 mean;
+    vec3 covariance;     // (xx, yy, xy), of the directions alone
+    float mean_cosine;   // mean n_z
+    float base_variance; // of the base lobes, mean alpha^2/2
+};
+
+vec4 fetch_moment_layer(map_area area, int layer) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < PROBES; ++i)
+        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
+                          max(area.level - 1.0, 0.0));
+    return sum / float(PROBES);
+}
+
+// The surface's own curvature joins the slopes: about its normal, slopes are differences of
+// normals.
+slope_moments fetch_moments(map_area area, surface_point surface) {
+    vec4 first = fetch_moment_layer(area, SLOPE_LAYER_FIRST);
+    vec4 second = fetch_moment_layer(area, SLOPE_LAYER_SECOND);
+    slope_moments result;
+    result.mean = first.xy;
+    result.covariance = covariance_of_moments(first.xy, second.xyz) + surface.curvature;
+    result.mean_cosine = first.z;
+    result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
+    return result;
+}
+
+#endif
