@@ -1,8 +1,26 @@
 #include "passes/filters/filters.h"
+#include "shaders/interface/specialisation.h"
+
+/// Off where nobody asks: this filter shows what one sample alone gives.
+static const lobe_knob curvature_knob = {
+    .name = "curvature",
+    .summary = "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
+    .maximum = 4,
+    .sweep = "1",
+};
+static const lobe_knob *const knobs[] = {&curvature_knob, NULL};
+
+static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
+    (void)instance;
+    appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
+                                 (float)filter_setting(context, "curvature"));
+}
 
 const lobe_filter filter_direct = {
     .name = "direct",
     .summary = "one unfiltered sample of the maps: fast, and aliased",
     .paper = "",
     .shading = "direct",
+    .knobs = knobs,
+    .build = build,
 };

@@ -55,8 +55,8 @@ static const lobe_knob blend_knob = {
     .initial = 0.02,
 };
 static const lobe_knob *const knobs[] = {
-    &space_knob, &subdivision_knob, &threshold_knob, &epsilon0_knob, &epsilon1_knob,
-    &blend_knob, &knob_probes,      &knob_bias,      &knob_storage,  NULL,
+    &space_knob,  &subdivision_knob, &threshold_knob, &epsilon0_knob, &epsilon1_knob, &blend_knob,
+    &knob_probes, &knob_bias,        &knob_curvature, &knob_storage,  NULL,
 };
 
 /// The space asked for by the user, or else by the material; tangent where the mesh's texture

@@ -47,10 +47,11 @@ struct appearance {
     float own_scale;        // and those of distributions of projected area one
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
     float complement;       // 1 - |r| of the footprint's one lobe, were it about the normals
+    float variance;         // of the macro-surface's normals, where the mixture is without them
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
     vec4 distributions; // the mixture at the half vectors of the lights gathered last
-    float spread;       // [0, 1]: part of the breadth that is texels' normals pointing apart
+    float spread;       // [0, 1]: part of the breadth that is normals pointing apart
     // Of the whole pixel.
     vec3 emission;
     float alpha;
@@ -147,8 +148,8 @@ lobe take_base_lobe(inout walk at, inout appearance fetched) {
     lobe result;
     result.axis = fetched.mixture_from_tangent *
                   rotate_from_pole(fetched.base.normal, material.lobe_direction[i].xyz);
-    result.concentration = base_lobe_concentration(
-        DISTRIBUTION, half_vector_lobe_parameter(i, fetched.base.width));
+    result.concentration =
+        base_lobe_concentration(DISTRIBUTION, widened_lobe_parameter(i, fetched.base));
     result.weight = fetched.base_share * material.lobe_colour[i].w *
                     von_mises_fisher_peak(result.concentration);
     fetched.lobe_count += 1.0;
@@ -186,10 +187,12 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
                   (1.0 - refine) * moment.w;
     lobe result;
     result.axis = moment.xyz * inversesqrt(max(dot(moment.xyz, moment.xyz), 1e-30));
-    result.concentration = concentration_from_complement(complement);
+    // One lobe or many: the surface's curvature widens them alike.
+    float breadth = widened_complement(complement, fetched.variance);
+    result.concentration = concentration_from_complement(breadth);
     result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
     if (keeps_shape()) {
-        float own = base_complement_share(complement, fetched.base_complement);
+        float own = base_complement_share(breadth, fetched.base_complement);
         result.parameter = base_lobe_of_concentration(DISTRIBUTION, result.concentration);
         result.own_weight = own * share * fetched.own_scale;
         result.weight *= 1.0 - own;
@@ -298,7 +301,10 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.diffuse_normal = mean.xyz * fetched.mixture_from_tangent;
     // Lobes about normals: their resultant is the product of the normals' and the base lobes'.
     fetched.complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
-    fetched.spread = clamp(1.0 - mean.w / max(fetched.complement, LEAST_WEIGHT), 0.0, 1.0);
+    // Over an atlas the mixtures have the macro-surface's normals already.
+    fetched.variance = SPACE == SPACE_TANGENT ? isotropic_variance(surface.curvature) : 0.0;
+    float breadth = widened_complement(fetched.complement, fetched.variance);
+    fetched.spread = 1.0 - base_complement_share(breadth, mean.w);
     if (may_see_level_0(lobe_map())) {
         fetched.base = unfiltered_material(surface);
         fetched.diffuse_normal =
@@ -344,10 +350,10 @@ vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3
     base_material frame = fetched.filtered;
     frame.normal = reflecting_normal(fetched, halfway);
     if (may_see_level_0(lobe_map())) {
-        frame.width = mix(frame.width, fetched.base.width, fetched.base_share);
-        distribution +=
-            fetched.base_share *
-            evaluate_normal_distribution(fetched.base.normal, halfway, fetched.base.width);
+        float width = widened_width(fetched.base);
+        frame.width = mix(frame.width, width, fetched.base_share);
+        distribution += fetched.base_share *
+                        evaluate_normal_distribution(fetched.base.normal, halfway, width);
     }
     return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
                                 incoming);
