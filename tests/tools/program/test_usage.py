@@ -84,8 +84,8 @@ def test_report_needs_a_folder():
 
 
 def test_unknown_filter():
-    is_wrong_usage("render", "bumps", *OUTPUT, "--filter", "blur", says=["blur", "lobes, reference"])
-    is_wrong_usage("bench", "bumps", "--filters", "direct,blur", says=["blur", "lobes, reference"])
+    is_wrong_usage("render", "bumps", *OUTPUT, "--filter", "blur", says=["blur", "direct, mipmap"])
+    is_wrong_usage("bench", "bumps", "--filters", "direct,blur", says=["blur", "direct, mipmap"])
     is_wrong_usage("bench", "bumps", "--filters", "direct,", says="filter ''")
 
 
