@@ -2,17 +2,29 @@
 
 #include <string.h>
 
+#include "scenes/mesh.h"
 #include "scenes/scene.h"
 
 static const builtin_scene table[] = {
-    {{"checkerboard", "a plane of two lobe widths in fine squares, seen into the distance"},
-     builtin_checkerboard},
-    {{"bumps", "a plane of hemispherical bumps, each of its own metal and roughness"},
-     builtin_bumps},
-    {{"tablecloth", "a draped cloth with two lobes at 45 degrees and a noise normal map"},
-     builtin_tablecloth},
-    {{"pillow", "a cushion of brocade, woven of sharp silk one way and broad gold the other"},
-     builtin_pillow},
+    {{"checkerboard", "a plane of two lobe widths in fine squares, seen into the distance", false},
+     builtin_checkerboard,
+     NULL},
+    {{"bumps", "a plane of hemispherical bumps, each of its own metal and roughness", false},
+     builtin_bumps,
+     NULL},
+    {{"tablecloth", "a draped cloth with two lobes at 45 degrees and a noise normal map", false},
+     builtin_tablecloth,
+     NULL},
+    {{"pillow", "a cushion of brocade, woven of sharp silk one way and broad gold the other",
+      false},
+     builtin_pillow,
+     NULL},
+    {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true},
+     NULL,
+     builtin_bunny},
+    {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true},
+     NULL,
+     builtin_dragon},
 };
 
 size_t lobe_builtin_scene_count(void) {
@@ -38,6 +50,26 @@ lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, 
         status = (*steps)(*scene, log);
     if (!status)
         status = scene_complete(*scene, log);
+    if (status)
+        lobe_scene_destroy(scene);
+    return status;
+}
+
+lobe_result builtin_scene_assemble_asset(const asset_mesh *wanted, const char *assets,
+                                         const builtin_step *steps, const lobe_log *log,
+                                         lobe_scene **scene) {
+    lobe_mesh mesh;
+    *scene = NULL;
+    lobe_result status = asset_mesh_load(wanted, assets, log, &mesh);
+    if (!status)
+        status = scene_allocate(wanted->scene, log, scene);
+    for (; !status && *steps; steps++)
+        status = (*steps)(*scene, log);
+    if (!status)
+        status = scene_place_mesh(*scene, &mesh, 0, log);
+    if (!status)
+        status = scene_complete(*scene, log);
+    mesh_free(&mesh);
     if (status)
         lobe_scene_destroy(scene);
     return status;

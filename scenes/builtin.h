@@ -5,14 +5,18 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
+#include "scenes/asset_mesh.h"
+
 /// The scenes made by code. Each is one file, scenes/builtin_<name>.c, and one row of the table
 /// in scenes/builtin.c. They use no random source but scenes/random.h, and of libm only what IEEE
 /// 754 defines to the last bit (sqrt, floor, fmin): every machine makes the same bytes.
 
 typedef struct builtin_scene {
     lobe_builtin_scene description;
-    /// Makes a completed scene. On failure `*scene` is NULL.
+    /// Makes a completed scene. On failure `*scene` is NULL. One of the two, as
+    /// description.needs_assets says.
     lobe_result (*build)(const lobe_log *log, lobe_scene **scene);
+    lobe_result (*build_from_assets)(const char *assets, const lobe_log *log, lobe_scene **scene);
 } builtin_scene;
 
 /// NULL where there is none of that name; not an error, nothing is logged.
@@ -24,6 +28,12 @@ typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_log *log);
 /// Runs the steps, ended by NULL, on an empty scene, and completes it.
 lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, const lobe_log *log,
                                    lobe_scene **scene);
+
+/// The same for a scene that shows one mesh of a folder of assets (may be NULL): the mesh is read
+/// first and gets the first material that the steps add. Errors: as for asset_mesh_load.
+lobe_result builtin_scene_assemble_asset(const asset_mesh *wanted, const char *assets,
+                                         const builtin_step *steps, const lobe_log *log,
+                                         lobe_scene **scene);
 
 /// A map whose texels are told one by one.
 typedef struct builtin_map {
@@ -40,5 +50,7 @@ lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_pillow(const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_bunny(const char *assets, const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_dragon(const char *assets, const lobe_log *log, lobe_scene **scene);
 
 #endif

@@ -11,13 +11,21 @@ static bool is_absent(const char *path) {
     return access(path, F_OK) != 0 && errno != EACCES;
 }
 
-lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result) {
+lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                                 lobe_scene **result) {
+    const char *scene = parameters->scene;
     *result = NULL;
     const builtin_scene *builtin = builtin_scene_find(scene);
+    if (builtin && builtin->description.needs_assets)
+        return builtin->build_from_assets(parameters->assets, log, result);
     if (builtin)
         return builtin->build(log, result);
     if (is_absent(scene))
         return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND, "%s: neither a built-in scene nor a file",
                              scene);
     return gltf_open(scene, log, result);
+}
+
+lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result) {
+    return lobe_scene_open_with(&(lobe_scene_open_parameters){.scene = scene}, log, result);
 }

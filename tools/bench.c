@@ -9,6 +9,7 @@
 #include "tools/console.h"
 #include "tools/device_options.h"
 #include "tools/output_file.h"
+#include "tools/scene_options.h"
 #include "tools/subcommand.h"
 
 typedef struct bench_request {
@@ -16,6 +17,7 @@ typedef struct bench_request {
     const char *filters;     ///< "a,b,c"; NULL: all there are
     option_list assignments; ///< "KNOB=VALUE"
     const char *json;
+    scene_options assets;
     device_options device;
     bench_job job;
 } bench_request;
@@ -110,17 +112,41 @@ static int check_usage(const option_table *table, bench_request *request, const 
 // ---------------------------------------------------------------------------------------------
 // Work
 
+/// A scene whose assets are missing is left out: the log has said why.
 static lobe_result measure_scene(const bench_request *request, const char *name,
-                                 bench_result *results) {
+                                 bench_result *results, bool *left_out) {
     lobe_scene *scene;
-    lobe_result result = lobe_scene_open(name, request->job.log, &scene);
-    const uint32_t *size = request->job.size;
-    if (result == LOBE_OK && !scene->has_camera)
-        lobe_scene_frame(scene, (double)size[0] / size[1], &scene->camera);
+    lobe_result result =
+        scene_options_open(&request->assets, name, request->job.size, request->job.log, &scene);
+    *left_out = scene_options_lack_assets(name, result);
     if (result == LOBE_OK)
         result = bench_measure(&request->job, scene, name, results);
     lobe_scene_destroy(&scene);
-    return result;
+    return *left_out ? LOBE_OK : result;
+}
+
+/// `*count` receives how many results there are.
+static lobe_result measure_scenes(const bench_request *request, bench_result *results,
+                                  size_t *count) {
+    const bench_job *job = &request->job;
+    size_t measured = 0;
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < request->scenes.count; ++i) {
+        bool left_out;
+        result = measure_scene(request, request->scenes.values[i],
+                               &results[measured * job->filter_count], &left_out);
+        measured += !left_out;
+    }
+    progress_end(job->progress);
+    *count = measured * job->filter_count;
+    if (result != LOBE_OK || measured == request->scenes.count)
+        return result;
+    if (measured == 0)
+        return LOBE_ERROR_NOT_FOUND;
+    lobe_log_print(job->log, LOBE_LOG_WARNING,
+                   "only %zu of %zu scenes were measured: the others lack assets", measured,
+                   request->scenes.count);
+    return LOBE_OK;
 }
 
 static lobe_result write_json(const bench_request *request, const bench_result *results,
@@ -139,18 +165,15 @@ static lobe_result write_json(const bench_request *request, const bench_result *
 
 static lobe_result measure_all(const bench_request *request, bench_result *results) {
     const bench_job *job = &request->job;
-    size_t count = request->scenes.count * job->filter_count;
-    lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < request->scenes.count; ++i)
-        result = measure_scene(request, request->scenes.values[i], &results[i * job->filter_count]);
-    progress_end(job->progress);
+    size_t count;
+    lobe_result result = measure_scenes(request, results, &count);
     if (result == LOBE_OK)
         result = device_options_check(job->device, job->log);
     if (result == LOBE_OK)
         result = write_json(request, results, count);
     if (result == LOBE_OK)
         bench_print(job, results, count);
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < request->scenes.count * job->filter_count; ++i)
         bench_result_free(&results[i]);
     return result;
 }
@@ -226,6 +249,7 @@ static int run(int argc, char **argv) {
          .argument = "FILE",
          .summary = "writes all results as JSON",
          .target = &request.json},
+        scene_option_assets(&request.assets),
         device_option_select(&request.device),
         device_option_validation(&request.device),
     };
@@ -238,7 +262,7 @@ static int run(int argc, char **argv) {
             "against a reference of many samples, once as the scene is, and once with its base\n"
             "lobes turned into von Mises-Fisher lobes, which leaves the error of filtering alone.\n"
             "Frames of the filters take turns. Where the filter reference is measured itself, it\n"
-            "takes 64 samples a pixel.",
+            "takes 64 samples a pixel. Scenes whose assets are missing are left out.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

@@ -8,6 +8,7 @@
 #include "tools/device_options.h"
 #include "tools/output_file.h"
 #include "tools/progress.h"
+#include "tools/scene_options.h"
 #include "tools/subcommand.h"
 #include "tools/timing.h"
 #include "tools/view_options.h"
@@ -27,6 +28,7 @@ typedef struct render_request {
     bool layers; ///< of arbitrary output variables
     double exposure;
     bool has_carrier, has_samples, has_depth, has_exposure;
+    scene_options assets;
     view_options view;
     lobe_light *lights;
     device_options device;
@@ -115,15 +117,11 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_lo
 // Work
 
 static lobe_result open_scene(const render_request *request, render_state *state) {
-    lobe_result result =
-        request->material
-            ? lobe_scene_open_material(request->material, (lobe_carrier)request->carrier,
-                                       &state->log, &state->scene)
-            : lobe_scene_open(request->scene, &state->log, &state->scene);
-    if (result == LOBE_OK && !state->scene->has_camera)
-        lobe_scene_frame(state->scene, (double)request->size[0] / request->size[1],
-                         &state->scene->camera);
-    return result;
+    if (request->material)
+        return lobe_scene_open_material(request->material, (lobe_carrier)request->carrier,
+                                        &state->log, &state->scene);
+    return scene_options_open(&request->assets, request->scene, request->size, &state->log,
+                              &state->scene);
 }
 
 static lobe_result open_renderer(const render_request *request, render_state *state) {
@@ -349,6 +347,7 @@ static int run(int argc, char **argv) {
          .fallback = "plane",
          .choices = carriers,
          .given = &request.has_carrier},
+        scene_option_assets(&request.assets),
         {.name = "depth",
          .kind = OPTION_CHOICE,
          .argument = "DEPTH",

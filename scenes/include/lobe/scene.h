@@ -211,13 +211,23 @@ void lobe_scene_destroy(lobe_scene **scene);
 typedef struct lobe_builtin_scene {
     const char *name;
     const char *summary; ///< one line
+    /// Its mesh is read from a folder of assets: see lobe_scene_open_parameters.
+    bool needs_assets;
 } lobe_builtin_scene;
 
 size_t lobe_builtin_scene_count(void);
 /// NULL for an index out of range.
 const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
-/// Opens `scene`: the name of a built-in scene, or the path of a .gltf or .glb file.
+/// What is opened, and what it is made of.
+typedef struct lobe_scene_open_parameters {
+    const char *scene; ///< the name of a built-in scene, or the path of a .gltf or .glb file
+    /// A folder that holds models/npm_bunny.js and models/npm_dragon_vrip_res3.ply.gz, the meshes
+    /// of the built-in scenes that need assets. NULL: none; those scenes are then NOT_FOUND.
+    const char *assets;
+} lobe_scene_open_parameters;
+
+/// Opens a scene.
 /// Of a file, what its default scene reaches is imported. Unsupported parts are named in one
 /// warning; triangles without area are dropped and normals of length zero recomputed, each
 /// counted in a warning. Triangles without normals are flat, as glTF asks. A missing camera or
@@ -225,6 +235,10 @@ const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 /// refuses it. On failure `*result` is NULL and the log has one line that names
 /// the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
 /// _OUT_OF_MEMORY.
+lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                                 lobe_scene **result);
+
+/// The same, without assets.
 lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
 
 typedef enum lobe_carrier { LOBE_CARRIER_PLANE, LOBE_CARRIER_SPHERE } lobe_carrier;

@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import tap
-from program import ROOT, check, fresh_folder, leaves, report, succeeds
+from program import ROOT, check, fails, fresh_folder, leaves, report, succeeds
 
 QUICK = ["--size", "48x32", "--samples", "4", "--frames", "3"]
 
@@ -109,6 +109,21 @@ def test_knobs_are_set_and_recorded():
     check(lobes["knobs"]["epsilon0"] == 0.5 and lobes["knobs"]["threshold"] == "length", str(lobes))
     check("epsilon0" not in direct["knobs"] and direct["knobs"]["base"] == "lobe", str(direct))
     check(direct["error"] == direct["error_lobe_base"], "both truths have base=lobe")
+
+
+def test_scenes_without_assets_are_left_out():
+    folder = fresh_folder("assets")
+    arguments = ["--filters", "direct", *QUICK, "--json", folder / "a.json"]
+    result = succeeds("bench", "bunny", "bumps", "dragon", *arguments, LOBE_ASSETS="")
+    check("error: scene 'bunny': no folder of assets" in result.stderr, report(result))
+    check("warning: only 1 of 3 scenes were measured" in result.stderr, report(result))
+    results = json.loads((folder / "a.json").read_text())["results"]
+    check([one["scene"] for one in results] == ["bumps"], str(results))
+    nothing = fresh_folder("nothing")
+    fails("bench", "bunny", *arguments[:-1], nothing / "a.json", LOBE_ASSETS="", says="bunny")
+    fails("bench", "dragon", "--assets", nothing, *arguments[:-1], nothing / "a.json",
+          says=["dragon", str(nothing), "--assets DIR"])
+    leaves(nothing)
 
 
 def test_progress_goes_to_standard_error():
