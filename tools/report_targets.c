@@ -76,7 +76,7 @@ static void write_value(const report *report, const target *target, double value
         return;
     }
     report_mean mean = report_mean_ratio(report, target->measure, target->filter, target->base);
-    fprintf(page, "<td class=\"text\">mean of the ratios %s, geometric %s</td>",
+    fprintf(page, "<td class=\"text\">%s, geometric %s</td>",
             number_text_of(mean.arithmetic, 3).text, number_text_of(mean.geometric, 3).text);
 }
 
@@ -113,7 +113,8 @@ void report_write_targets(const report *report) {
         "map is built again; reference takes 64 samples a pixel.",
         "<tr><th class=\"text\" scope=\"col\">ratio</th><th class=\"text\" scope=\"col\">scene</th>"
         "<th scope=\"col\">target</th><th scope=\"col\">value</th>"
-        "<th class=\"text\" scope=\"col\">result</th><th scope=\"col\"></th></tr>");
+        "<th class=\"text\" scope=\"col\">result</th>"
+        "<th class=\"text\" scope=\"col\">mean of the scenes’ ratios</th></tr>");
     for (size_t i = 0; i < sizeof targets / sizeof *targets; ++i)
         write_target(report, &targets[i]);
     report_table_end(report->page);

@@ -49,6 +49,34 @@ def exr_header(path):
     return attributes
 
 
+def _attribute(name, kind, value):
+    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+
+def exr_write(path, width, height, colour_at):
+    """An OpenEXR file, scan lines without compression: `colour_at(x, y)` is a pixel's RGB."""
+    channels = b"".join(name + b"\0" + struct.pack("<iBxxxii", 2, 0, 1, 1)
+                        for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<2i", 20000630, 2) + b"".join((
+        _attribute("channels", "chlist", channels), _attribute("compression", "compression", b"\0"),
+        _attribute("dataWindow", "box2i", window), _attribute("displayWindow", "box2i", window),
+        _attribute("lineOrder", "lineOrder", b"\0"),
+        _attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
+        _attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
+        _attribute("screenWindowWidth", "float", struct.pack("<f", 1)))) + b"\0"
+    size = 12 * width
+    first = len(header) + 8 * height
+    offsets = struct.pack(f"<{height}Q", *(first + y * (8 + size) for y in range(height)))
+    lines = b""
+    for y in range(height):
+        row = [colour_at(x, y) for x in range(width)]
+        lines += struct.pack("<2i", y, size) + b"".join(
+            struct.pack(f"<{width}f", *(colour[channel] for colour in row))
+            for channel in (2, 1, 0))
+    path.write_bytes(header + offsets + lines)
+
+
 # PNG ----------------------------------------------------------------------------------------
 
 def _chunk(kind, data):
@@ -80,7 +108,11 @@ def _unfilter(kind, row, above, size):
 
 def png_read(path):
     """Width, height and the pixels' RGB of an 8-bit RGB or RGBA picture."""
-    data = path.read_bytes()
+    return png_decode(path.read_bytes(), path)
+
+
+def png_decode(data, path="data"):
+    """The same from memory; `path` is for messages."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG file"
     at, packed, width, height, size = 8, b"", 0, 0, 0
     while at < len(data):
