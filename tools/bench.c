@@ -1,5 +1,6 @@
 #include "tools/bench.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 #include "tools/output_file.h"
 #include "tools/scene_options.h"
 #include "tools/subcommand.h"
+#include "tools/sweep.h"
 
 typedef struct bench_request {
     option_list scenes;
@@ -20,7 +22,14 @@ typedef struct bench_request {
     scene_options assets;
     device_options device;
     bench_job job;
+    bool sweep, resume;
+    const char *pictures;
+    uint32_t path_samples, stations;
+    bool has_path_samples, has_stations;
 } bench_request;
+
+/// Ctrl-C asks a sweep to stop; a second one stops it.
+static volatile sig_atomic_t interrupted;
 
 // ---------------------------------------------------------------------------------------------
 // Usage
@@ -99,11 +108,28 @@ static int choose_truths(bench_request *request, const lobe_log *log) {
     return lobe_settings_set(reference, &job->truth_lobe_base, "base=lobe", log) == LOBE_OK ? 0 : 1;
 }
 
+static int check_sweep_usage(const option_table *table, const bench_request *request) {
+    if (request->sweep && !request->json)
+        return options_usage_error(table, "--sweep needs --json FILE");
+    if (request->sweep && request->assignments.count > 0)
+        return options_usage_error(table, "--set: --sweep sets the knobs itself");
+    const char *alone = request->resume             ? "--resume"
+                        : request->pictures         ? "--pictures"
+                        : request->has_path_samples ? "--path-samples"
+                        : request->has_stations     ? "--stations"
+                                                    : NULL;
+    if (!request->sweep && alone)
+        return options_usage_error(table, "%s goes with --sweep", alone);
+    return 0;
+}
+
 static int check_usage(const option_table *table, bench_request *request, const lobe_log *log) {
     const uint32_t *size = request->job.size;
     if (size[0] == 0 || size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", size[0], size[1]);
-    int status = choose_filters(table, request, log);
+    int status = check_sweep_usage(table, request);
+    if (status == 0)
+        status = choose_filters(table, request, log);
     for (size_t i = 0; status == 0 && i < request->assignments.count; ++i)
         status = set_knob(&request->job, request->assignments.values[i], log);
     return status == 0 ? choose_truths(request, log) : status;
@@ -178,13 +204,30 @@ static lobe_result measure_all(const bench_request *request, bench_result *resul
     return result;
 }
 
-static lobe_result bench(bench_request *request) {
-    bench_job *job = &request->job;
-    lobe_result result = output_file_check(request->json, job->log);
-    if (result == LOBE_OK)
-        result = device_options_open(&request->device, job->log, &job->device);
-    if (result != LOBE_OK)
-        return result;
+static void interrupt(int signal) {
+    (void)signal;
+    interrupted = 1;
+}
+
+static lobe_result sweep(const bench_request *request) {
+    sweep_job job = {
+        .bench = request->job,
+        .json = request->json,
+        .pictures = request->pictures,
+        .assets = &request->assets,
+        .path_samples = request->path_samples,
+        .stations = request->stations,
+        .resume = request->resume,
+        .interrupted = &interrupted,
+    };
+    const struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESETHAND};
+    sigaction(SIGINT, &action, NULL);
+    return sweep_run(&job, request->scenes.values, request->scenes.count);
+}
+
+static lobe_result compare_filters(const bench_request *request) {
+    const bench_job *job = &request->job;
+    lobe_result result;
     bench_result *results = calloc(request->scenes.count * job->filter_count, sizeof *results);
     if (results) {
         result = measure_all(request, results);
@@ -193,6 +236,16 @@ static lobe_result bench(bench_request *request) {
         result = LOBE_ERROR_OUT_OF_MEMORY;
     }
     free(results);
+    return result;
+}
+
+static lobe_result bench(bench_request *request) {
+    bench_job *job = &request->job;
+    lobe_result result = output_file_check(request->json, job->log);
+    if (result == LOBE_OK)
+        result = device_options_open(&request->device, job->log, &job->device);
+    if (result == LOBE_OK)
+        result = request->sweep ? sweep(request) : compare_filters(request);
     lobe_device_destroy(&job->device);
     return result;
 }
@@ -205,7 +258,7 @@ static int run_request(const option_table *table, bench_request *request) {
     int status = check_usage(table, request, &log);
     if (status != 0)
         return status;
-    return bench(request) == LOBE_OK ? 0 : 1;
+    return bench(request) == LOBE_OK && !interrupted ? 0 : 1;
 }
 
 static int run(int argc, char **argv) {
@@ -249,6 +302,40 @@ static int run(int argc, char **argv) {
          .argument = "FILE",
          .summary = "writes all results as JSON",
          .target = &request.json},
+        {.name = "sweep",
+         .kind = OPTION_FLAG,
+         .summary = "measures each filter over the values of its knobs too, one varied at a time; "
+                    "splits times into building and shading, and measures flicker along the "
+                    "scene's path; Ctrl-C stops it after writing the scenes that are done",
+         .target = &request.sweep},
+        {.name = "resume",
+         .kind = OPTION_FLAG,
+         .summary = "with --sweep: goes on from FILE, where it exists, with the scenes it lacks",
+         .target = &request.resume},
+        {.name = "pictures",
+         .kind = OPTION_TEXT,
+         .argument = "DIR",
+         .summary = "with --sweep: where pictures of the filters at their defaults and of the "
+                    "reference go (default: FILE with .pictures for .json)",
+         .target = &request.pictures},
+        {.name = "path-samples",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "with --sweep: samples a pixel of the reference along the path",
+         .target = &request.path_samples,
+         .fallback = "64",
+         .minimum = 1,
+         .maximum = LOBE_MAXIMUM_SAMPLES,
+         .given = &request.has_path_samples},
+        {.name = "stations",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "with --sweep: places on the path where two frames 1/30 s apart are compared",
+         .target = &request.stations,
+         .fallback = "12",
+         .minimum = 1,
+         .maximum = 1000,
+         .given = &request.has_stations},
         scene_option_assets(&request.assets),
         device_option_select(&request.device),
         device_option_validation(&request.device),

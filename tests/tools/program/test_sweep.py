@@ -1,0 +1,298 @@
+"""What `lobe bench --sweep` measures and writes, and how it stops and goes on."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+
+import tap
+from files import exr_header, gltf_triangle
+from program import (FOLDER, PROGRAM, check, fails, fresh_folder, is_wrong_usage, leaves, lobe,
+                     report, succeeds)
+
+FILTERS = ["direct", "mipmap"]
+QUICK = ["--sweep", "--filters", ",".join(FILTERS), "--size", "64x36", "--samples", "4",
+         "--frames", "1", "--stations", "2", "--path-samples", "2"]
+TIMES = ["rebuilt_ms", "rebuilt_p95_ms", "retained_ms", "retained_p95_ms", "building_ms",
+         "shading_ms"]
+ERRORS = ["flip", "psnr", "relative_l1", "relative_l2", "relative_mse", "rmse"]
+
+
+def sweep(folder, *arguments):
+    path = folder / "a.json"
+    result = succeeds("bench", *QUICK, "--json", path, *arguments)
+    return result, json.loads(path.read_text())
+
+
+def settings_of(row):
+    return {setting["name"]: setting["value"] for setting in row["settings"]}
+
+
+def without_times(row):
+    """All that must be the same in every run."""
+    kept = {name: value for name, value in row.items() if name not in TIMES}
+    kept["passes"] = [{name: value for name, value in one.items() if "milliseconds" not in name}
+                      for one in row["passes"]]
+    return kept
+
+
+_once = []
+
+
+def two_scenes():
+    """An undisturbed sweep of two scenes, measured once for all cases; its folder and results."""
+    if not _once:
+        folder = fresh_folder("whole")
+        result, results = sweep(folder, "bumps", "checkerboard", "--frames", "3")
+        _once.extend([folder, result, results])
+    return _once
+
+
+# What is measured ---------------------------------------------------------------------------
+
+def test_results_have_their_form():
+    _, result, results = two_scenes()
+    check(results["version"] == succeeds("--version").stdout.split()[1], "version")
+    check(results["device_type"] == "CPU" and results["device"] in result.stdout, report(result))
+    check(results["size"] == [64, 36] and results["reference_samples"] == 4, str(results))
+    check((results["path_samples"], results["stations"], results["frames"]) == (2, 2, 3),
+          str(results))
+    check(results["complete"] is True, "complete")
+    check([one["name"] for one in results["scenes"]] == ["bumps", "checkerboard"], "scenes")
+    for scene in results["scenes"]:
+        check(scene["triangles"] > 0 and scene["skipped"] is None, str(scene))
+    for row in results["rows"]:
+        check(all(isinstance(row[name], (int, float)) and row[name] >= 0 for name in TIMES),
+              str(row))
+        check(sorted(row["error"]) == ERRORS and sorted(row["error_lobe_base"]) == ERRORS,
+              str(row))
+        check(row["memory_bytes"] > 0 and row["flicker"] >= 0, str(row))
+
+
+def test_each_knob_is_varied_alone():
+    *_, results = two_scenes()
+    for scene in ("bumps", "checkerboard"):
+        rows = [row for row in results["rows"] if row["scene"] == scene]
+        check([row["filter"] for row in rows if row["varied"] == ""] == FILTERS, str(rows))
+        default = settings_of(next(row for row in rows
+                                   if row["filter"] == "mipmap" and row["varied"] == ""))
+        changed = set()
+        for row in rows:
+            if row["filter"] == "mipmap" and row["varied"]:
+                settings = settings_of(row)
+                differing = [name for name in default if default[name] != settings[name]]
+                check(differing == [row["varied"]], f"{row['varied']} varied, but {differing}")
+                changed.add((row["varied"], settings[row["varied"]]))
+        check({("probes", "2"), ("probes", "4"), ("storage", "float16")} <= changed, str(changed))
+
+
+def test_times_come_apart():
+    *_, results = two_scenes()
+    for row in results["rows"]:
+        parts = row["building_ms"] + row["shading_ms"]
+        check(0.3 * row["rebuilt_ms"] < parts, str(row))
+        passes = {one["name"]: one for one in row["passes"]}
+        check(not passes["shading"]["building"] and passes["shading"]["bytes"] == 0, str(passes))
+        building = [one for one in row["passes"] if one["building"]]
+        check((row["filter"] == "direct") == (building == []), str(passes))
+        check((row["building_ms"] > 0) == (building != []), str(row))
+        for one in building:
+            check(one["bytes"] > 0 and one["copy_milliseconds"] > 0 and one["milliseconds"] > 0,
+                  str(one))
+
+
+def test_bytes_are_those_of_the_maps():
+    *_, results = two_scenes()
+    rows = {settings_of(row).get("storage"): row for row in results["rows"]
+            if row["scene"] == "bumps" and row["filter"] == "mipmap"
+            and row["varied"] in ("", "storage")}
+    moved = {name: sum(one["bytes"] for one in row["passes"] if one["building"])
+             for name, row in rows.items()}
+    check(rows["float16"]["bytes_per_texel"] < rows["float32"]["bytes_per_texel"], str(moved))
+    check(moved["float16"] < moved["float32"], str(moved))
+
+
+def test_flicker_and_error_tell_filters_apart():
+    *_, results = two_scenes()
+    direct, mipmap = [next(row for row in results["rows"] if row["scene"] == "checkerboard" and
+                           row["filter"] == name and row["varied"] == "") for name in FILTERS]
+    check(0 < mipmap["flicker"] < direct["flicker"], f"{mipmap['flicker']} {direct['flicker']}")
+    check(0 < mipmap["error"]["relative_l2"] < direct["error"]["relative_l2"], "errors")
+
+
+def test_the_reference_has_one_row_without_flicker():
+    result, results = sweep(fresh_folder("reference"), "checkerboard", "--filters", "reference")
+    check(len(results["rows"]) == 1 and results["rows"][0]["flicker"] < 0, str(results["rows"]))
+    shading = next(one for one in results["rows"][0]["passes"] if one["name"] == "shading")
+    check(shading["count"] == 64, str(shading))
+    check("s left" in result.stderr and "\033" not in result.stderr, report(result))
+
+
+def test_pictures_are_kept():
+    folder, _, results = two_scenes()
+    leaves(folder, "a.json", "a.pictures")
+    pictures = [scene["reference"] for scene in results["scenes"]] + \
+        [row["picture"] for row in results["rows"] if row["picture"]]
+    check(len(set(pictures)) == 2 * (1 + len(FILTERS)), str(pictures))
+    leaves(folder / "a.pictures", *[name.removeprefix("a.pictures/") for name in pictures])
+    for row in results["rows"]:
+        check((row["picture"] is not None) == (row["varied"] == ""), str(row["varied"]))
+        if row["picture"]:
+            header = exr_header(folder / row["picture"])
+            check(header["filter"] == row["filter"] and header["scene"] == row["scene"],
+                  str(header))
+            check(header["channels"]["R"] == "half", str(header))
+    check(exr_header(folder / pictures[0])["samples"] == 4, "the reference's samples")
+
+
+def test_pictures_may_go_elsewhere():
+    folder = fresh_folder("elsewhere")
+    (folder / "results").mkdir()
+    succeeds("bench", *QUICK, "checkerboard", "--filters", "direct", "--json",
+             folder / "results" / "a.json", "--pictures", folder / "shown")
+    results = json.loads((folder / "results" / "a.json").read_text())
+    check(results["rows"][0]["picture"] == "../shown/checkerboard-direct.exr", str(results))
+    leaves(folder / "shown", "checkerboard-direct.exr", "checkerboard.exr")
+    leaves(folder / "results", "a.json")
+
+
+def test_scenes_that_do_not_open_are_skipped():
+    folder = fresh_folder("skipped")
+    result, results = sweep(folder, "nosuch.gltf", "checkerboard", "--filters", "direct")
+    check("warning: nosuch.gltf: skipped" in result.stderr, report(result))
+    check("skipped" in result.stdout, report(result))
+    skipped, measured = results["scenes"]
+    check("nosuch.gltf" in skipped["skipped"] and measured["skipped"] is None, str(skipped))
+    check({row["scene"] for row in results["rows"]} == {"checkerboard"}, "rows")
+    check(results["complete"] is True, "complete")
+
+
+def test_a_sweep_of_nothing_fails():
+    folder = fresh_folder("nothing")
+    result = fails("bench", *QUICK, "bunny", "--json", folder / "a.json", LOBE_ASSETS="",
+                   says="no scene could be measured")
+    check("warning: bunny: skipped" in result.stderr, report(result))
+    results = json.loads((folder / "a.json").read_text())
+    check("assets" in results["scenes"][0]["skipped"], str(results))
+
+
+# Stopping and going on ----------------------------------------------------------------------
+
+def start(*arguments):
+    environment = {**os.environ, "XDG_CACHE_HOME": str(FOLDER / "cache")}
+    return subprocess.Popen([PROGRAM, "bench", *QUICK, *map(str, arguments)], cwd=FOLDER,
+                            env=environment, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, errors="replace")
+
+
+def interrupt_at(words, *arguments):
+    """Sends Ctrl-C when a line with these words appears. All that it said on standard error."""
+    with start(*arguments) as process:
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if words in line:
+                process.send_signal(signal.SIGINT)
+                break
+        said.append(process.communicate(timeout=120)[1])
+        check(process.returncode == 1, f"status {process.returncode}: {said}")
+    return "".join(said)
+
+
+def test_interrupted_and_resumed_equals_undisturbed():
+    *_, whole = two_scenes()
+    folder = fresh_folder("resumed")
+    arguments = ["bumps", "checkerboard", "--frames", "3", "--json", folder / "a.json"]
+    said = interrupt_at("checkerboard: error", *arguments)
+    check("holds 1 of 2 scenes, --resume goes on" in said and "error:" not in said, said)
+    results = json.loads((folder / "a.json").read_text())
+    check(results["complete"] is False, "complete")
+    check({row["scene"] for row in results["rows"]} == {"bumps"}, "rows")
+    leaves(folder, "a.json", "a.pictures")
+    first = results["rows"]
+    result = succeeds("bench", *QUICK, *arguments, "--resume")
+    check("bumps:" not in result.stderr, report(result))
+    results = json.loads((folder / "a.json").read_text())
+    check(results["complete"] is True, "complete")
+    check(results["rows"][:len(first)] == first, "the rows that were there changed")
+    check([without_times(row) for row in results["rows"]] ==
+          [without_times(row) for row in whole["rows"]], "other rows than those of one sweep")
+
+
+def test_interrupted_in_the_first_scene():
+    folder = fresh_folder("first")
+    said = interrupt_at("bumps: reference", "bumps", "--json", folder / "a.json")
+    check("holds 0 of 1 scenes" in said, said)
+    results = json.loads((folder / "a.json").read_text())
+    check(results["complete"] is False and results["rows"] == [], str(results))
+
+
+def test_resuming_measures_more_scenes_and_skipped_ones():
+    folder = fresh_folder("more")
+    (folder / "scene").mkdir()
+    path = folder / "scene" / "a.gltf"
+    _, results = sweep(folder, path, "checkerboard", "--filters", "direct")
+    check({row["scene"] for row in results["rows"]} == {"checkerboard"}, "rows")
+    path.write_text(json.dumps(gltf_triangle()), encoding="utf-8")
+    result, results = sweep(folder, path, "checkerboard", "--filters", "direct", "--resume")
+    check("checkerboard: reference" not in result.stderr, report(result))
+    check({row["scene"] for row in results["rows"]} == {str(path), "checkerboard"},
+          str(results["rows"]))
+    check(all(scene["skipped"] is None for scene in results["scenes"]), str(results["scenes"]))
+
+
+def test_resuming_refuses_other_measurements():
+    folder = fresh_folder("other")
+    shutil.copy(two_scenes()[0] / "a.json", folder / "a.json")
+    before = (folder / "a.json").read_bytes()
+    for option, value, words in [("--size", "32x36", "size 64x36, now it is 32x36"),
+                                 ("--samples", "5", "samples 4, now it is 5"),
+                                 ("--frames", "7", "frames 3, now it is 7"),
+                                 ("--stations", "3", "stations 2, now it is 3"),
+                                 ("--path-samples", "3", "path samples 2, now it is 3")]:
+        options = [*QUICK, "--frames", "3", option, value]
+        fails("bench", *options, "bumps", "--json", folder / "a.json", "--resume",
+              says=["a.json", words, "--resume"])
+    results = json.loads(before)
+    results["driver"] = "another"
+    (folder / "a.json").write_text(json.dumps(results))
+    before = (folder / "a.json").read_bytes()
+    fails("bench", *QUICK, "--frames", "3", "bumps", "--json", folder / "a.json", "--resume",
+          says=["driver another"])
+    check((folder / "a.json").read_bytes() == before, "the file was changed")
+    leaves(folder, "a.json")
+
+
+def test_resuming_from_a_broken_file_is_refused():
+    folder = fresh_folder("broken")
+    (folder / "a.json").write_text('{"version": "0.1')
+    fails("bench", *QUICK, "bumps", "--json", folder / "a.json", "--resume", says="a.json: not JSON")
+    leaves(folder, "a.json")
+
+
+# Usage --------------------------------------------------------------------------------------
+
+def test_options_that_do_not_go_together():
+    is_wrong_usage("bench", "bumps", "--sweep", says="--sweep needs --json")
+    is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--set", "probes=2",
+                   says="--sweep sets the knobs itself")
+    for option in (["--resume"], ["--pictures", "x"], ["--stations", "2"], ["--path-samples", "2"]):
+        is_wrong_usage("bench", "bumps", *option, says=f"{option[0]} goes with --sweep")
+    is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--stations", "0",
+                   says="--stations")
+    is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--path-samples", "0",
+                   says="--path-samples")
+
+
+def test_a_folder_for_pictures_that_cannot_be():
+    folder = fresh_folder("no_pictures")
+    (folder / "a.pictures").write_text("a file")
+    result = lobe("bench", *QUICK, "bumps", "--json", folder / "a.json")
+    check(result.returncode == 1 and "a.pictures" in result.stderr, report(result))
+    leaves(folder, "a.pictures")
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))

@@ -1,0 +1,151 @@
+#ifndef TOOLS_SWEEP_H
+#define TOOLS_SWEEP_H
+
+#include <signal.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/filter.h>
+#include <lobe/renderer.h>
+
+#include "tools/bench.h"
+#include "tools/scene_options.h"
+#include "tools/sweep_results.h"
+
+/// `lobe bench --sweep`: what its parts share. One file does one thing:
+///
+///     sweep.c            scenes one after the other, results written after each
+///     sweep_plan.c       which rows there are
+///     sweep_measure.c    all rows of one scene
+///     sweep_flicker.c    change along the scene's path
+///     sweep_bandwidth.c  plain copies of as many bytes as passes move
+///     sweep_pictures.c   names and files of pictures
+///     sweep_print.c      a table for people
+///     sweep_results.c    the file
+
+/// A row to measure: a filter and its knobs.
+typedef struct sweep_variant {
+    bench_filter filter;
+    const char *varied; ///< the knob that is not at its default; "" for none
+} sweep_variant;
+
+typedef struct sweep_plan {
+    sweep_variant *variants; ///< a filter's defaults stand before its others
+    size_t count;
+} sweep_plan;
+
+typedef struct sweep_job {
+    bench_job bench;
+    sweep_plan plan;
+    const char *json;
+    const char *pictures; ///< folder; NULL: beside the JSON
+    char *picture_folder; ///< where they go
+    char *picture_prefix; ///< the same as seen from the JSON's folder, with a slash
+    const scene_options *assets;
+    uint32_t path_samples, stations;
+    bool resume;
+    const volatile sig_atomic_t *interrupted; ///< not 0: stop soon
+} sweep_job;
+
+/// Measures the scenes and prints a table. Writes the JSON after each scene.
+/// A scene that does not open is entered as skipped. `bench.filters` and truths must be chosen.
+/// LOBE_OK too where it was interrupted. Errors: LOBE_ERROR_NOT_FOUND (every scene was skipped),
+/// LOBE_ERROR_INVALID_ARGUMENT (results to go on from
+/// were measured otherwise), LOBE_ERROR_WRITE, those of reading results and of rendering.
+lobe_result sweep_run(sweep_job *job, const char *const *scenes, size_t scene_count);
+
+/// Whether to stop. Steps then return LOBE_OK, with results to throw away.
+bool sweep_stopped(const sweep_job *job);
+
+/// A frame of a variant: discarded, 64 samples where it supersamples, stopped by Ctrl-C.
+lobe_render_parameters sweep_parameters(const sweep_job *job, const sweep_variant *variant);
+
+/// For frames that are a step of their own: shows the part that is done. `user` is the job.
+bool sweep_show_progress(void *user, double part);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_plan.c
+
+/// Each filter with its defaults, and once with each value of each knob's list `sweep` that is not
+/// the default; a supersampling filter only with its defaults. Of a filter given twice the second
+/// is passed over. Free with sweep_plan_free. Errors: LOBE_ERROR_INVALID_ARGUMENT (a value that
+/// its own knob refuses), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result sweep_plan_make(const bench_filter *filters, size_t count, const lobe_log *log,
+                            sweep_plan *plan);
+void sweep_plan_free(sweep_plan *plan);
+
+/// Every knob of a variant as text, into at most LOBE_MAXIMUM_KNOBS; their number.
+size_t sweep_variant_settings(const sweep_variant *variant, sweep_setting *settings);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_measure.c
+
+/// Work of sweep_measure for a scene, in the unit of progress_expect: frames of one sample.
+double sweep_scene_work(const sweep_job *job);
+
+/// Measures all variants in a scene. `rows` has room for all, zeroed; free them after a failure
+/// too. `entry` gets the reference's picture.
+///
+/// Every round gives each row a turn in one renderer: a frame with its maps built that only warms
+/// up (switching from row to row frees and allocates maps, and on a CPU memory is paid for when it
+/// is first touched), frames with maps built that are timed, and the same with maps retained. So
+/// one row's maps are all there is on the device at a time, however many rows there are, and yet
+/// all rows' frames are spread over the same minutes.
+lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,
+                          sweep_row *rows);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_flicker.c
+
+/// What the reference does at the stations of a scene's path.
+typedef struct sweep_path {
+    lobe_image *changes; ///< by station: from one frame to the next
+    double squares;      ///< of all first frames' red, green and blue
+} sweep_path;
+
+/// Renders the reference: two frames a station. Free with sweep_path_free, after a failure too.
+lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
+                              lobe_renderer *renderer, sweep_path *path);
+void sweep_path_free(const sweep_job *job, sweep_path *path);
+
+/// See sweep_row.flicker; negative where the filter supersamples, as the reference does.
+lobe_result sweep_path_flicker(const sweep_job *job, const lobe_scene *scene,
+                               lobe_renderer *renderer, const sweep_variant *variant,
+                               const sweep_path *path, double *flicker);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_bandwidth.c
+
+/// Copies on the device, of the sizes that rows' passes move.
+typedef struct sweep_copies sweep_copies;
+
+/// One for each different `bytes` of the rows' passes. Free with sweep_copies_destroy.
+lobe_result sweep_copies_create(const sweep_job *job, const sweep_row *rows, size_t row_count,
+                                sweep_copies **copies);
+void sweep_copies_destroy(sweep_copies **copies);
+
+/// Copies each size once more.
+lobe_result sweep_copies_time(sweep_copies *copies);
+
+/// Tells the passes the median of their copies' times.
+lobe_result sweep_copies_summarise(sweep_copies *copies, sweep_row *rows, size_t row_count);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_pictures.c
+
+/// Makes the folder for pictures. Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result sweep_pictures_open(sweep_job *job);
+void sweep_pictures_close(sweep_job *job);
+
+/// Writes a still picture; `*relative` is its name as seen from the JSON's folder, to free().
+lobe_result sweep_pictures_write(const sweep_job *job, const char *scene,
+                                 const sweep_variant *variant, uint32_t samples, const char *name,
+                                 const lobe_frame *frame, char **relative);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_print.c
+
+void sweep_print(const sweep_results *results);
+
+#endif
