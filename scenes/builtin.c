@@ -19,6 +19,10 @@ static const builtin_scene table[] = {
       false},
      builtin_pillow,
      NULL},
+    {{"hall", "a colonnade of five materials: wet floor, masonry, marble, bronze and banners",
+      false},
+     builtin_hall,
+     NULL},
     {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true},
      NULL,
      builtin_bunny},
@@ -91,4 +95,18 @@ lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lob
     status = scene_add_image(scene, map->name, &image, log, &added);
     *index = status ? -1 : (int32_t)added;
     return status;
+}
+
+lobe_result builtin_add_metal_rough(lobe_scene *scene, const char *name, const builtin_map *normals,
+                                    const builtin_map *colours, const builtin_map *roughness,
+                                    const lobe_log *log) {
+    lobe_material material;
+    lobe_material_default(&material);
+    material.metallic = 1;
+    lobe_result status = builtin_add_map(scene, normals, log, &material.normal_map.image);
+    if (!status)
+        status = builtin_add_map(scene, colours, log, &material.base_colour_map.image);
+    if (!status)
+        status = builtin_add_map(scene, roughness, log, &material.metallic_roughness_map.image);
+    return status ? status : scene_add_material(scene, name, &material, log, NULL);
 }

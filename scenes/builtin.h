@@ -46,10 +46,17 @@ typedef struct builtin_map {
 lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lobe_log *log,
                             int32_t *index);
 
+/// Adds a microfacet material (GGX) of three maps: normals, base colours, and roughness in green
+/// with metal in blue.
+lobe_result builtin_add_metal_rough(lobe_scene *scene, const char *name, const builtin_map *normals,
+                                    const builtin_map *colours, const builtin_map *roughness,
+                                    const lobe_log *log);
+
 lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_pillow(const lobe_log *log, lobe_scene **scene);
+lobe_result builtin_hall(const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_bunny(const char *assets, const lobe_log *log, lobe_scene **scene);
 lobe_result builtin_dragon(const char *assets, const lobe_log *log, lobe_scene **scene);
 

@@ -27,13 +27,16 @@ static double mix(double a, double b, double t) {
 }
 
 static uint32_t wrap(double cell, uint32_t period) {
+    // Nearly always; what follows divides.
+    if (cell >= 0 && cell < period)
+        return (uint32_t)cell;
     return (uint32_t)(cell - floor(cell / period) * period);
 }
 
 double noise_gradient(double x, double y, uint32_t period, uint32_t seed, double slope[2]) {
     double column = floor(x), row = floor(y), dx = x - column, dy = y - row;
-    uint32_t x0 = wrap(column, period), x1 = wrap(column + 1, period);
-    uint32_t y0 = wrap(row, period), y1 = wrap(row + 1, period);
+    uint32_t x0 = wrap(column, period), x1 = x0 + 1 < period ? x0 + 1 : 0;
+    uint32_t y0 = wrap(row, period), y1 = y0 + 1 < period ? y0 + 1 : 0;
     double s00[2], s10[2], s01[2], s11[2];
     double h00 = ramp(x0, y0, seed, dx, dy, s00), h10 = ramp(x1, y0, seed, dx - 1, dy, s10);
     double h01 = ramp(x0, y1, seed, dx, dy - 1, s01);

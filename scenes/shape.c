@@ -39,6 +39,46 @@ lobe_result shape_plane(float width, float depth, float tile, const lobe_log *lo
     return LOBE_OK;
 }
 
+// A face looks along `axis`, forwards or backwards; `right` and `down` are what a viewer in front
+// of it, whose up is +Y (of the upper and lower face: away from +Z), would say.
+static void place_face(const float size[3], float tile, int face, lobe_scene_vertex vertices[4]) {
+    static const int8_t normals[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                         {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
+    static const int8_t rights[6][3] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0},
+                                        {1, 0, 0},  {1, 0, 0}, {-1, 0, 0}};
+    static const int8_t downs[6][3] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1},
+                                       {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
+    for (int i = 0; i < 4; i++) {
+        float right = i & 1 ? 0.5f : -0.5f, down = i & 2 ? 0.5f : -0.5f;
+        lobe_scene_vertex *vertex = &vertices[i];
+        for (int axis = 0; axis < 3; axis++) {
+            float offset =
+                0.5f * normals[face][axis] + right * rights[face][axis] + down * downs[face][axis];
+            vertex->position[axis] = offset * size[axis];
+            vertex->normal[axis] = normals[face][axis];
+            vertex->tangent[axis] = rights[face][axis];
+            vertex->texture_coordinates[0][0] += vertex->position[axis] * rights[face][axis] / tile;
+            vertex->texture_coordinates[0][1] += vertex->position[axis] * downs[face][axis] / tile;
+        }
+        vertex->tangent[3] = 1;
+    }
+}
+
+lobe_result shape_box(const float size[3], float tile, const lobe_log *log, lobe_mesh *mesh) {
+    lobe_result status = mesh_allocate(mesh, "box", 24, 36, log);
+    if (status)
+        return status;
+    mesh->has_texture_coordinates[0] = true;
+    uint32_t *indices = mesh->indices;
+    for (uint32_t face = 0; face < 6; face++) {
+        uint32_t first = face * 4;
+        place_face(size, tile, (int)face, mesh->vertices + first);
+        indices = write_triangle(indices, first, first + 2, first + 3);
+        indices = write_triangle(indices, first, first + 3, first + 1);
+    }
+    return LOBE_OK;
+}
+
 static void place_on_sphere(double u, double v, lobe_scene_vertex *vertex) {
     double around[2], down[2];
     circle_point(u, around);

@@ -17,6 +17,10 @@ lobe_result shape_plane(float width, float depth, float tile, const lobe_log *lo
 lobe_result shape_sphere(uint32_t rows, uint32_t columns, float tiles_u, float tiles_v,
                          const lobe_log *log, lobe_mesh *mesh);
 
+/// A box around the origin, `size` metres wide, high and deep. On each face u runs to the right and
+/// v downwards as seen from outside, 0 in the middle; one unit of either is `tile` metres.
+lobe_result shape_box(const float size[3], float tile, const lobe_log *log, lobe_mesh *mesh);
+
 /// Writes the two triangles of each cell of a grid of (rows + 1) x (columns + 1) vertices, stored
 /// row by row; rows run downwards as seen from the front. Returns the end of what was written.
 uint32_t *shape_grid_indices(uint32_t rows, uint32_t columns, uint32_t *indices);

@@ -35,8 +35,8 @@ static void assert_extent(const lobe_image *image, lobe_format format, uint32_t 
 
 static void the_table_lists_the_scenes(void **state) {
     (void)state;
-    static const char *const names[] = {"checkerboard", "bumps", "tablecloth",
-                                        "pillow",       "bunny", "dragon"};
+    static const char *const names[] = {"checkerboard", "bumps", "tablecloth", "pillow",
+                                        "hall",         "bunny", "dragon"};
     const size_t count = sizeof names / sizeof *names;
     assert_int_equal(lobe_builtin_scene_count(), count);
     for (size_t i = 0; i < count; i++) {
@@ -89,10 +89,9 @@ static void every_machine_makes_these_bytes(void **state) {
         const char *name;
         uint64_t hash;
     } expected[] = {
-        {"checkerboard", 0x7e52d90864b27576},
-        {"bumps", 0xb56df8d6b67c3308},
-        {"tablecloth", 0xd79e3f2d2d81abbd},
-        {"pillow", 0x5b45f63a2d50c032},
+        {"checkerboard", 0x7e52d90864b27576}, {"bumps", 0xb56df8d6b67c3308},
+        {"tablecloth", 0xd79e3f2d2d81abbd},   {"pillow", 0x5b45f63a2d50c032},
+        {"hall", 0x8672363cbd0970fa},
     };
     int different = 0;
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
@@ -414,6 +413,118 @@ static void pillow_has_several_texels_under_a_pixel(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+static void hall_has_five_materials(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t normals, others; // texels along a side
+    } expected[] = {{"floor", 2048, 1024},
+                    {"masonry", 512, 512},
+                    {"marble", 512, 512},
+                    {"bronze", 512, 512},
+                    {"cloth", 512, 512}};
+    lobe_scene *scene = build("hall");
+    assert_int_equal(scene->material_count, 5);
+    for (size_t i = 0; i < 5; i++) {
+        const lobe_material *material = &scene->materials[i];
+        assert_string_equal(material->name, expected[i].name);
+        bool cloth = i == 4;
+        assert_int_equal(material->model,
+                         cloth ? LOBE_MATERIAL_HALF_VECTOR_LOBES : LOBE_MATERIAL_MICROFACET);
+        assert_int_equal(material->distribution,
+                         cloth ? LOBE_DISTRIBUTION_BLINN_PHONG : LOBE_DISTRIBUTION_GGX);
+        const lobe_image *normals = image_of(scene, &material->normal_map);
+        assert_extent(normals, LOBE_FORMAT_RGBA8_UNORM, expected[i].normals);
+        normal_statistics found = scene_check_normal_map(normals);
+        assert_true(fabs(found.mean[0]) < 0.01 && fabs(found.mean[1]) < 0.01);
+        assert_true(found.mean_tilt > 1 && found.greatest_tilt > 10);
+        assert_extent(image_of(scene, &material->base_colour_map), LOBE_FORMAT_RGBA8_SRGB,
+                      expected[i].others);
+        const lobe_texture_use *width =
+            cloth ? &material->width_map : &material->metallic_roughness_map;
+        assert_extent(image_of(scene, width),
+                      cloth ? LOBE_FORMAT_R32_FLOAT : LOBE_FORMAT_RGBA8_UNORM, expected[i].others);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+static void metals_of_the_hall(void **state) {
+    (void)state;
+    lobe_scene *scene = build("hall");
+    double share[4];
+    for (size_t i = 0; i < 4; i++) {
+        const lobe_image *map = image_of(scene, &scene->materials[i].metallic_roughness_map);
+        const uint8_t *texel = map->texels;
+        size_t count = (size_t)map->width * map->height, metal = 0;
+        for (size_t k = 0; k < count; k++) {
+            // No mirror, which no number of samples would resolve.
+            assert_true(texel[4 * k + 1] > 30);
+            metal += texel[4 * k + 2] > 127;
+        }
+        share[i] = (double)metal / (double)count;
+    }
+    // Brass inlays in the floor; most of the bronze is bare.
+    assert_true(share[0] > 0.02 && share[0] < 0.1);
+    assert_true(share[1] == 0 && share[2] == 0);
+    assert_true(share[3] > 0.5 && share[3] < 0.95);
+    for (size_t i = 2; i < 5; i++)
+        assert_tiles(image_of(scene, &scene->materials[i].normal_map));
+    lobe_scene_destroy(&scene);
+}
+
+static void hall_draws_more_than_100000_triangles(void **state) {
+    (void)state;
+    lobe_scene *scene = build("hall");
+    size_t triangles = 0, of_material[5] = {0};
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        size_t count = scene->meshes[scene->instances[i].mesh].index_count / 3;
+        triangles += count;
+        of_material[scene->instances[i].material] += count;
+    }
+    assert_in_range(triangles, 100000, 150000);
+    for (size_t i = 0; i < 5; i++)
+        assert_true(of_material[i] > 0);
+    assert_int_equal(scene->light_count, 4);
+    assert_true(scene->minimum[1] == 0 && scene->maximum[1] > 7);
+    lobe_scene_destroy(&scene);
+}
+
+static const lobe_mesh *mesh_named(const lobe_scene *scene, const char *name) {
+    for (size_t i = 0; i < scene->mesh_count; i++)
+        if (strcmp(scene->meshes[i].name, name) == 0)
+            return &scene->meshes[i];
+    fail_msg("no mesh '%s'", name);
+    return NULL;
+}
+
+static void arches_rest_on_columns(void **state) {
+    (void)state;
+    lobe_scene *scene = build("hall");
+    const lobe_mesh *column = mesh_named(scene, "column"), *capital = mesh_named(scene, "capital");
+    assert_true(capital->minimum[1] < column->maximum[1]);
+    size_t arches = 0;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        const lobe_instance *instance = &scene->instances[i];
+        if (&scene->meshes[instance->mesh] != mesh_named(scene, "arch"))
+            continue;
+        arches++;
+        // A column half a bay to either side.
+        for (int side = -1; side <= 1; side += 2) {
+            size_t under = 0;
+            vector3 foot = vector3_transform(instance->transform, (vector3){side * 1.8, 0, 0});
+            for (size_t k = 0; k < scene->instance_count; k++) {
+                const float *at = scene->instances[k].transform + 12;
+                under += &scene->meshes[scene->instances[k].mesh] == column &&
+                         fabs(at[0] - foot.x) < 1e-5 && fabs(at[2] - foot.z) < 1e-5;
+            }
+            assert_int_equal(under, 1);
+            assert_true(foot.y > capital->maximum[1] && foot.y < capital->maximum[1] + 0.25);
+        }
+    }
+    assert_int_equal(arches, 23);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_lists_the_scenes),
@@ -429,6 +540,10 @@ int main(void) {
         cmocka_unit_test(pillow_is_woven_of_sharp_and_broad_threads),
         cmocka_unit_test(pillow_is_a_closed_cushion_on_the_ground),
         cmocka_unit_test(pillow_has_several_texels_under_a_pixel),
+        cmocka_unit_test(hall_has_five_materials),
+        cmocka_unit_test(metals_of_the_hall),
+        cmocka_unit_test(hall_draws_more_than_100000_triangles),
+        cmocka_unit_test(arches_rest_on_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

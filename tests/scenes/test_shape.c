@@ -5,6 +5,7 @@
 #include "scenes/mesh.h"
 #include "scenes/normal_map.h"
 #include "scenes/shape.h"
+#include "scenes/vector.h"
 #include "tests/scenes/scene_check.h"
 
 static void plane_faces_up_and_tiles(void **state) {
@@ -51,6 +52,38 @@ static void sphere_is_round_and_closed(void **state) {
     mesh_free(&mesh);
 }
 
+static void box_is_closed_and_maps_each_face_upright(void **state) {
+    (void)state;
+    static const float size[3] = {2, 3, 5};
+    lobe_mesh mesh;
+    assert_int_equal(shape_box(size, 0.5f, NULL, &mesh), LOBE_OK);
+    mesh_compute_bounds(&mesh);
+    scene_check_mesh(&mesh);
+    double surface = 0, flux = 0, coordinates = 0;
+    for (size_t i = 0; i < mesh.index_count; i += 3) {
+        const lobe_scene_vertex *a = &mesh.vertices[mesh.indices[i]];
+        const lobe_scene_vertex *b = &mesh.vertices[mesh.indices[i + 1]];
+        const lobe_scene_vertex *c = &mesh.vertices[mesh.indices[i + 2]];
+        vector3 p = vector3_load(a->position);
+        vector3 normal = vector3_cross(vector3_subtract(vector3_load(b->position), p),
+                                       vector3_subtract(vector3_load(c->position), p));
+        surface += vector3_length(normal) / 2;
+        flux += vector3_dot(normal, p) / 6;
+        const float *u = a->texture_coordinates[0], *v = b->texture_coordinates[0];
+        const float *w = c->texture_coordinates[0];
+        coordinates += fabs((v[0] - u[0]) * (w[1] - u[1]) - (w[0] - u[0]) * (v[1] - u[1])) / 2;
+    }
+    assert_true(fabs(surface - 62) < 1e-5 && fabs(flux - 30) < 1e-5);
+    assert_true(fabs(coordinates - 62 / 0.25) < 1e-4);
+    // On upright faces v runs downwards.
+    for (size_t i = 0; i < mesh.vertex_count; i++) {
+        const lobe_scene_vertex *vertex = &mesh.vertices[i];
+        if (vertex->normal[1] == 0)
+            assert_true(vertex->texture_coordinates[0][1] == -vertex->position[1] / 0.5f);
+    }
+    mesh_free(&mesh);
+}
+
 // Where an image's rows run down a plane and its columns to the right, height that grows along
 // them must tilt the normal back along the tangent and forward along the bitangent.
 static void normal_map_has_y_up(void **state) {
@@ -76,6 +109,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plane_faces_up_and_tiles),
         cmocka_unit_test(sphere_is_round_and_closed),
+        cmocka_unit_test(box_is_closed_and_maps_each_face_upright),
         cmocka_unit_test(normal_map_has_y_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

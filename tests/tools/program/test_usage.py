@@ -144,7 +144,7 @@ def test_material_and_scene_exclude_each_other():
 def test_scenes_are_listed():
     lines = succeeds("scenes").stdout.splitlines()
     names = [line.split()[0] for line in lines]
-    check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "bunny", "dragon"],
+    check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "hall", "bunny", "dragon"],
           str(names))
     check(all(len(line.split()) > 3 for line in lines), "no summaries")
 
