@@ -32,6 +32,7 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
 
 void fetch_base(inout appearance fetched, surface_point surface) {
     fetched.base = unfiltered_material(surface);
+    fetched.base.normal = scaled_normal(fetched.base.normal);
     fetched.base.diffuse = fetched.filtered.diffuse;
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         fetched.base.specular = fetched.filtered.specular;
@@ -49,7 +50,7 @@ appearance fetch_appearance(surface_point surface) {
         result.lobe = footprint_lobe_of(result.moments);
         result.normal = normal_of_slope(result.moments.mean);
     } else {
-        result.normal = unfiltered_normal(surface);
+        result.normal = scaled_normal(unfiltered_normal(surface));
     }
     result.filtered = filtered_material(surface, result.normal, area);
     if (SLOPES && may_see_level_0(lobe_map()))

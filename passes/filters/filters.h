@@ -8,6 +8,7 @@ extern const lobe_filter filter_direct;
 extern const lobe_filter filter_mipmap;
 extern const lobe_filter filter_toksvig;
 extern const lobe_filter filter_lean;
+extern const lobe_filter filter_leadr;
 extern const lobe_filter filter_lobes;
 extern const lobe_filter filter_moments;
 extern const lobe_filter filter_reference;

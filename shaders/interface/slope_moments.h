@@ -29,5 +29,8 @@ INTERFACE_SIZE(slope_moments_constants, 8)
 INTERFACE_OFFSET(slope_moments_constants, height, 4)
 
 #define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
+#define SPECIALISE_GRID   (SPECIALISE_FILTER + 21) // uint, odd: slopes each way of a grid
+#define SPECIALISE_REACH  (SPECIALISE_FILTER + 22) // float: of the grid, standard deviations
+#define SPECIALISE_HEIGHT (SPECIALISE_FILTER + 23) // float: factor of all slopes
 
 #endif

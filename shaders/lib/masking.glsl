@@ -24,14 +24,21 @@ float lambda_ggx(float cosine, float alpha) {
 // g is a quotient of polynomials with the smallest maximum relative error on [0, 6], 7.7e-6,
 // found by linear programming; beyond 6 the exponential leaves nothing. (The usual fit of Walter
 // et al., 2007, Eq. 27, is 0.35 % off.)
-float lambda_beckmann(float cosine, float alpha) {
-    // At normal incidence a is infinite: 1e-10 stands for a tangent of zero.
-    float a = inversesqrt(max(alpha * alpha * tangent_squared(cosine), 1e-10));
+//
+// For any Gaussian slopes: a > 0 is the cotangent above the mean plane, over sqrt(2) times the
+// slopes' standard deviation along the direction.
+float lambda_gaussian(float cotangent) {
+    float a = clamp(cotangent, 1e-9, 1e5);
     float numerator = 1.0 + a * (0.55781488 + a * 0.14587858);
     float denominator =
         1.0 + a * (2.32996631 + a * (2.27929734 + a * (1.13641403 + a * 0.29062669)));
     const float inverse_two_root_pi = 0.282094791773878143;
     return inverse_two_root_pi * exp(-a * a) * numerator / (a * denominator);
+}
+
+float lambda_beckmann(float cosine, float alpha) {
+    // At normal incidence a is infinite: 1e-10 stands for a tangent of zero.
+    return lambda_gaussian(inversesqrt(max(alpha * alpha * tangent_squared(cosine), 1e-10)));
 }
 
 // Walter, Marschner, Li, Torrance, 2007, section 5.2: Blinn-Phong is masked as the Beckmann

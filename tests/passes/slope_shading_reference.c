@@ -136,3 +136,65 @@ void shade_lean(const lobe_material *material, const double moments[8], const do
         radiance[i] = value * fresnel_of(material, i, incoming, half_vector);
     add_lambert(material, moments, half_vector, incoming, radiance);
 }
+
+// ---------------------------------------------------------------------------------------------
+// LEADR
+
+static double height_above(const double slope[2], const double direction[3]) {
+    return direction[2] - slope[0] * direction[0] - slope[1] * direction[1];
+}
+
+/// Dupuy et al. 2013, Algorithm 3 with the weights of section 5.1, of Lambert facets of albedo one.
+static double sum_of_facets(const reference_slopes *facets, const leadr_knobs *knobs,
+                            const double outgoing[3], const double incoming[3]) {
+    const double *c = facets->covariance;
+    double sigma_x = sqrt(c[0]), sigma_y = sqrt(c[1]), sum = 0, weights = 0;
+    double correlation = sigma_x * sigma_y > 0 ? c[2] / (sigma_x * sigma_y) : 0;
+    for (int j = 0; j < knobs->grid * knobs->grid; j++) {
+        double p = knobs->reach * (2.0 * (j / knobs->grid) / (knobs->grid - 1) - 1);
+        double q = knobs->reach * (2.0 * (j % knobs->grid) / (knobs->grid - 1) - 1);
+        double weight = exp(-p * p / 2) * exp(-q * q / 2), normal[3];
+        double independent = sqrt(fmax(1 - correlation * correlation, 0));
+        const double slope[2] = {p * sigma_x + facets->mean[0],
+                                 (correlation * p + independent * q) * sigma_y + facets->mean[1]};
+        reference_normal_of_slope(slope, normal);
+        sum += weight * fmax(reference_dot(normal, outgoing), 0) / normal[2] *
+               fmax(reference_dot(normal, incoming), 0);
+        weights += weight;
+    }
+    return sum / weights / M_PI;
+}
+
+void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
+                 const double outgoing[3], const double incoming[3], double radiance[3]) {
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    reference_slopes facets, slopes;
+    double variance, half_vector[3], base[3];
+    read_moments(moments, &facets, &variance);
+    for (int i = 0; i < 3; i++)
+        facets.covariance[i] *= knobs->height * knobs->height;
+    for (int i = 0; i < 2; i++)
+        facets.mean[i] *= knobs->height;
+    double out = height_above(facets.mean, outgoing), in = height_above(facets.mean, incoming);
+    if (incoming[2] <= 0)
+        return;
+    half_between(incoming, outgoing, half_vector);
+    slopes = facets;
+    reference_flat_covariance(facets.mean, variance, base);
+    for (int i = 0; i < 3; i++)
+        slopes.covariance[i] += base[i];
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    double seen = in > 0 && out > 0;
+    double mirror = microfacet ? seen * reference_distribution_of_slopes(&slopes, half_vector) *
+                                     reference_slope_masking_shadowing(&slopes, incoming, outgoing)
+                               : reference_lobe_of_slopes(&slopes, half_vector);
+    double lambert = seen * sum_of_facets(&facets, knobs, outgoing, incoming) / out *
+                     reference_slope_masking_shadowing(&facets, incoming, outgoing);
+    for (int i = 0; i < 3; i++) {
+        if (microfacet)
+            radiance[i] = mirror * fresnel_of(material, i, incoming, half_vector) / (4 * out);
+        else
+            radiance[i] = mirror * colour_of_lobes(material, i);
+        radiance[i] += lambert * diffuse_of(material, i, incoming, half_vector);
+    }
+}

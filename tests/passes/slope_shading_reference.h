@@ -11,4 +11,14 @@
 void shade_lean(const lobe_material *material, const double moments[8], const double outgoing[3],
                 const double incoming[3], double radiance[3]);
 
+/// Knobs of LEADR.
+typedef struct leadr_knobs {
+    int grid;      ///< slopes each way
+    double reach;  ///< of the grid, standard deviations
+    double height; ///< factor of all slopes
+} leadr_knobs;
+
+void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
+                 const double outgoing[3], const double incoming[3], double radiance[3]);
+
 #endif

@@ -39,6 +39,30 @@ double reference_lobe_of_slopes(const reference_slopes *slopes, const double nor
     return fmax(normal[2], 0) * reference_distribution_of_slopes(slopes, normal);
 }
 
+/// Dupuy et al., 2013, section 4.3, as printed. Straight up, nothing is masked.
+double reference_slope_lambda(const reference_slopes *slopes, const double direction[3]) {
+    double sine = hypot(direction[0], direction[1]);
+    if (sine == 0)
+        return 0;
+    double x = direction[0] / sine, y = direction[1] / sine;
+    const double *c = slopes->covariance;
+    double mean = x * slopes->mean[0] + y * slopes->mean[1];
+    double variance = x * x * c[0] + y * y * c[1] + 2 * x * y * c[2];
+    double cotangent = direction[2] / sine - mean;
+    if (cotangent <= 0)
+        return INFINITY;
+    if (variance <= 0)
+        return 0;
+    double a = cotangent / sqrt(2 * variance);
+    return fmax((exp(-a * a) / (a * sqrt(M_PI)) - erfc(a)) / 2, 0);
+}
+
+double reference_slope_masking_shadowing(const reference_slopes *slopes, const double incoming[3],
+                                         const double outgoing[3]) {
+    return 1 / (1 + reference_slope_lambda(slopes, incoming) +
+                reference_slope_lambda(slopes, outgoing));
+}
+
 /// covariance of `along` times the part along the tilt and `across` times the rest.
 static void scale_along_and_across(const double tilt[2], double along, double across,
                                    const double covariance[3], double scaled[3]) {

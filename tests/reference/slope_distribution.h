@@ -19,6 +19,12 @@ double reference_slope_density(const reference_slopes *slopes, const double slop
 double reference_distribution_of_slopes(const reference_slopes *slopes, const double normal[3]);
 double reference_lobe_of_slopes(const reference_slopes *slopes, const double normal[3]);
 
+/// Smith's Lambda about the mean, and the part of the surface that both directions see. Unit
+/// directions.
+double reference_slope_lambda(const reference_slopes *slopes, const double direction[3]);
+double reference_slope_masking_shadowing(const reference_slopes *slopes, const double incoming[3],
+                                         const double outgoing[3]);
+
 /// Slopes whose own plane has the slope `tilt`, as angles along and across it: from slopes
 /// over the flat plane to the tilted one, to first order about `tilt`.
 void reference_tilted_covariance(const double tilt[2], const double covariance[3],
