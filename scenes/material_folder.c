@@ -6,17 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/carrier.h"
+#include "scenes/height_scale.h"
 #include "scenes/image_channel.h"
 #include "scenes/image_file.h"
 #include "scenes/material_file.h"
 #include "scenes/scene.h"
-#include "scenes/scene_view.h"
-#include "scenes/shape.h"
 
 // What stands in for a map that the folder lacks.
 static const float default_grey = 0.5f, default_roughness = 0.5f;
 
-// No file says how deep its relief is; this is a usual one for stone, bark and cloth.
+// No file says how deep its relief is. Where no normal map tells, this is a usual one for stone.
 static const float default_height_scale = 0.05f;
 
 typedef struct material_folder {
@@ -124,12 +124,20 @@ static lobe_result add_normals(material_folder *folder) {
     return attach(folder, folder->files[map], &image, &folder->material.normal_map);
 }
 
+static float find_height_scale(const material_folder *folder, const lobe_image *heights) {
+    int32_t normals = folder->material.normal_map.image;
+    float scale = default_height_scale;
+    if (normals >= 0)
+        height_scale_find(heights, &folder->scene->images[normals].image, &scale);
+    return scale;
+}
+
 static lobe_result add_heights(material_folder *folder) {
     lobe_image image;
     lobe_result status = load(folder, MATERIAL_MAP_DISPLACEMENT, SCENE_IMAGE_DATA, &image);
     if (status || !image.texels)
         return status;
-    folder->material.height_scale = default_height_scale;
+    folder->material.height_scale = find_height_scale(folder, &image);
     return attach(folder, folder->files[MATERIAL_MAP_DISPLACEMENT], &image,
                   &folder->material.height_map);
 }
@@ -215,31 +223,6 @@ static lobe_result add_material(material_folder *folder) {
     return status;
 }
 
-static lobe_result add_carrier(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
-    lobe_mesh mesh;
-    lobe_result status = carrier == LOBE_CARRIER_SPHERE ? shape_sphere(64, 128, 4, 2, log, &mesh)
-                                                        : shape_plane(4, 4, 1, log, &mesh);
-    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
-}
-
-// A plane is lit from behind, so that highlights lie between its light and the camera; a sphere
-// from the front.
-static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
-    bool sphere = carrier == LOBE_CARRIER_SPHERE;
-    const lobe_light lights[] = {
-        {.type = LOBE_LIGHT_DIRECTIONAL,
-         .direction = {-0.36f, -0.48f, sphere ? -0.8f : 0.8f},
-         .intensity = {3, 2.95f, 2.8f}},
-        {.type = LOBE_LIGHT_POINT, .position = {-2, 2, 1.5f}, .intensity = {10, 11, 12}},
-    };
-    if (sphere)
-        scene_look(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
-    else
-        scene_look(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
-    scene->background[0] = scene->background[1] = scene->background[2] = 0.2f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
-}
-
 lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_log *log,
                                      lobe_scene **result) {
     material_folder folder = {.path = path, .log = log};
@@ -252,9 +235,7 @@ lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, con
     if (!status)
         status = add_material(&folder);
     if (!status)
-        status = add_carrier(folder.scene, carrier, log);
-    if (!status)
-        status = add_view(folder.scene, carrier, log);
+        status = carrier_add(folder.scene, carrier, log);
     if (!status)
         status = scene_complete(folder.scene, log);
     for (int map = 0; map < MATERIAL_MAP_COUNT; map++)

@@ -1,5 +1,6 @@
 #include <errno.h>
 #include <stdbool.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <lobe/scene.h>
@@ -9,6 +10,11 @@
 
 static bool is_absent(const char *path) {
     return access(path, F_OK) != 0 && errno != EACCES;
+}
+
+static bool is_folder(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, const lobe_log *log,
@@ -21,8 +27,10 @@ lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, c
     if (builtin)
         return builtin->build(log, result);
     if (is_absent(scene))
-        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND, "%s: neither a built-in scene nor a file",
-                             scene);
+        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND,
+                             "%s: neither a built-in scene nor a file or folder", scene);
+    if (is_folder(scene))
+        return lobe_scene_open_material(scene, LOBE_CARRIER_CLOTH, log, result);
     return gltf_open(scene, log, result);
 }
 

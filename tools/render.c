@@ -280,7 +280,7 @@ static int run_request(const option_table *table, render_request *request) {
 // ---------------------------------------------------------------------------------------------
 // Options
 
-static const char *const carriers[] = {"plane", "sphere", NULL};
+static const char *const carriers[] = {"plane", "sphere", "cloth", NULL};
 static const char *const depths[] = {"half", "float", NULL};
 
 static int run(int argc, char **argv) {
@@ -383,7 +383,8 @@ static int run(int argc, char **argv) {
         .operands = "SCENE -o FILE",
         .summary =
             "Renders a picture of SCENE, which is the name of a built-in scene (see 'lobe\n"
-            "scenes') or the path of a .gltf or .glb file, and prints the time of each pass.",
+            "scenes'), the path of a .gltf or .glb file, or a folder of PBR maps to put on a\n"
+            "cloth; and prints the time of each pass.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .maximum_operands = 1,

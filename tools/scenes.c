@@ -10,7 +10,8 @@ static int run(int argc, char **argv) {
         .program = "lobe scenes",
         .summary =
             "Lists the built-in scenes. Wherever a scene is asked for, the path of a .gltf or\n"
-            ".glb file will do as well.",
+            ".glb file will do as well, or a folder of PBR maps, which are put on a cloth. Assets\n"
+            "are found in the folder that --assets DIR or LOBE_ASSETS says.",
     };
     int status;
     if (!options_parse(&table, argc, argv, NULL, &status))

@@ -1,6 +1,7 @@
 #include "tests/engine/cmocka_all.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 #include <lobe/png.h>
 #include <lobe/scene.h>
 
+#include "scenes/vector.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/scenes/scene_check.h"
 
@@ -135,7 +137,7 @@ static void separate_maps_are_packed(void **state) {
     assert_texel(packed, 255, 90, 200);
     assert_texel(image_of(fixture, &material->occlusion_map), 60, 60, 60);
     assert_texel(image_of(fixture, &material->height_map), 70, 70, 70);
-    assert_true(material->height_scale > 0);
+    assert_true(material->height_scale == 0.05f);
     assert_true(material->roughness == 1 && material->metallic == 1);
     for (int i = 0; i < 3; i++)
         assert_true(material->base_colour[i] == 1 && material->emissive[i] == 0);
@@ -226,6 +228,85 @@ static void carriers_repeat_the_maps(void **state) {
     assert_true(sphere->vertices[sphere->vertex_count - 1].texture_coordinates[0][0] == 4);
 }
 
+// Texels of a map of that extent, across a pixel of 1280 x 720, at the three corners' middle.
+static double texels_across(const lobe_camera *camera, const lobe_mesh *mesh, size_t first,
+                            double extent, bool *inside) {
+    vector3 eye = vector3_load(camera->eye);
+    vector3 forward = vector3_subtract(vector3_load(camera->target), eye);
+    vector3_normalise(&forward, 0);
+    vector3 right = vector3_cross(forward, vector3_load(camera->up));
+    vector3_normalise(&right, 0);
+    vector3 up = vector3_cross(right, forward);
+    double scale = 360 / tan(camera->vertical_field_of_view / 2), at[3][2], uv[3][2];
+    for (int k = 0; k < 3; k++) {
+        const lobe_scene_vertex *vertex = &mesh->vertices[mesh->indices[first + k]];
+        vector3 p = vector3_subtract(vector3_load(vertex->position), eye);
+        double depth = vector3_dot(p, forward);
+        at[k][0] = scale * vector3_dot(p, right) / depth;
+        at[k][1] = scale * vector3_dot(p, up) / depth;
+        *inside = depth > 0 && fabs(at[k][0]) < 640 && fabs(at[k][1]) < 360;
+        uv[k][0] = vertex->texture_coordinates[0][0], uv[k][1] = vertex->texture_coordinates[0][1];
+    }
+    double pixels = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
+                    (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]);
+    double texels = (uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
+                    (uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]);
+    return extent * sqrt(fabs(texels / pixels));
+}
+
+static void cloth_is_seen_with_two_to_eight_texels_a_pixel(void **state) {
+    folder_fixture *fixture = *state;
+    const uint32_t extents[] = {128, 512};
+    for (int i = 0; i < 2; i++) {
+        write_image(fixture, "albedo.png", extents[i], 16, 1, 2, 3);
+        const lobe_material *material = must_open(fixture, LOBE_CARRIER_CLOTH);
+        assert_true(material->double_sided);
+        const lobe_mesh *cloth = &fixture->scene->meshes[0];
+        size_t seen = 0, fitting = 0;
+        for (size_t k = 0; k < cloth->index_count; k += 3) {
+            bool inside;
+            double across = texels_across(&fixture->scene->camera, cloth, k, extents[i], &inside);
+            seen += inside;
+            fitting += inside && across > 2 && across < 8;
+        }
+        assert_true(seen > cloth->index_count / 3 / 2);
+        assert_true(fitting > seen * 95 / 100);
+    }
+}
+
+static double distance(const lobe_scene_vertex *a, const lobe_scene_vertex *b) {
+    return vector3_length(vector3_subtract(vector3_load(a->position), vector3_load(b->position)));
+}
+
+// It waves, but hardly stretches: edges are as long as the maps on them say.
+static void cloth_keeps_its_lengths(void **state) {
+    folder_fixture *fixture = *state;
+    write_image(fixture, "albedo.png", 400, 16, 1, 2, 3);
+    must_open(fixture, LOBE_CARRIER_CLOTH);
+    const lobe_mesh *cloth = &fixture->scene->meshes[0];
+    const double tile = 400 * 0.0005;
+    for (size_t i = 0; i < cloth->index_count; i++) {
+        const lobe_scene_vertex *a = &cloth->vertices[cloth->indices[i]];
+        const lobe_scene_vertex *b = &cloth->vertices[cloth->indices[i - i % 3 + (i + 1) % 3]];
+        double u = b->texture_coordinates[0][0] - a->texture_coordinates[0][0];
+        double v = b->texture_coordinates[0][1] - a->texture_coordinates[0][1];
+        double ratio = distance(a, b) / (tile * sqrt(u * u + v * v));
+        assert_true(ratio > 0.99 && ratio < 1.15);
+    }
+    assert_true(cloth->maximum[2] - cloth->minimum[2] > 0.04f);
+}
+
+static void a_folder_is_a_scene(void **state) {
+    folder_fixture *fixture = *state;
+    write_image(fixture, "albedo.png", 64, 64, 1, 2, 3);
+    must_open(fixture, LOBE_CARRIER_CLOTH);
+    lobe_scene *opened;
+    assert_int_equal(lobe_scene_open(fixture->path, NULL, &opened), LOBE_OK);
+    assert_string_equal(opened->name, fixture->path);
+    scene_check_equal(opened, fixture->scene);
+    lobe_scene_destroy(&opened);
+}
+
 static void images_of_other_formats_are_named(void **state) {
     folder_fixture *fixture = *state;
     write_image(fixture, "albedo.png", 2, 2, 1, 2, 3);
@@ -276,14 +357,15 @@ static void real_sets_are_understood(void **state) {
         const char *folder;
         size_t images;
         bool albedo, normal, packed, occlusion, height;
+        double height_scale[2]; // between these
     } sets[] = {
-        {"ambientcg_Bark014", 4, true, true, true, false, true},
-        {"ambientcg_Metal053C", 4, true, true, true, false, true},
-        {"ambientcg_Rock058", 4, true, true, true, false, true},
-        {"godot_tps", 1, false, true, false, false, false},
-        {"godot_wool", 3, true, true, false, false, true},
-        {"materialx_brick", 3, true, true, true, false, false},
-        {"polyhaven_fabric_pattern_07", 3, true, true, true, true, false},
+        {"ambientcg_Bark014", 4, true, true, true, false, true, {0.01, 0.05}},
+        {"ambientcg_Metal053C", 4, true, true, true, false, true, {0.001, 0.02}},
+        {"ambientcg_Rock058", 4, true, true, true, false, true, {0.03, 0.1}},
+        {"godot_tps", 1, false, true, false, false, false, {0, 0}},
+        {"godot_wool", 3, true, true, false, false, true, {-0.05, -0.004}},
+        {"materialx_brick", 3, true, true, true, false, false, {0, 0}},
+        {"polyhaven_fabric_pattern_07", 3, true, true, true, true, false, {0, 0}},
     };
     folder_fixture *fixture = *state;
     const char *assets = LOBE_TEST_ASSETS;
@@ -294,9 +376,7 @@ static void real_sets_are_understood(void **state) {
         snprintf(path, sizeof path, "%s/tex/%s", assets, sets[i].folder);
         log_recorder_start(&fixture->recorder);
         lobe_scene *scene = NULL;
-        assert_int_equal(
-            lobe_scene_open_material(path, LOBE_CARRIER_SPHERE, &fixture->recorder.log, &scene),
-            LOBE_OK);
+        assert_int_equal(lobe_scene_open(path, &fixture->recorder.log, &scene), LOBE_OK);
         assert_int_equal(fixture->recorder.errors + fixture->recorder.warnings, 0);
         scene_check(scene);
         const lobe_material *material = &scene->materials[0];
@@ -306,6 +386,8 @@ static void real_sets_are_understood(void **state) {
         assert_int_equal(material->metallic_roughness_map.image >= 0, sets[i].packed);
         assert_int_equal(material->occlusion_map.image >= 0, sets[i].occlusion);
         assert_int_equal(material->height_map.image >= 0, sets[i].height);
+        assert_true(material->height_scale >= (float)sets[i].height_scale[0]);
+        assert_true(material->height_scale <= (float)sets[i].height_scale[1]);
         lobe_scene_destroy(&scene);
     }
 }
@@ -321,6 +403,9 @@ int main(void) {
         FOLDER_TEST(missing_maps_become_factors),
         FOLDER_TEST(first_in_alphabetical_order_is_taken),
         FOLDER_TEST(carriers_repeat_the_maps),
+        FOLDER_TEST(cloth_is_seen_with_two_to_eight_texels_a_pixel),
+        FOLDER_TEST(cloth_keeps_its_lengths),
+        FOLDER_TEST(a_folder_is_a_scene),
         FOLDER_TEST(images_of_other_formats_are_named),
         FOLDER_TEST(bad_folders_are_named),
         FOLDER_TEST(bad_images_are_named),

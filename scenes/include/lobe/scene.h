@@ -221,7 +221,9 @@ const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
 /// What is opened, and what it is made of.
 typedef struct lobe_scene_open_parameters {
-    const char *scene; ///< the name of a built-in scene, or the path of a .gltf or .glb file
+    /// The name of a built-in scene, the path of a .gltf or .glb file, or a folder of PBR maps,
+    /// which lobe_scene_open_material then puts on a cloth.
+    const char *scene;
     /// A folder that holds models/npm_bunny.js and models/npm_dragon_vrip_res3.ply.gz, the meshes
     /// of the built-in scenes that need assets. NULL: none; those scenes are then NOT_FOUND.
     const char *assets;
@@ -241,11 +243,18 @@ lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, c
 /// The same, without assets.
 lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
 
-typedef enum lobe_carrier { LOBE_CARRIER_PLANE, LOBE_CARRIER_SPHERE } lobe_carrier;
+typedef enum lobe_carrier {
+    LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
+    LOBE_CARRIER_SPHERE, ///< seen from the front
+    /// Hanging and gently waving, seen at a slant. A texel of the largest map takes half a
+    /// millimetre: at 1280 x 720 pixels, two to eight texels lie across a pixel.
+    LOBE_CARRIER_CLOTH,
+} lobe_carrier;
 
-/// A plane or sphere that carries the PBR maps of a folder (recognised by their file names:
-/// albedo/base/col/diff, normal/nor, rough, metal, arm/orm, ao, ...). At least one map must be
-/// found. Errors as for lobe_scene_open.
+/// A carrier with the PBR maps of a folder (recognised by their file names: albedo/base/col/diff,
+/// normal/nor, rough, metal, arm/orm, ao, disp/height, ...). At least one map besides that of
+/// heights must be found. Heights are scaled to be as steep as the normal map, where there is one
+/// of their extent that they agree with; else to 0.05. Errors as for lobe_scene_open.
 lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier, const lobe_log *log,
                                      lobe_scene **result);
 

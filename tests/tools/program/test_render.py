@@ -215,13 +215,15 @@ def test_material_folder():
     png_write(folder / "paint_albedo.png", 8, 8, (200, 40, 40))
     png_write(folder / "paint_normal.png", 8, 8, (140, 128, 250))
     pictures = set()
-    for carrier in ("plane", "sphere"):
+    for carrier in ("plane", "sphere", "cloth"):
         succeeds("render", "--material", folder, "--carrier", carrier, *SMALL, "-o",
                  folder / "out.png")
         check(is_lit(folder / "out.png"), f"a dark {carrier}")
         pictures.add(tuple(png_read(folder / "out.png")[2]))
         (folder / "out.png").unlink()
-    check(len(pictures) == 2, "plane and sphere look alike")
+    check(len(pictures) == 3, "carriers look alike")
+    succeeds("render", folder, *SMALL, "-o", FOLDER / "cloth.png")
+    check(tuple(png_read(FOLDER / "cloth.png")[2]) in pictures, "a folder as SCENE is no cloth")
 
 
 if __name__ == "__main__":
