@@ -39,7 +39,7 @@ moment_map moment_binning(const filter_context *context, uint32_t index,
     const device_material *material = &context->scene->materials[index];
     char name[64];
     snprintf(name, sizeof name, "moments of material %u", index);
-    uint32_t layers = partition->bins * (colour ? 3 : 2);
+    uint32_t layers = colour ? 3 * partition->bins + 1 : 2 * partition->bins;
     moment_map result = {.format = format};
     result.map = reduced_map_declare(context->graph, name, format, partition->constants.width,
                                      partition->constants.height, layers);

@@ -36,6 +36,7 @@ struct bin_sums {
     vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
     vec3 spread[MOMENT_MAXIMUM_BINS]; // m p p
     vec3 colour[MOMENT_MAXIMUM_BINS];
+    vec3 diffuse;
 };
 
 // A base lobe of a texel.
@@ -94,16 +95,19 @@ vec4 texel_of(int map, sampler2D image, ivec2 texel, ivec2 base_size) {
                         : vec4(1.0);
 }
 
-// F0 of microfacets, or the factor of the lobes' colours.
-vec3 texel_specular(ivec2 texel, ivec2 size) {
-    if (MODEL != MODEL_MICROFACET)
-        return texel_of(MAP_SPECULAR, specular_map, texel, size).rgb;
-    vec3 albedo =
+// Specular: F0 of microfacets, or the factor of the lobes' colours. Diffuse: what is not metal.
+void texel_colours(ivec2 texel, ivec2 size, out vec3 specular, out vec3 diffuse) {
+    diffuse =
         material.base_colour.rgb * texel_of(MAP_BASE_COLOUR, base_colour_map, texel, size).rgb;
-    float metallic = material.metallic;
-    if (METALLIC_MAP)
-        metallic *= texel_of(MAP_WIDTH, width_map, texel, size).b;
-    return mix(vec3(0.04), albedo, metallic);
+    if (MODEL == MODEL_MICROFACET) {
+        float metallic = material.metallic;
+        if (METALLIC_MAP)
+            metallic *= texel_of(MAP_WIDTH, width_map, texel, size).b;
+        specular = mix(vec3(0.04), diffuse, metallic);
+        diffuse *= 1.0 - metallic;
+    } else {
+        specular = texel_of(MAP_SPECULAR, specular_map, texel, size).rgb;
+    }
 }
 
 plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
@@ -134,6 +138,7 @@ void main() {
     vec3 column_weights = box_weights(size.x, position.x);
     vec3 row_weights = box_weights(size.y, position.y);
     bin_sums sums;
+    sums.diffuse = vec3(0.0);
     for (int i = 0; i < BINS; ++i) {
         sums.place[i] = vec4(0.0);
         sums.spread[i] = sums.colour[i] = vec3(0.0);
@@ -144,7 +149,10 @@ void main() {
             float weight = row_weights[y] * column_weights[x];
             vec3 normal = texel_normal(texel, size);
             float factor = texel_width(texel, size);
-            vec3 specular = BIN_COLOUR ? texel_specular(texel, size) : vec3(0.0);
+            vec3 specular = vec3(0.0), diffuse = vec3(0.0);
+            if (BIN_COLOUR)
+                texel_colours(texel, size, specular, diffuse);
+            sums.diffuse += weight * diffuse;
             for (int i = 0; i < LOBE_COUNT; ++i)
                 add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
         }
@@ -156,4 +164,7 @@ void main() {
         if (BIN_COLOUR)
             imageStore(moment_map, ivec3(position, layers * i + 2), vec4(sums.colour[i], 0.0));
     }
+    if (BIN_COLOUR)
+        imageStore(moment_map, ivec3(position, layers * BINS),
+                   vec4(sums.diffuse / COLOUR_SCALE, 0.0));
 }

@@ -1,5 +1,9 @@
+#include <math.h>
+#include <string.h>
+
 #include "passes/filtered_maps.h"
 #include "passes/filters/filters.h"
+#include "passes/image_texel.h"
 #include "passes/moment_binning.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
@@ -7,7 +11,7 @@
 
 static const char *const partitions[] = {"fitted", "hats", "cap", NULL};
 static const char *const bin_numbers[] = {"auto", "1", "2", "3", "4", "5", "6", NULL};
-static const char *const colours[] = {"mean", "bins", NULL};
+static const char *const colours[] = {"auto", "mean", "bins", NULL};
 static const char *const storages[] = {"snorm16", "float16", "float32", NULL};
 
 static const lobe_knob partition_knob = {
@@ -30,11 +34,11 @@ static const lobe_knob bins_knob = {
 static const lobe_knob colour_knob = {
     .name = "colour",
     .summary = "the specular colour is the footprint's mean, or each bin has its own, for half as "
-               "much memory again",
+               "much memory again; auto: its own where a map says what is metal",
     .kind = LOBE_KNOB_CHOICE,
-    .maximum = 1,
+    .maximum = 2,
     .choices = colours,
-    .sweep = "bins",
+    .sweep = "mean,bins",
 };
 static const lobe_knob least_share_knob = {
     .name = "least_share",
@@ -61,9 +65,56 @@ static lobe_format format_of(const filter_context *context) {
     return formats[(int)filter_setting(context, "storage")];
 }
 
-/// Whether texels of the specular colour can be read beside those of the lobes.
+/// Whether the texels of a map lie under those of the lobes: read at the same coordinates, and no
+/// finer.
+static bool lies_under_lobes(const device_material *material, uint32_t map) {
+    uint32_t width, height;
+    const device_map *own = &material->maps[map];
+    const device_map *lobes =
+        &material->maps[material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH];
+    lobe_map_extent(material, &width, &height);
+    return !own->use ||
+           (own->width <= width && own->height <= height &&
+            own->use->texture_coordinates == lobes->use->texture_coordinates &&
+            memcmp(own->use->transform, lobes->use->transform, sizeof own->use->transform) == 0);
+}
+
+/// Whether bins have their own specular colour: if the user wants it, or else where colour and
+/// width surely go together.
 static bool has_bin_colour(const filter_context *context, const device_material *material) {
-    return filter_setting(context, "colour") != 0 && material->map_bits != 0;
+    enum { AUTOMATIC, MEAN };
+    int wanted = (int)filter_setting(context, "colour");
+    if (wanted == MEAN || (wanted == AUTOMATIC && !material->metallic_varies))
+        return false;
+    return lies_under_lobes(material, MAP_BASE_COLOUR) &&
+           lies_under_lobes(material, MAP_SPECULAR) && lies_under_lobes(material, MAP_WIDTH);
+}
+
+/// Largest value of a colour map; 1 for those of eight bits.
+static float largest_texel(const lobe_scene *scene, const device_map *map) {
+    const lobe_image *image = map->use ? &scene->images[map->use->image].image : NULL;
+    float largest = 1, texel[4];
+    for (uint32_t i = 0; image && i < image->width * image->height; ++i) {
+        if (!image_texel(image, i % image->width, i / image->width, texel))
+            return largest;
+        largest = fmaxf(largest, fmaxf(texel[0], fmaxf(texel[1], texel[2])));
+    }
+    return largest;
+}
+
+/// What no colour of the material's exceeds, neither a bin's nor the diffuse one.
+static float colour_scale_of(const lobe_scene *scene, const device_material *material) {
+    const lobe_material *source = material->material;
+    float base = 1, specular = 1;
+    for (int i = 0; i < 3; ++i) {
+        base = fmaxf(base, source->base_colour[i]);
+        for (uint32_t k = 0; source->model != LOBE_MATERIAL_MICROFACET && k < source->lobe_count;
+             ++k)
+            specular = fmaxf(specular, source->lobes[k].colour[i] /
+                                           fmaxf(material_lobe_share(source, k), 1e-6f));
+    }
+    return fmaxf(base * largest_texel(scene, &material->maps[MAP_BASE_COLOUR]),
+                 specular * largest_texel(scene, &material->maps[MAP_SPECULAR]));
 }
 
 static void specialise_bins(const filter_context *context, const moment_partition *partition,
@@ -91,9 +142,10 @@ static void build(const filter_context *context, size_t instance, filtered_appea
             context->scene, index, (uint32_t)filter_setting(context, "partition"),
             (uint32_t)filter_setting(context, "bins"));
         bool colour = has_bin_colour(context, material);
+        float scale = colour ? colour_scale_of(context->scene->scene, material) : 1;
         moment_map moments =
-            moment_binning(context, index, partition, format_of(context), colour, 1);
-        specialise_bins(context, partition, colour, 1, appearance);
+            moment_binning(context, index, partition, format_of(context), colour, scale);
+        specialise_bins(context, partition, colour, scale, appearance);
         appearance->bytes = reduced_map_bytes(&moments.map, moments.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = moments.map.resource;

@@ -216,6 +216,21 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     fetched.filtered.normal = fetched.normal;
 }
 
+// Colours of the footprint; where bins have their own, means of what each texel reflects, and not
+// what the means of its parameters would.
+base_material footprint_material(surface_point surface, vec3 normal, map_area area) {
+    if (!(MIXTURE && BIN_COLOUR))
+        return filtered_material(surface, normal, area);
+    base_material base;
+    base.normal = normal;
+    base.diffuse = fetch_moments(area, 3u * BINS).rgb * COLOUR_SCALE;
+    if (VERTEX_COLOUR)
+        base.diffuse *= surface.colour.rgb;
+    base.specular = vec3(0.0); // the bins'
+    base.width = 1.0;          // likewise
+    return base;
+}
+
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     result.area = lobe_area(surface);
@@ -224,7 +239,7 @@ appearance fetch_appearance(surface_point surface) {
     result.level = 0.0;
     result.diffuse_normal = unfiltered_normal(surface);
     result.normal = result.diffuse_normal;
-    result.filtered = filtered_material(surface, result.normal, result.area);
+    result.filtered = footprint_material(surface, result.normal, result.area);
     if (MIXTURE) {
         result.level = result.area.level;
         result.base_share =
@@ -259,6 +274,10 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
         frame.specular = sum.colour * scale;
     float distribution = (1.0 - fetched.base_share) * sum.distribution;
     if (may_see_level_0(lobe_map())) {
+        if (BIN_COLOUR) {
+            frame.specular = mix(frame.specular, fetched.base.specular, fetched.base_share);
+            frame.diffuse = mix(frame.diffuse, fetched.base.diffuse, fetched.base_share);
+        }
         frame.width = mix(frame.width, fetched.base.width, fetched.base_share);
         normal = mix(normal, fetched.base.normal, fetched.base_share);
         distribution +=
@@ -282,13 +301,15 @@ vec3 evaluate_bin_lobes(appearance fetched, light_sum sum, vec3 halfway, vec3 in
     vec3 value = BIN_COLOUR
                      ? sum.colour
                      : fetched.filtered.specular * mixture_colour() * sum.distribution;
+    vec3 diffuse = fetched.filtered.diffuse;
     value *= 1.0 - fetched.base_share;
-    if (may_see_level_0(lobe_map()))
-        value += fetched.base_share * fetched.filtered.specular *
+    if (may_see_level_0(lobe_map())) {
+        value += fetched.base_share * fetched.base.specular *
                  evaluate_half_vector_lobes(fetched.base, halfway);
+        diffuse = mix(diffuse, fetched.base.diffuse, fetched.base_share);
+    }
     if (DIFFUSE)
-        value += microfacet_diffuse(fetched.filtered.diffuse, vec3(0.0),
-                                    dot(fetched.diffuse_normal, incoming));
+        value += microfacet_diffuse(diffuse, vec3(0.0), dot(fetched.diffuse_normal, incoming));
     return value;
 }
 

@@ -12,6 +12,7 @@
 // [b layers + 0]  sums of m, m p_x, m p_y, m g
 // [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y
 // [b layers + 2]  where bins have colours: sum of m times the specular colour
+// [last]          where bins have colours: mean of the diffuse colour
 #define MOMENT_MAXIMUM_BINS 6
 
 #define SPECIALISE_BINS          (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
