@@ -95,15 +95,16 @@ static uint32_t digest(const char *text) {
 
 /// A scene's name as part of a file's: of a path the last part without its ending, and a digest,
 /// because files of different folders may be called alike.
-static void name_scene(const char *scene, char *name, size_t size) {
+static void name_scene(const char *scene, char name[96]) {
     const char *slash = strrchr(scene, '/');
     const char *last = slash ? slash + 1 : scene;
-    size_t length = strcspn(last, ".");
-    snprintf(name, size, "%.*s", length < 64 ? (int)length : 64, last);
-    for (char *c = name; *c; ++c)
-        *c = isalnum((unsigned char)*c) || *c == '_' ? *c : '-';
+    size_t length = 0;
+    for (; last[length] && last[length] != '.' && length < 64; ++length)
+        name[length] =
+            isalnum((unsigned char)last[length]) || last[length] == '_' ? last[length] : '-';
+    name[length] = '\0';
     if (strcmp(name, scene) != 0)
-        snprintf(name + strlen(name), size - strlen(name), "-%08x", digest(scene));
+        snprintf(name + length, 96 - length, "-%08x", digest(scene));
 }
 
 static lobe_result write_picture(const sweep_job *job, const char *path, capture *capture) {
@@ -135,7 +136,7 @@ lobe_result sweep_pictures_write(const sweep_job *job, const char *scene,
         .depth = LOBE_EXR_HALF,
     };
     char scene_name[96], *path = NULL;
-    name_scene(scene, scene_name, sizeof scene_name);
+    name_scene(scene, scene_name);
     const char *separator = name[0] ? "-" : "";
     if (asprintf(&path, "%s/%s%s%s.exr", job->picture_folder, scene_name, separator, name) < 0)
         path = NULL;
