@@ -10,7 +10,7 @@ import tap
 from program import FOLDER, ROOT, check, report, succeeds
 
 GOLDEN = ROOT / "tests" / "golden"
-SCENES = ["checkerboard", "bumps", "tablecloth"]
+SCENES = ["checkerboard", "bumps", "tablecloth", "pillow", "hall"]
 FILTERS = ["direct", "mipmap", "toksvig", "lobes"]
 # Relative L2 of linear radiance. Half floats round to 5e-4 at most; one texel of a wrong layer or
 # level moves these small pictures by 1e-2 and more.
