@@ -37,6 +37,7 @@ static lobe_scene *constant_scene(lobe_material material, const float normal[3],
 /// What `direct` draws, of the base lobes as they are and turned into von Mises-Fisher lobes.
 typedef struct expectation {
     const char *what, *base;
+    bool leans; ///< the normal does
     lobe_frame exact, lobe;
 } expectation;
 
@@ -53,7 +54,7 @@ static double difference(const lobe_frame *a, const lobe_frame *b) {
 
 /// One Beckmann lobe about the normals is all that the filter has, for whatever lobes there are.
 static bool has_beckmann_alone(const char *filter) {
-    return strcmp(filter, "lean") == 0;
+    return strcmp(filter, "lean") == 0 || strcmp(filter, "leadr") == 0;
 }
 
 static bool is_beckmann(const lobe_material *material, const char *base) {
@@ -66,6 +67,9 @@ static void check_filter(fixture *f, const char *filter, const lobe_material *ma
                          const expectation *expected) {
     if (has_beckmann_alone(filter) && !is_beckmann(material, expected->base))
         return;
+    // Over the surface's plane and masked as a height field: how near is seen in test_leadr.c.
+    if (strcmp(filter, "leadr") == 0 && expected->leans)
+        return;
     lobe_frame frame = draw_base(f, filter, expected->base);
     double exact = difference(&frame, &expected->exact), lobe = difference(&frame, &expected->lobe);
     double found = material->model == LOBE_MATERIAL_MICROFACET ? exact : fmin(exact, lobe);
@@ -76,8 +80,8 @@ static void check_filter(fixture *f, const char *filter, const lobe_material *ma
 }
 
 static void check_base(fixture *f, const lobe_material *material, const char *what,
-                       const char *base) {
-    expectation expected = {what, base, draw_base(f, "direct", base),
+                       const char *base, bool leans) {
+    expectation expected = {what, base, leans, draw_base(f, "direct", base),
                             draw_base(f, "direct", "base=lobe")};
     assert_true(largest_value(&expected.exact.radiance) > 0.01);
     for (size_t i = 0; i < lobe_filter_count(); i++)
@@ -101,8 +105,8 @@ static void check_material(fixture *f, const lobe_material *material) {
                  microfacet ? 1 : material->lobe_count, distribution_names[material->distribution],
                  microfacet ? "microfacets" : "half-vector lobes", (double)normal[0],
                  (double)normal[1], (double)normal[2], tiles);
-        check_base(f, material, what, "base=exact");
-        check_base(f, material, what, "base=lobe");
+        check_base(f, material, what, "base=exact", i > 0);
+        check_base(f, material, what, "base=lobe", i > 0);
         assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
         lobe_scene_destroy(&scene);
     }
