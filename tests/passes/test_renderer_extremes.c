@@ -56,31 +56,32 @@ static void check_values(const lobe_image *image, double least, const char *what
     }
 }
 
+static void check_picture(fixture *f, const extreme *what, bool microfacet, const char *filter,
+                          const char *setting) {
+    picture_request request = {.filter = filter,
+                               .settings = {setting, NULL},
+                               .width = EXTENT,
+                               .height = EXTENT,
+                               .samples = 2,
+                               .outputs = true};
+    char name[128];
+    snprintf(name, sizeof name, "%s, %s, %s", what->name,
+             microfacet ? "microfacets" : "half-vector lobes", filter);
+    lobe_frame frame = draw(f, &request);
+    check_values(&frame.radiance, 0, name);
+    check_values(&frame.normal_depth, -1e30, name);
+    check_values(&frame.lobes_level, 0, name);
+    lobe_frame_free(&frame);
+}
+
 static void check_extreme(fixture *f, const extreme *what, bool microfacet) {
-    static const char *const requests[][2] = {{"direct", NULL},
-                                              {"mipmap", NULL},
-                                              {"lobes", "epsilon0=0.999"},
-                                              {"lobes", "space=camera"},
-                                              {"reference", NULL}};
     lobe_scene *scene = extreme_scene(what, microfacet);
     if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
         fail_msg("%s: %s", what->name, f->error);
-    for (size_t i = 0; i < sizeof requests / sizeof *requests; i++) {
-        picture_request request = {.filter = requests[i][0],
-                                   .settings = {requests[i][1], NULL},
-                                   .width = EXTENT,
-                                   .height = EXTENT,
-                                   .samples = 2,
-                                   .outputs = true};
-        char name[128];
-        snprintf(name, sizeof name, "%s, %s, %s", what->name,
-                 microfacet ? "microfacets" : "half-vector lobes", requests[i][0]);
-        lobe_frame frame = draw(f, &request);
-        check_values(&frame.radiance, 0, name);
-        check_values(&frame.normal_depth, -1e30, name);
-        check_values(&frame.lobes_level, 0, name);
-        lobe_frame_free(&frame);
-    }
+    for (size_t i = 0; i < lobe_filter_count(); i++)
+        check_picture(f, what, microfacet, lobe_filter_name(lobe_filter_get(i)), NULL);
+    check_picture(f, what, microfacet, "lobes", "epsilon0=0.999");
+    check_picture(f, what, microfacet, "lobes", "space=camera");
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
 }
