@@ -1,6 +1,7 @@
 #include "tools/plot_bars.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "tools/html.h"
 #include "tools/plot_frame.h"
@@ -61,9 +62,18 @@ static void draw_bar(FILE *page, const plot_bars *plot, const plot_frame *frame,
             number_text_of(sum, 4).text);
 }
 
-/// In two columns, filled from the top.
+/// Of the legend: in two columns, or one where a name needs it.
+static size_t count_lines(const plot_bars *plot) {
+    double widest = 0;
+    for (size_t i = 0; i < plot->kind_count; ++i)
+        widest = fmax(widest, plot_text_width(plot->kinds[i]));
+    bool two = widest + plot_text_width("00 ") + 28 < WIDTH / 2.0;
+    return two ? (plot->kind_count + 1) / 2 : plot->kind_count;
+}
+
+/// Columns are filled from the top.
 static void draw_legend(FILE *page, const plot_bars *plot, double top) {
-    size_t lines = (plot->kind_count + 1) / 2;
+    size_t lines = count_lines(plot);
     for (size_t i = 0; i < plot->kind_count; ++i) {
         double x = 8 + (double)(i / lines) * WIDTH / 2, y = top + LINE * (double)(i % lines);
         fprintf(page,
@@ -78,7 +88,7 @@ static void draw_legend(FILE *page, const plot_bars *plot, double top) {
 void plot_bars_draw(FILE *page, const plot_bars *plot) {
     plot_frame frame = make_frame(plot);
     double legend = frame.bottom + AXIS;
-    double height = legend + LINE * (double)((plot->kind_count + 1) / 2) + 4;
+    double height = legend + LINE * (double)count_lines(plot) + 4;
     plot_begin(page, plot->id, WIDTH, height, plot->title,
                "Stacked bars; the table of passes has the same numbers.");
     plot_define_fills(page, plot->id, plot->kind_count);

@@ -9,9 +9,15 @@ double plot_text_width(const char *text) {
     return 0.6 * PLOT_LABEL_HEIGHT * (double)characters;
 }
 
+static void take(plot_labels *labels, plot_box box, double cost) {
+    if (labels->taken_count == sizeof labels->taken / sizeof *labels->taken)
+        return;
+    labels->costs[labels->taken_count] = cost;
+    labels->taken[labels->taken_count++] = box;
+}
+
 void plot_labels_take(plot_labels *labels, plot_box box) {
-    if (labels->taken_count < sizeof labels->taken / sizeof *labels->taken)
-        labels->taken[labels->taken_count++] = box;
+    take(labels, box, 1);
 }
 
 static double area(const plot_box *box) {
@@ -28,7 +34,7 @@ static double common_area(const plot_box *a, const plot_box *b) {
 static double badness(const plot_labels *labels, const plot_box *box) {
     double sum = 10 * (area(box) - common_area(box, &labels->bounds));
     for (size_t i = 0; i < labels->taken_count; ++i)
-        sum += common_area(box, &labels->taken[i]);
+        sum += labels->costs[i] * common_area(box, &labels->taken[i]);
     return sum;
 }
 
@@ -50,13 +56,14 @@ plot_box plot_labels_place(plot_labels *labels, double x, double y, const char *
         for (size_t k = 0; k < sizeof directions / sizeof *directions; ++k) {
             plot_box box = beside(x, y, directions[k][0], directions[k][1], distances[i], width);
             // A label far from its point is nearly as bad as one that covers a little.
-            double score = badness(labels, &box) + 0.4 * (distances[i] - distances[0]);
+            double score = badness(labels, &box) + 1.2 * (distances[i] - distances[0]);
             if (score < least) {
                 least = score;
                 best = box;
             }
         }
     }
-    plot_labels_take(labels, best);
+    // Two texts upon each other cannot be read; a mark behind a text still can.
+    take(labels, best, 8);
     return best;
 }

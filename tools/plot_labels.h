@@ -19,6 +19,7 @@ typedef struct plot_box {
 typedef struct plot_labels {
     plot_box bounds; ///< labels should stay within
     plot_box taken[512];
+    double costs[512]; ///< of covering a unit of area of each
     size_t taken_count;
 } plot_labels;
 

@@ -133,13 +133,24 @@ static void draw_front(FILE *page, const plot_scatter *plot, const plot_frame *f
 // ---------------------------------------------------------------------------------------------
 // Labels
 
-static void take_marks(plot_labels *labels, const plot_scatter *plot, const plot_frame *frame) {
+static size_t number_on_front(const size_t *front, size_t count, size_t index) {
+    for (size_t i = 0; i < count; ++i) {
+        if (front[i] == index)
+            return i + 1;
+    }
+    return 0;
+}
+
+static void take_marks(plot_labels *labels, const plot_scatter *plot, const plot_frame *frame,
+                       const size_t *front, size_t count) {
     for (size_t i = 0; i < plot->point_count; ++i) {
         const plot_point *point = &plot->points[i];
         if (!is_shown(frame, point))
             continue;
         double x = plot_x(frame, point->x), y = plot_y(frame, point->y);
         double size = is_main(plot, i) ? main_size : small_size;
+        if (number_on_front(front, count, i))
+            size = ring_size;
         plot_labels_take(labels, (plot_box){x - size, y - size, x + size, y + size});
     }
 }
@@ -154,19 +165,11 @@ static void draw_label(FILE *page, plot_labels *labels, double x, double y, cons
     fputs("</text>\n", page);
 }
 
-static size_t number_on_front(const size_t *front, size_t count, size_t index) {
-    for (size_t i = 0; i < count; ++i) {
-        if (front[i] == index)
-            return i + 1;
-    }
-    return 0;
-}
-
 /// First those with names, which need the most room.
 static void draw_labels(FILE *page, const plot_scatter *plot, const plot_frame *frame,
                         const size_t *front, size_t count) {
     plot_labels labels = {.bounds = {frame->left, frame->top, frame->right, frame->bottom}};
-    take_marks(&labels, plot, frame);
+    take_marks(&labels, plot, frame, front, count);
     for (int named = 1; named >= 0; --named) {
         for (size_t i = 0; i < plot->point_count; ++i) {
             const plot_point *point = &plot->points[i];
