@@ -24,10 +24,12 @@ vec3 direction_from_plane(vec2 place) {
 // How an isotropic variance about a direction looks in the plane at its place (xx, yy, xy): the
 // map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With
 // c = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,
-//   c r r^T + (1/c) (I - r r^T) = I/c - (1 + c) / (4 c) q q^T.
+//   c r r^T + (1/c) (I - r r^T) = I/c - (1/c - c) q q^T / |q|^2,   |q|^2 = 4 (1 - c).
+// Close to the rim it is that of c = 0.05, lest it have no bounds.
 vec3 plane_distortion(vec2 place) {
-    float c = max(1.0 - 0.25 * dot(place, place), 0.05);
-    float outward = (1.0 + c) / (4.0 * c);
+    float square = dot(place, place);
+    float c = max(1.0 - 0.25 * square, 0.05);
+    float outward = (1.0 + c) / (c * max(4.0, square / 0.95));
     return vec3(1.0 / c - outward * place * place, -outward * place.x * place.y);
 }
 

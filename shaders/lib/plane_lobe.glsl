@@ -10,7 +10,7 @@
 // integral of the bell, chosen so that the peak mass / (2 pi v) is the lobe's own. Distributions of
 // microfacet normals have a projected area of one; their mass is therefore above one.
 
-// Broader lobes are taken to be this broad, and keep their peak.
+// Broader lobes are taken to be this broad, and keep their peak; but GGX keeps its projected area.
 const float PLANE_VARIANCE_MAXIMUM = 5.0;
 
 // GGX, with sin^2 = x^2 at small x = |q|:

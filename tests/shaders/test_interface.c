@@ -13,6 +13,7 @@
 #include "shaders/interface/instance.h"
 #include "shaders/interface/light.h"
 #include "shaders/interface/material.h"
+#include "shaders/interface/moment_bins.h"
 #include "shaders/interface/vertex.h"
 #include "tests/engine/cmocka_all.h"
 
@@ -60,6 +61,12 @@ static known_member known[] = {
     MEMBER(material_constants, lobe_direction, 6),
     MEMBER(material_constants, lobe_colour, 7),
     MEMBER(material_constants, transforms, 8),
+    MEMBER(moment_bin, centre, 0),
+    MEMBER(moment_bin, shape, 1),
+    MEMBER(moment_binning_constants, width, 0),
+    MEMBER(moment_binning_constants, height, 1),
+    MEMBER(moment_binning_constants, hats, 4),
+    MEMBER(moment_binning_constants, bins, 5),
     MEMBER(vertex, position, 0),
     MEMBER(vertex, normal, 1),
     MEMBER(vertex, tangent, 2),
