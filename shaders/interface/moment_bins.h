@@ -15,16 +15,16 @@
 // [last]          where bins have colours: mean of the diffuse colour
 #define MOMENT_MAXIMUM_BINS 6
 
-#define SPECIALISE_BINS          (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
-#define SPECIALISE_PARTITION     (SPECIALISE_FILTER + 33) // uint, PARTITION_...
-#define SPECIALISE_BIN_COLOUR    (SPECIALISE_FILTER + 34) // bool: bins have colours
-#define SPECIALISE_ORIGIN_X      (SPECIALISE_FILTER + 35) // float, plane: middle of the range
-#define SPECIALISE_ORIGIN_Y      (SPECIALISE_FILTER + 36) // float
-#define SPECIALISE_RANGE         (SPECIALISE_FILTER + 37) // float: half its width
-#define SPECIALISE_MASS_SCALE    (SPECIALISE_FILTER + 38) // float: largest mass of a lobe
-#define SPECIALISE_SHARP_SCALE   (SPECIALISE_FILTER + 39) // float: largest sharpness
-#define SPECIALISE_COLOUR_SCALE  (SPECIALISE_FILTER + 40) // float: largest specular colour
-#define SPECIALISE_LEAST_SHARE   (SPECIALISE_FILTER + 41) // float: bins with less are passed over
+#define SPECIALISE_BINS         (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
+#define SPECIALISE_PARTITION    (SPECIALISE_FILTER + 33) // uint, PARTITION_...
+#define SPECIALISE_BIN_COLOUR   (SPECIALISE_FILTER + 34) // bool: bins have colours
+#define SPECIALISE_ORIGIN_X     (SPECIALISE_FILTER + 35) // float, plane: middle of the range
+#define SPECIALISE_ORIGIN_Y     (SPECIALISE_FILTER + 36) // float
+#define SPECIALISE_RANGE        (SPECIALISE_FILTER + 37) // float: half its width
+#define SPECIALISE_MASS_SCALE   (SPECIALISE_FILTER + 38) // float: largest mass of a lobe
+#define SPECIALISE_SHARP_SCALE  (SPECIALISE_FILTER + 39) // float: largest sharpness
+#define SPECIALISE_COLOUR_SCALE (SPECIALISE_FILTER + 40) // float: largest specular colour
+#define SPECIALISE_LEAST_SHARE  (SPECIALISE_FILTER + 41) // float: bins with less are passed over
 
 #define PARTITION_FITTED 0
 #define PARTITION_HATS   1
