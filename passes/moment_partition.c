@@ -242,7 +242,7 @@ static double largest_mass(const lobe_material *material, double kappa) {
     return microfacet ? fmax(mass, fmax(1 / (1 - square), 1 + variance_of(kappa))) : mass;
 }
 
-static void extend(extremes *range, const lobe_material *material, const material_lobe *lobe) {
+static void extend(extremes *range, const material_lobe *lobe) {
     double place[2];
     plane_from_direction(lobe->axis, place);
     for (int i = 0; i < 2; ++i) {
@@ -250,8 +250,6 @@ static void extend(extremes *range, const lobe_material *material, const materia
         range->high[i] = fmax(range->high[i], place[i]);
     }
     range->sharpest = fmax(range->sharpest, 1 / sqrt(variance_of(lobe->concentration)));
-    range->heaviest =
-        fmax(range->heaviest, lobe->weight * largest_mass(material, lobe->concentration));
 }
 
 static extremes scan(const lobe_scene *scene, const device_material *material) {
@@ -264,8 +262,12 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
         uint32_t x = (uint32_t)((uint64_t)(i % columns) * width / columns);
         uint32_t y = (uint32_t)((uint64_t)(i / columns) * height / rows);
         uint32_t count = material_lobes_read(scene, material, x, y, lobes);
-        for (uint32_t k = 0; k < count; ++k)
-            extend(&range, material->material, &lobes[k]);
+        double mass = 0; // of all lobes, which one bin may get
+        for (uint32_t k = 0; k < count; ++k) {
+            extend(&range, &lobes[k]);
+            mass += lobes[k].weight * largest_mass(material->material, lobes[k].concentration);
+        }
+        range.heaviest = fmax(range.heaviest, mass);
     }
     return range;
 }

@@ -19,7 +19,7 @@ typedef struct moment_partition {
     uint32_t kind;                 ///< PARTITION_...
     uint32_t bins;                 ///< [1, MOMENT_MAXIMUM_BINS]
     float origin[2], range;        ///< |place - origin| <= range for every lobe, both axes
-    float mass_scale, sharp_scale; ///< largest mass and sharpness of a lobe
+    float mass_scale, sharp_scale; ///< largest mass of a texel's lobes, largest sharpness of one
     struct moment_binning_constants constants;
 } moment_partition;
 

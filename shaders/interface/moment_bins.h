@@ -21,7 +21,7 @@
 #define SPECIALISE_ORIGIN_X     (SPECIALISE_FILTER + 35) // float, plane: middle of the range
 #define SPECIALISE_ORIGIN_Y     (SPECIALISE_FILTER + 36) // float
 #define SPECIALISE_RANGE        (SPECIALISE_FILTER + 37) // float: half its width
-#define SPECIALISE_MASS_SCALE   (SPECIALISE_FILTER + 38) // float: largest mass of a lobe
+#define SPECIALISE_MASS_SCALE   (SPECIALISE_FILTER + 38) // float: largest of a texel's lobes
 #define SPECIALISE_SHARP_SCALE  (SPECIALISE_FILTER + 39) // float: largest sharpness
 #define SPECIALISE_COLOUR_SCALE (SPECIALISE_FILTER + 40) // float: largest specular colour
 #define SPECIALISE_LEAST_SHARE  (SPECIALISE_FILTER + 41) // float: bins with less are passed over

@@ -24,40 +24,43 @@ void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, doub
     }
 }
 
-static const lobe_image *image_of(const lobe_scene *scene, const lobe_texture_use *use) {
+const lobe_image *image_of_map(const lobe_scene *scene, const lobe_texture_use *use) {
     return use->image >= 0 ? &scene->images[use->image].image : NULL;
 }
 
 static const lobe_image *width_image(const lobe_scene *scene, const lobe_material *material) {
-    return image_of(scene, material->model == LOBE_MATERIAL_MICROFACET
-                               ? &material->metallic_roughness_map
-                               : &material->width_map);
+    return image_of_map(scene, material->model == LOBE_MATERIAL_MICROFACET
+                                   ? &material->metallic_roughness_map
+                                   : &material->width_map);
 }
 
-/// Maps smaller than the largest repeat their texels.
-static void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x,
-                          uint32_t y, double texel[4]) {
+void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x, uint32_t y,
+                   double texel[4]) {
     reference_image_texel(image, (uint32_t)((uint64_t)x * image->width / size->width),
                           (uint32_t)((uint64_t)y * image->height / size->height), texel);
 }
 
-double base_lobe_concentration(const lobe_material *material, uint32_t i, const double width[4]) {
+double base_lobe_parameter(const lobe_material *material, uint32_t i, const double width[4]) {
     double parameter =
         material->model == LOBE_MATERIAL_MICROFACET
             ? reference_microfacet_parameter(material->distribution,
                                              (double)material->roughness * width[1])
             : reference_base_lobe_parameter(material->distribution,
                                             (double)material->lobes[i].width * width[0]);
-    parameter = reference_convolved_parameter(material->distribution, parameter,
-                                              (double)material->normal_concentration);
-    return reference_base_lobe_concentration(material->distribution, parameter);
+    return reference_convolved_parameter(material->distribution, parameter,
+                                         (double)material->normal_concentration);
+}
+
+double base_lobe_concentration(const lobe_material *material, uint32_t i, const double width[4]) {
+    return reference_base_lobe_concentration(material->distribution,
+                                             base_lobe_parameter(material, i, width));
 }
 
 static double luminance(const float colour[3]) {
     return 0.2126 * (double)colour[0] + 0.7152 * (double)colour[1] + 0.0722 * (double)colour[2];
 }
 
-static double share_of(const lobe_material *material, uint32_t i) {
+double base_lobe_share(const lobe_material *material, uint32_t i) {
     if (material->model == LOBE_MATERIAL_MICROFACET)
         return 1;
     double sum = 0;
@@ -80,7 +83,7 @@ static void add_texel(const lobe_material *material, const double normal[3], con
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
         reference_lobe lobe = {.concentration = base_lobe_concentration(material, i, width),
-                               .share = share_of(material, i)};
+                               .share = base_lobe_share(material, i)};
         double direction[3] = {0, 0, 1}, axis[3];
         for (int j = 0; j < 3 && !microfacet; j++)
             direction[j] = (double)material->lobes[i].direction[j];
@@ -90,9 +93,10 @@ static void add_texel(const lobe_material *material, const double normal[3], con
     }
 }
 
-/// The larger of the normal and the width map, each way.
-static reference_layers allocate_texels(const lobe_image *normals, const lobe_image *widths,
-                                        uint32_t layers) {
+reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_material *material,
+                                      uint32_t layers) {
+    const lobe_image *normals = image_of_map(scene, &material->normal_map);
+    const lobe_image *widths = width_image(scene, material);
     uint32_t width = normals ? normals->width : 1, height = normals ? normals->height : 1;
     if (widths && widths->width > width)
         width = widths->width;
@@ -101,11 +105,10 @@ static reference_layers allocate_texels(const lobe_image *normals, const lobe_im
     return reference_layers_allocate(width, height, layers);
 }
 
-/// Normal and factor of the width of one texel.
-static void read_texel(const lobe_scene *scene, const lobe_material *material,
-                       const reference_layers *size, uint32_t x, uint32_t y, double normal[3],
-                       double width[4]) {
-    const lobe_image *normals = image_of(scene, &material->normal_map);
+void read_lobe_texel(const lobe_scene *scene, const lobe_material *material,
+                     const reference_layers *size, uint32_t x, uint32_t y, double normal[3],
+                     double width[4]) {
+    const lobe_image *normals = image_of_map(scene, &material->normal_map);
     const lobe_image *widths = width_image(scene, material);
     double texel[4];
     normal[0] = normal[1] = 0;
@@ -120,15 +123,13 @@ static void read_texel(const lobe_scene *scene, const lobe_material *material,
 
 reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
                                    texel_frame frame, const void *user) {
-    reference_layers layers =
-        allocate_texels(image_of(scene, &material->normal_map), width_image(scene, material),
-                        REFERENCE_MIXTURE_LAYERS);
+    reference_layers layers = allocate_lobe_texels(scene, material, REFERENCE_MIXTURE_LAYERS);
     for (uint32_t i = 0; i < layers.width * layers.height; i++) {
         uint32_t x = i % layers.width, y = i / layers.width;
         double normal[3], width[4], axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         if (frame && !frame(user, (x + 0.5) / layers.width, (y + 0.5) / layers.height, axes))
             continue;
-        read_texel(scene, material, &layers, x, y, normal, width);
+        read_lobe_texel(scene, material, &layers, x, y, normal, width);
         add_texel(material, normal, width, axes, &layers, x, y);
     }
     return layers;
@@ -137,12 +138,11 @@ reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material 
 reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
                                                const lobe_material *material) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    reference_layers layers =
-        allocate_texels(image_of(scene, &material->normal_map), width_image(scene, material), 1);
+    reference_layers layers = allocate_lobe_texels(scene, material, 1);
     for (uint32_t i = 0; i < layers.width * layers.height; i++) {
         uint32_t x = i % layers.width, y = i / layers.width;
         double width[4], *parameters = reference_texel(&layers, x, y, 0);
-        read_texel(scene, material, &layers, x, y, parameters, width);
+        read_lobe_texel(scene, material, &layers, x, y, parameters, width);
         parameters[3] = microfacet ? base_lobe_concentration(material, 0, width) : width[0];
     }
     return layers;
@@ -163,14 +163,13 @@ static void add_slopes(const double direction[3], double variance, double weight
 
 reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    reference_layers layers = allocate_texels(image_of(scene, &material->normal_map),
-                                              width_image(scene, material), SLOPE_LAYERS);
+    reference_layers layers = allocate_lobe_texels(scene, material, SLOPE_LAYERS);
     for (uint32_t at = 0; at < layers.width * layers.height; at++) {
         uint32_t x = at % layers.width, y = at / layers.width;
         double *first = reference_texel(&layers, x, y, SLOPE_LAYER_FIRST);
         double *second = reference_texel(&layers, x, y, SLOPE_LAYER_SECOND);
         double normal[3], width[4];
-        read_texel(scene, material, &layers, x, y, normal, width);
+        read_lobe_texel(scene, material, &layers, x, y, normal, width);
         first[2] = normal[2];
         for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
             double local[3] = {0, 0, 1}, axis[3];
@@ -178,7 +177,7 @@ reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_mat
                 local[j] = (double)material->lobes[i].direction[j];
             reference_rotate_from_pole(normal, local, axis);
             add_slopes(axis, 1 / fmax(base_lobe_concentration(material, i, width), 1),
-                       share_of(material, i), first, second);
+                       base_lobe_share(material, i), first, second);
         }
     }
     return layers;
