@@ -28,6 +28,19 @@ static bool texel_normal(const lobe_scene *scene, const device_material *materia
     return true;
 }
 
+/// Mardia, Jupp, 2000, section 9.3: R = coth kappa - 1/kappa.
+static double resultant(double kappa) {
+    return kappa < 1e-2 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
+}
+
+/// As convolved_parameter in shaders/lib/base_lobe.glsl, with Xu et al. 2017, Eq. 8.
+static double convolved(lobe_distribution distribution, double kappa, double within) {
+    if (distribution != LOBE_DISTRIBUTION_VMF)
+        return kappa * within / (kappa + within);
+    double r = resultant(kappa) * resultant(within);
+    return r * (3 - r * r) / (1 - r * r);
+}
+
 /// Concentration of base lobe `i`, as base_concentration in shaders/base_maps.glsl.
 static double base_concentration(const lobe_material *material, uint32_t i, double factor) {
     double kappa;
@@ -41,7 +54,7 @@ static double base_concentration(const lobe_material *material, uint32_t i, doub
             kappa += 1;
     }
     double within = material->normal_concentration;
-    return fmin(within > 0 ? kappa * within / (kappa + within) : kappa, 1e6);
+    return fmin(within > 0 ? convolved(material->distribution, kappa, within) : kappa, 1e6);
 }
 
 void material_lobe_extent(const device_material *material, uint32_t *width, uint32_t *height) {

@@ -252,6 +252,9 @@ static void extend(extremes *range, const material_lobe *lobe) {
     range->sharpest = fmax(range->sharpest, 1 / sqrt(variance_of(lobe->concentration)));
 }
 
+/// Where the host reads nothing: whatever a material may have.
+static const extremes everything = {{-2, -2}, {2, 2}, 1e3, 10};
+
 static extremes scan(const lobe_scene *scene, const device_material *material) {
     extremes range = {{2, 2}, {-2, -2}, 0.4, 1e-6};
     uint32_t width, height;
@@ -262,6 +265,8 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
         uint32_t x = (uint32_t)((uint64_t)(i % columns) * width / columns);
         uint32_t y = (uint32_t)((uint64_t)(i / columns) * height / rows);
         uint32_t count = material_lobes_read(scene, material, x, y, lobes);
+        if (count == 0)
+            return everything;
         double mass = 0; // of all lobes, which one bin may get
         for (uint32_t k = 0; k < count; ++k) {
             extend(&range, &lobes[k]);
@@ -277,12 +282,11 @@ static void set_range(const extremes *found, moment_partition *partition) {
     // As much again for what the scan passed over.
     const double margin = 1.05;
     for (int i = 0; i < 2; ++i) {
-        bool empty = found->low[i] > found->high[i];
-        partition->origin[i] = empty ? 0 : (float)(0.5 * (found->low[i] + found->high[i]));
-        float half = empty ? 2 : (float)(0.5 * margin * (found->high[i] - found->low[i]));
+        partition->origin[i] = (float)(0.5 * (found->low[i] + found->high[i]));
+        float half = (float)(0.5 * margin * (found->high[i] - found->low[i]));
         partition->range = fmaxf(partition->range, half);
     }
-    partition->mass_scale = (float)found->heaviest;
+    partition->mass_scale = (float)(margin * found->heaviest);
     partition->sharp_scale = (float)found->sharpest;
 }
 
