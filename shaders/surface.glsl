@@ -77,9 +77,6 @@ vec3 normal_covariance(vec3 normal, mat3 world_from_tangent) {
     vec2 dy = (dFdy(normal) * world_from_tangent).xy;
     vec3 covariance = (CURVATURE / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
     float variance = max(covariance.x, covariance.y);
-    // Of a plane, rounding alone.
-    if (variance < 1e-12)
-        return vec3(0.0);
     return covariance * min(1.0, CURVATURE_MAXIMUM / max(variance, 1e-30));
 }
 

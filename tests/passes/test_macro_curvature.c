@@ -61,9 +61,10 @@ static void check_plane(fixture *f, const char *filter) {
     request.settings[0] = "curvature=1";
     lobe_frame with = draw(f, &request);
     assert_true(largest_value(&with.radiance) > 0.1);
-    if (image_hash(&with.radiance) != image_hash(&without.radiance))
-        fail_msg("%s: curvature changes a plane by %g", filter,
-                 largest_difference(&with.radiance, &without.radiance));
+    // Other code may be rounded otherwise, by no more than that.
+    double difference = largest_difference(&with.radiance, &without.radiance);
+    if (!(difference <= 1e-6 * largest_value(&without.radiance)))
+        fail_msg("%s: curvature changes a plane by %g", filter, difference);
     lobe_frame_free(&without);
     lobe_frame_free(&with);
 }
