@@ -44,6 +44,9 @@ typedef struct sweep_job {
     char *picture_prefix; ///< the same as seen from the JSON's folder, with a slash
     const scene_options *assets;
     uint32_t path_samples, stations;
+    /// Measures no more than times, memory and the error of the still picture against the truth: no
+    /// pictures, no copies, no truth with converted base lobes; then `stations` is 0.
+    bool brief;
     bool resume;
     const volatile sig_atomic_t *interrupted; ///< not 0: stop soon
 } sweep_job;
@@ -112,7 +115,8 @@ void sweep_path_free(const sweep_job *job, sweep_path *path);
 /// See sweep_row.flicker. The reference's own noise is in it, and falls with the square root of
 /// its samples: of toksvig at 160x90 with 16, 64, 256 and 1024 samples 0.67, 0.36, 0.19, 0.09 on
 /// bumps and 0.105, 0.056, 0.035, 0.026 on tablecloth. Small values therefore need many samples
-/// before they can be compared. Negative where the filter supersamples, as the reference does.
+/// before they can be compared. Negative where the filter supersamples, as the reference does, and
+/// where there are no stations.
 lobe_result sweep_path_flicker(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, const sweep_variant *variant,
                                const sweep_path *path, double *flicker);

@@ -51,7 +51,7 @@ static void keep_change(const sweep_job *job, lobe_frame pair[2], uint32_t stati
 
 lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
                               lobe_renderer *renderer, sweep_path *path) {
-    *path = (sweep_path){.changes = calloc(job->stations, sizeof *path->changes)};
+    *path = (sweep_path){.changes = calloc(job->stations + 1, sizeof *path->changes)};
     if (!path->changes)
         return lobe_log_fail(job->bench.log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
     sweep_variant reference = {.filter.settings = job->bench.truth};
@@ -97,7 +97,7 @@ lobe_result sweep_path_flicker(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, const sweep_variant *variant,
                                const sweep_path *path, double *flicker) {
     *flicker = -1;
-    if (lobe_filter_supersamples(variant->filter.filter))
+    if (lobe_filter_supersamples(variant->filter.filter) || job->stations == 0)
         return LOBE_OK;
     lobe_result result = LOBE_OK;
     double squares = 0;

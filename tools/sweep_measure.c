@@ -63,7 +63,8 @@ static double time_work(const sweep_job *job) {
 }
 
 double sweep_scene_work(const sweep_job *job) {
-    double work = 2.0 * job->bench.samples + 2.0 * job->stations * job->path_samples;
+    double truths = job->brief ? 1 : 2;
+    double work = truths * job->bench.samples + 2.0 * job->stations * job->path_samples;
     for (size_t i = 0; i < job->plan.count; ++i)
         work += still_work(job, &job->plan.variants[i]);
     return work + time_work(job);
@@ -89,7 +90,7 @@ static lobe_result render_truth(const scene_run *run, lobe_renderer *renderer,
     parameters.progress = sweep_show_progress;
     lobe_frame frame;
     result = lobe_renderer_render(renderer, &parameters, &frame);
-    if (result == LOBE_OK && picture && !sweep_stopped(run->job))
+    if (result == LOBE_OK && picture && !run->job->brief && !sweep_stopped(run->job))
         result = sweep_pictures_write(run->job, run->rows[0].scene, &reference, bench->samples, "",
                                       &frame, picture);
     *image = frame.radiance;
@@ -104,7 +105,7 @@ static lobe_result render_truths(scene_run *run, char **picture) {
     lobe_result result = open_renderer(run, &run->errors, &renderer);
     if (result == LOBE_OK)
         result = render_truth(run, renderer, &bench->truth, "reference", picture, &run->truth);
-    if (result == LOBE_OK)
+    if (result == LOBE_OK && !run->job->brief)
         result = render_truth(run, renderer, &bench->truth_lobe_base,
                               "reference with base lobes converted", NULL, &run->truth_lobe_base);
     if (result == LOBE_OK)
@@ -146,7 +147,7 @@ static lobe_result list_passes(const scene_run *run, const lobe_frame *built,
 static lobe_result measure_memory(const scene_run *run, const sweep_variant *variant,
                                   lobe_renderer **renderer, sweep_row *row, lobe_frame *built) {
     const bench_job *bench = &run->job->bench;
-    const bool quiet = variant->varied[0] != '\0';
+    const bool quiet = run->job->brief || variant->varied[0] != '\0';
     lobe_device_memory before, after;
     lobe_device_memory_reset_peak(bench->device);
     lobe_device_memory_query(bench->device, &before);
@@ -174,8 +175,9 @@ static lobe_result compare(const scene_run *run, const lobe_image *image, const 
 static lobe_result measure_error(const scene_run *run, const sweep_variant *variant,
                                  const lobe_frame *still, sweep_row *row) {
     lobe_result result = compare(run, &still->radiance, &run->truth, row, &row->error);
-    if (result == LOBE_OK)
-        result = compare(run, &still->radiance, &run->truth_lobe_base, row, &row->error_lobe_base);
+    if (result != LOBE_OK || run->job->brief)
+        return result;
+    result = compare(run, &still->radiance, &run->truth_lobe_base, row, &row->error_lobe_base);
     if (result == LOBE_OK && row->varied[0] == '\0')
         result = sweep_pictures_write(run->job, row->scene, variant, sample_count(variant),
                                       row->filter, still, &row->picture);
@@ -209,8 +211,9 @@ static lobe_result measure_stills(const scene_run *run) {
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < job->plan.count && !sweep_stopped(job); ++i) {
         const sweep_variant *variant = &job->plan.variants[i];
-        progress_step(job->bench.progress, "%s: error and flicker of %s, row %zu of %zu",
-                      run->scene->name, run->rows[i].filter, i + 1, job->plan.count);
+        progress_step(job->bench.progress, "%s: error%s of %s, row %zu of %zu", run->scene->name,
+                      job->brief ? "" : " and flicker", run->rows[i].filter, i + 1,
+                      job->plan.count);
         progress_weigh(job->bench.progress, still_work(job, variant));
         result = measure_still(run, variant, &run->rows[i]);
     }
@@ -306,7 +309,8 @@ static lobe_result measure_times(const scene_run *run) {
     const sweep_job *job = run->job;
     lobe_renderer *renderer = NULL;
     sweep_copies *copies = NULL;
-    lobe_result result = sweep_copies_create(job, run->rows, job->plan.count, &copies);
+    lobe_result result =
+        sweep_copies_create(job, run->rows, job->brief ? 0 : job->plan.count, &copies);
     if (result == LOBE_OK)
         result = open_renderer(run, &run->errors, &renderer);
     if (result == LOBE_OK)
