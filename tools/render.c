@@ -3,6 +3,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/budget.h"
 #include "tools/capture.h"
 #include "tools/console.h"
 #include "tools/device_options.h"
@@ -21,19 +22,20 @@ typedef struct render_request {
     uint32_t carrier;
     const char *filter_name;
     option_list assignments; ///< "KNOB=VALUE"
+    budget_options budget;   ///< instead of both
     uint32_t size[2];
     uint32_t samples, frames;
     const char *graph;
     uint32_t depth;
     bool layers; ///< of arbitrary output variables
     double exposure;
-    bool has_carrier, has_samples, has_depth, has_exposure;
+    bool has_filter, has_carrier, has_samples, has_depth, has_exposure;
     scene_options assets;
     view_options view;
     lobe_light *lights;
     device_options device;
 
-    const lobe_filter *filter;
+    const lobe_filter *filter; ///< NULL until it is picked by the budget
     lobe_settings settings;
 } render_request;
 
@@ -41,6 +43,7 @@ typedef struct render_request {
 typedef struct render_state {
     lobe_log log;
     lobe_scene *scene;
+    sweep_results figures; ///< that filter and knobs are picked by
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_frame frame;
@@ -76,6 +79,16 @@ static int check_outputs(const option_table *table, const render_request *reques
     return 0;
 }
 
+static int check_budget(const option_table *table, const render_request *request) {
+    if (request->budget.sweep && request->material)
+        return options_usage_error(table, "--sweep and --material exclude each other: sweeps "
+                                          "measure scenes");
+    const char *fixed = request->has_filter              ? "--filter"
+                        : request->assignments.count > 0 ? "--set"
+                                                         : NULL;
+    return budget_options_check(table, &request->budget, fixed);
+}
+
 static int check_usage(const option_table *table, const render_request *request) {
     if (!request->scene && !request->material)
         return options_usage_error(table, "no SCENE, and no --material either");
@@ -87,10 +100,13 @@ static int check_usage(const option_table *table, const render_request *request)
     if (request->size[0] == 0 || request->size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
                                    request->size[1]);
-    return check_outputs(table, request);
+    int status = check_budget(table, request);
+    return status == 0 ? check_outputs(table, request) : status;
 }
 
 static int choose_filter(render_request *request, const lobe_log *log) {
+    if (budget_options_limit(&request->budget))
+        return 0; // it is picked when scene and device are known
     if (lobe_filter_find(request->filter_name, log, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
@@ -109,7 +125,7 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_lo
         lobe_log_print(log, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
     if (!writes(request, true) && request->has_exposure)
         lobe_log_print(log, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
-    if (request->has_samples && !lobe_filter_supersamples(request->filter))
+    if (request->has_samples && !(request->filter && lobe_filter_supersamples(request->filter)))
         lobe_log_print(log, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
 }
 
@@ -124,8 +140,30 @@ static lobe_result open_scene(const render_request *request, render_state *state
                               &state->scene);
 }
 
-static lobe_result open_renderer(const render_request *request, render_state *state) {
+static bool has_own_view(const render_request *request) {
+    const view_options *view = &request->view;
+    return !view->has_eye && !view->has_target && !view->has_field_of_view && view->path == 0 &&
+           view->lights.count == 0;
+}
+
+static lobe_result pick_filter(render_request *request, render_state *state) {
+    if (!budget_options_limit(&request->budget))
+        return LOBE_OK;
+    const budget_picture picture = {
+        .name = request->scene,
+        .scene = state->scene,
+        .own_view = has_own_view(request),
+        .device = state->device,
+        .size = {request->size[0], request->size[1]},
+    };
+    return budget_pick(&request->budget, &picture, &state->log, &state->figures, &request->filter,
+                       &request->settings);
+}
+
+static lobe_result open_renderer(render_request *request, render_state *state) {
     lobe_result result = device_options_open(&request->device, &state->log, &state->device);
+    if (result == LOBE_OK)
+        result = pick_filter(request, state);
     if (result == LOBE_OK)
         result = lobe_renderer_create(state->device, &state->log, &state->renderer);
     if (result == LOBE_OK)
@@ -232,6 +270,8 @@ static lobe_result check_files(const render_request *request, const lobe_log *lo
 static lobe_result render(render_request *request, render_state *state) {
     lobe_result result = check_files(request, &state->log);
     if (result == LOBE_OK)
+        result = budget_read(&request->budget, request->scene, &state->log, &state->figures);
+    if (result == LOBE_OK)
         result = open_scene(request, state);
     if (result != LOBE_OK)
         return result;
@@ -258,6 +298,7 @@ static void free_state(render_state *state) {
     lobe_frame_free(&state->frame);
     lobe_renderer_destroy(&state->renderer);
     lobe_device_destroy(&state->device);
+    sweep_results_free(&state->figures);
     lobe_scene_destroy(&state->scene);
 }
 
@@ -299,12 +340,17 @@ static int run(int argc, char **argv) {
          .argument = "NAME",
          .summary = "how appearance is filtered, see 'lobe filters'",
          .target = &request.filter_name,
-         .fallback = "lobes"},
+         .fallback = "lobes",
+         .given = &request.has_filter},
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
          .summary = "sets a knob of the filter, see 'lobe filters'",
          .target = &request.assignments},
+        budget_option_milliseconds(&request.budget),
+        budget_option_error(&request.budget),
+        budget_option_sweep(&request.budget),
+        budget_option_maps(&request.budget),
         {.name = "size",
          .kind = OPTION_SIZE,
          .argument = "WxH",
