@@ -171,9 +171,9 @@ static text describe_source(const budget_options *options, const budget_picture 
     text source;
     const uint32_t *from = figures->size, *to = picture->size;
     int used = snprintf(source.characters, sizeof source.characters,
-                        "%.256s, %u frames, errors against %u samples a pixel",
+                        "%.256s, %u frame%s, errors against %u samples a pixel",
                         options->sweep ? options->sweep : "calibrated", figures->frames,
-                        figures->reference_samples);
+                        figures->frames == 1 ? "" : "s", figures->reference_samples);
     if (from[0] != to[0] || from[1] != to[1])
         snprintf(source.characters + used, sizeof source.characters - (size_t)used,
                  ", scaled from %ux%u to %ux%u: shading by the pixels, building and errors as they "
@@ -191,7 +191,7 @@ static void print_choice(const trade_request *request, const trade_choice *choic
            choice->within == 1 ? "keeps" : "keep", limits_time ? "to" : "to an error of",
            request->limit, limits_time ? " ms" : "", limits_time ? "errs least" : "is fastest");
     if (choice->better)
-        printf("next %s %s; figures: %s\n", comparative,
+        printf("the next %s is %s; figures: %s\n", comparative,
                describe_row(request, choice->better).characters, source->characters);
     else
         printf("none is %s; figures: %s\n", comparative, source->characters);

@@ -86,7 +86,13 @@ def _chunk(kind, data):
 
 def png_write(path, width, height, colour):
     """A picture of one colour, 8 bits, RGB."""
-    rows = (b"\0" + bytes(colour) * width) * height
+    png_draw(path, width, height, lambda x, y: colour)
+
+
+def png_draw(path, width, height, colour_at):
+    """The same, `colour_at(x, y)` is a pixel's RGB."""
+    rows = b"".join(b"\0" + b"".join(bytes(colour_at(x, y)) for x in range(width))
+                    for y in range(height))
     path.write_bytes(b"\x89PNG\r\n\x1a\n" +
                      _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
                      _chunk(b"IDAT", zlib.compress(rows)) + _chunk(b"IEND", b""))
