@@ -184,6 +184,9 @@ static void microfacets_are_shaded_by_their_moments(void **state) {
                                                : random_normal_map(8, 8, 0.7, 402),
                         .widths = roughness_map(ways[i]->colour, 403)};
             g.material.base_colour[1] = 0.5f;
+            // With one roughness, the bin of what is rough is empty.
+            if (ways[i] == &hats && j == 1)
+                lobe_image_free(&g.widths);
             check_shading(*state, &g, ways[i], j ? "GGX" : "Beckmann");
             ground_free(&g);
         }
