@@ -12,7 +12,8 @@ static const char *const storages[] = {"float32", "float16", NULL};
 
 const lobe_knob knob_probes = {
     .name = "probes",
-    .summary = "samples along the longer axis of a pixel's footprint",
+    .summary = "most samples along the longer axis of a pixel's footprint; as many as it is longer "
+               "than wide",
     .kind = LOBE_KNOB_INTEGER,
     .minimum = 1,
     .maximum = 16,

@@ -36,9 +36,9 @@ float width_from_average(float average) {
 // The averages over the footprint: a normal of any length, and a width.
 vec4 fetch_averages(map_area area, surface_point surface) {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i)
+    for (uint i = 0u; i < probes_of(area); ++i)
         sum += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
-    sum /= float(PROBES);
+    sum /= float(probes_of(area));
     if (may_see_level_0(lobe_map())) {
         base_material base = unfiltered_material(surface);
         sum = mix(vec4(base.normal, averaged_width(base)), sum, min(area.level, 1.0));

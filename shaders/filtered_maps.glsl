@@ -8,7 +8,7 @@
 #include "lib/footprint.glsl"
 #include "unfiltered_maps.glsl"
 
-layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1;
+layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
 layout(constant_id = SPECIALISE_LEVEL_BIAS) const float LEVEL_BIAS = 0.0;
 layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
@@ -19,12 +19,26 @@ layout(set = 0, binding = 18) uniform sampler2D width_filtered;
 layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
 layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
 
+// By how much of its width a footprint may be longer than its probes cover.
+const float SLACK = 0.25;
+
 // Where and how widely a map is read.
 struct map_area {
     vec2 centre; // texture coordinates
     vec2 stride; // from probe to probe, along the major axis
     float level; // of the base map, at least 0
+    uint probes;
 };
+
+uint probes_of(map_area area) {
+    return PROBES > 1u ? area.probes : 1u;
+}
+
+// As many as the footprint is longer than wide.
+uint probes_needed(footprint pixel) {
+    float length = pixel.major_axis / max(pixel.minor_axis, 1e-6 * pixel.major_axis);
+    return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));
+}
 
 // Whether a pixel of this draw may see level 0 of a map.
 bool may_see_level_0(int map) {
@@ -38,8 +52,10 @@ map_area area_of(int map, vec2 size, surface_point surface) {
                      map_coordinates(map, surface.coordinates_dy, 0.0) * size);
     map_area area;
     area.centre = map_coordinates(map, surface.coordinates, 1.0);
-    area.stride = pixel.direction * (pixel.major_axis / float(PROBES)) / size;
-    area.level = max(level_of(pixel, float(PROBES)) + LEVEL_BIAS, may_see_level_0(map) ? 0.0 : 1.0);
+    area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
+    float probes = float(probes_of(area));
+    area.stride = pixel.direction * (pixel.major_axis / probes) / size;
+    area.level = max(level_of(pixel, probes) + LEVEL_BIAS, may_see_level_0(map) ? 0.0 : 1.0);
     return area;
 }
 
@@ -63,7 +79,7 @@ map_area lobe_area(surface_point surface) {
 }
 
 vec2 probe_position(map_area area, uint probe) {
-    return area.centre + area.stride * (float(probe) - 0.5 * float(PROBES - 1u));
+    return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
 }
 
 // `lobes`: the area of the lobes' map, which serves maps that are laid out like it.
@@ -77,14 +93,14 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
     if ((LIKE_LOBES & (1u << map)) == 0u)
         area = area_of(map, vec2(textureSize(base, 0)), surface);
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i) {
+    for (uint i = 0u; i < probes_of(area); ++i) {
         vec2 position = probe_position(area, i);
         vec4 value = textureLod(filtered, position, max(area.level - 1.0, 0.0));
         if (may_see_level_0(map))
             value = mix(textureLod(base, position, 0.0), value, min(area.level, 1.0));
         sum += value;
     }
-    return sum / float(PROBES);
+    return sum / float(probes_of(area));
 }
 
 vec4 filtered_base_colour(surface_point surface, map_area lobes) {

@@ -28,10 +28,10 @@ vec3 scaled_normal(vec3 normal) {
 
 vec4 fetch_moment_layer(map_area area, int layer) {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i)
+    for (uint i = 0u; i < probes_of(area); ++i)
         sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
                           max(area.level - 1.0, 0.0));
-    return sum / float(PROBES);
+    return sum / float(probes_of(area));
 }
 
 // Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor, second

@@ -96,10 +96,10 @@ mat3 mixture_frame(surface_point surface) {
 
 vec4 fetch_layer(map_area area, int layer) {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i)
+    for (uint i = 0u; i < probes_of(area); ++i)
         sum += textureLod(mixture_map, vec3(probe_position(area, i), layer),
                           max(area.level - 1.0, 0.0));
-    return sum / float(PROBES);
+    return sum / float(probes_of(area));
 }
 
 // 1 - |r| of the base lobes where all have one width.

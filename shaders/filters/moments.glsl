@@ -68,10 +68,10 @@ uint distribution_kind() {
 
 vec4 fetch_moments(map_area area, uint layer) {
     vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < PROBES; ++i)
+    for (uint i = 0u; i < probes_of(area); ++i)
         sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
                           max(area.level - 1.0, 0.0));
-    return sum / float(PROBES);
+    return sum / float(probes_of(area));
 }
 
 mat2 inverse_of(vec3 covariance) {
@@ -195,7 +195,8 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     bin_means means = bin_means(0.0, vec3(0.0), 0.0);
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(fetched.area, i, surface.curvature);
-        if (bin.mass <= LEAST_SHARE * MASS_SCALE)
+        // The lobes of a footprint have a mass of one at least.
+        if (bin.mass <= LEAST_SHARE)
             continue;
         add_to_means(means, bin);
         fetched.lobe_count += 1.0;

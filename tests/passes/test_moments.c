@@ -498,6 +498,27 @@ static void knobs_at_their_ends_together(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
+/// What is passed over is little of the footprint, however broad and heavy other texels' lobes are.
+static void small_shares_alone_are_passed_over(void **state) {
+    static const char *const all[6] = {"bins=3", "colour=mean", "least_share=0"};
+    static const char *const most[6] = {"bins=3", "colour=mean", "least_share=0.1"};
+    ground g = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1),
+                .normals = random_normal_map(8, 8, 0.4, 441),
+                .widths = constant_map(8, 8, 1, 0.4f, 1)};
+    ((float *)g.widths.texels)[1] = 1;
+    for (int i = 0; i < PAIRS; i += 5) {
+        double outgoing[3], incoming[3];
+        float found[3], expected[3];
+        directions_at(i, outgoing, incoming);
+        draw_pixel(*state, &g, all, outgoing, incoming, expected);
+        draw_pixel(*state, &g, most, outgoing, incoming, found);
+        if (!((double)found[0] >= 0.8 * (double)expected[0] && expected[0] > 0))
+            fail_msg("from %g to %g degrees: %g of %g is left", angles[i % 4], angles[i / 4],
+                     (double)found[0], (double)expected[0]);
+    }
+    ground_free(&g);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(microfacets_are_shaded_by_their_moments),
@@ -507,6 +528,7 @@ int main(void) {
         cmocka_unit_test(moments_of_two_sides_add_up),
         cmocka_unit_test(bins_keep_colours_with_directions),
         cmocka_unit_test(storages_are_close),
+        cmocka_unit_test(small_shares_alone_are_passed_over),
         cmocka_unit_test(knobs_at_their_ends_together),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
