@@ -32,7 +32,6 @@ const lobe_knob knob_curvature = {
     .summary = "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
     .maximum = 4,
     .initial = 1,
-    .sweep = "0",
 };
 const lobe_knob knob_storage = {
     .name = "storage",

@@ -6,7 +6,6 @@ static const lobe_knob curvature_knob = {
     .name = "curvature",
     .summary = "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
     .maximum = 4,
-    .sweep = "1",
 };
 static const lobe_knob *const knobs[] = {&curvature_knob, NULL};
 

@@ -44,7 +44,7 @@ static const lobe_knob least_share_knob = {
     .name = "least_share",
     .summary = "bins with less of the footprint than this are passed over",
     .maximum = 0.1,
-    .initial = 1e-4,
+    .initial = 1e-3,
 };
 static const lobe_knob storage_knob = {
     .name = "storage",

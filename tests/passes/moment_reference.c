@@ -289,7 +289,7 @@ void shade_moments(const lobe_material *material, const reference_moment_bins *p
     for (uint32_t i = 0; i < partition->bins; i++) {
         bin b = read_bin(partition, moments, i);
         // As many as the knob least_share leaves.
-        if (b.mass > 1e-4)
+        if (b.mass > 1e-3)
             add_bin(material, &b, half_vector, &total);
     }
     mean_normal_of(material, &total, mean);
