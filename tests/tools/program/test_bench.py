@@ -2,11 +2,10 @@
 
 import json
 import math
-import subprocess
 import sys
 
 import tap
-from program import ROOT, check, fails, fresh_folder, leaves, report, succeeds
+from program import check, fails, fresh_folder, leaves, report, succeeds
 
 QUICK = ["--size", "48x32", "--samples", "4", "--frames", "3"]
 
@@ -130,17 +129,6 @@ def test_progress_goes_to_standard_error():
     result = succeeds("bench", "bumps", "--filters", "direct", *QUICK)
     check("reference" in result.stderr and "times of 3 frames" in result.stderr, report(result))
     check("\033" not in result.stderr + result.stdout, "control characters outside a terminal")
-
-
-def test_tables_are_made_from_json():
-    # The script that fills the README reads what the program wrote.
-    folder = fresh_folder("tables")
-    measure(folder, "tablecloth", "bumps", *QUICK)
-    result = subprocess.run([sys.executable, ROOT / "tools/targets", "--json", folder / "a.json"],
-                            capture_output=True, text=True, check=False)
-    check(result.returncode == 0, result.stderr)
-    check("| error(lobes) / error(mipmap) |" in result.stdout, result.stdout)
-    check(result.stdout.count("| tablecloth |") == 3, result.stdout)
 
 
 if __name__ == "__main__":

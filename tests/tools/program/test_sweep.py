@@ -9,8 +9,8 @@ import sys
 
 import tap
 from files import exr_header, gltf_triangle
-from program import (FOLDER, PROGRAM, check, fails, fresh_folder, is_wrong_usage, leaves, lobe,
-                     report, succeeds)
+from program import (FOLDER, PROGRAM, ROOT, check, fails, fresh_folder, is_wrong_usage, leaves,
+                     lobe, report, succeeds)
 
 FILTERS = ["direct", "mipmap"]
 QUICK = ["--sweep", "--filters", ",".join(FILTERS), "--size", "64x36", "--samples", "4",
@@ -176,6 +176,20 @@ def test_a_sweep_of_nothing_fails():
     check("warning: bunny: skipped" in result.stderr, report(result))
     results = json.loads((folder / "a.json").read_text())
     check("assets" in results["scenes"][0]["skipped"], str(results))
+
+
+def test_tables_are_made_from_json():
+    # The script that fills the README reads what the program wrote.
+    folder, _, results = two_scenes()
+    result = subprocess.run([sys.executable, ROOT / "tools/targets", "--json", folder / "a.json"],
+                            capture_output=True, text=True, check=False)
+    check(result.returncode == 0, result.stderr)
+    check("| error(lobes) / error(direct) | – | – |" in result.stdout, result.stdout)
+    check(result.stdout.count("| bumps |") == 3, result.stdout)
+    errors = [row["error"]["relative_l2"] for row in results["rows"]
+              if row["scene"] == "bumps" and row["varied"] == ""]
+    check("| bumps | " + " | ".join(f"{error:.3f}" for error in errors) + " |" in result.stdout,
+          result.stdout)
 
 
 # Stopping and going on ----------------------------------------------------------------------
