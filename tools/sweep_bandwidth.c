@@ -1,6 +1,7 @@
 #include "tools/sweep.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,13 +12,22 @@ struct sweep_copies {
     const sweep_job *job;
     lobe_graph *graph;
     lobe_profile *profile;
-    uint64_t *bytes; ///< read and written together, each once in the list
+    uint64_t *bytes; ///< copied, each once in the list
     size_t count;
 };
 
-/// The name of the pass that moves so many bytes, by which its times are found again.
+/// Devices need not have larger buffers than 128 MiB. What is larger is copied as fast as this.
+static const uint64_t largest_copy = 64 << 20;
+
+/// What is copied for a pass that reads and writes so many bytes together: half, by whole words.
+static uint64_t copied_bytes(double bytes) {
+    uint64_t half = ((uint64_t)bytes / 2 + 3) & ~(uint64_t)3;
+    return half < 4 ? 4 : half < largest_copy ? half : largest_copy;
+}
+
+/// The name of the pass that copies so many bytes, by which its times are found again.
 static void name_copy(uint64_t bytes, char name[64]) {
-    snprintf(name, 64, "copy of %" PRIu64 " bytes", bytes / 2);
+    snprintf(name, 64, "copy of %" PRIu64 " bytes", bytes);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -37,8 +47,8 @@ static bool add_sizes(sweep_copies *copies, const sweep_row *row) {
         return false;
     copies->bytes = grown;
     for (size_t i = 0; i < row->pass_count; ++i) {
-        uint64_t bytes = (uint64_t)row->passes[i].bytes;
-        if (bytes > 0 && !has_size(copies, bytes))
+        uint64_t bytes = copied_bytes(row->passes[i].bytes);
+        if (row->passes[i].bytes > 0 && !has_size(copies, bytes))
             grown[copies->count++] = bytes;
     }
     return true;
@@ -71,12 +81,9 @@ void sweep_copies_destroy(sweep_copies **copies) {
 // ---------------------------------------------------------------------------------------------
 // Times
 
-/// From buffer to buffer: half of the bytes are read, half are written.
+/// From buffer to buffer.
 static lobe_result copy(lobe_graph *graph, uint64_t bytes) {
-    lobe_buffer_description description = {.name = "copied from",
-                                           .size = (size_t)(bytes / 2 + 3) & ~(size_t)3};
-    if (description.size == 0)
-        description.size = 4;
+    lobe_buffer_description description = {.name = "copied from", .size = (size_t)bytes};
     lobe_graph_begin(graph);
     lobe_resource source = lobe_graph_buffer(graph, &description);
     lobe_pass *fill = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "fill");
@@ -118,10 +125,13 @@ lobe_result sweep_copies_summarise(sweep_copies *copies, sweep_row *rows, size_t
     for (size_t i = 0; result == LOBE_OK && i < row_count; ++i) {
         for (size_t k = 0; k < rows[i].pass_count; ++k) {
             sweep_pass *pass = &rows[i].passes[k];
+            if (pass->bytes <= 0)
+                continue;
             char name[64];
-            name_copy((uint64_t)pass->bytes, name);
-            if (pass->bytes > 0)
-                pass->copy_milliseconds = median_of(&summary, name);
+            uint64_t copied = copied_bytes(pass->bytes);
+            name_copy(copied, name);
+            pass->copy_milliseconds =
+                median_of(&summary, name) * fmax(pass->bytes / 2 / (double)copied, 1);
         }
     }
     return result;
