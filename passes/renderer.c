@@ -32,7 +32,7 @@ typedef struct rendering {
     filter_context context;
     lobe_settings settings;
     filtered_images images;
-    uint32_t width, height, samples;
+    uint32_t width, height, samples, pattern;
     double *sum; ///< RGBA of all samples of the reference so far
 } rendering;
 
@@ -234,6 +234,7 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     for (uint32_t i = 0; i < count; ++i) {
         float sample[2];
         sample_position(first + i, r->samples, sample);
+        sample_position_in_pattern(r->pattern, sample);
         shading(&r->context, r->renderer->appearances, lights, sample, &targets);
         sum = accumulation(graph, targets.radiance, sum, r->width, r->height);
     }
@@ -318,6 +319,7 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .width = parameters->width ? parameters->width : 1280,
         .height = parameters->height ? parameters->height : 720,
         .samples = parameters->samples ? parameters->samples : 64,
+        .pattern = parameters->pattern,
     };
     lobe_result result = check(r);
     if (result != LOBE_OK)

@@ -321,7 +321,7 @@ static int run(int argc, char **argv) {
         {.name = "path-samples",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "with --sweep: samples a pixel of the reference along the path",
+         .summary = "with --sweep: samples a pixel of each of the two references along the path",
          .target = &request.path_samples,
          .fallback = "64",
          .minimum = 1,

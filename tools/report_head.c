@@ -41,7 +41,7 @@ static void write_facts(const report *report) {
     write_fact(report->page, "driver", results->driver);
     snprintf(text, sizeof text, "%u × %u pixels", results->size[0], results->size[1]);
     write_fact(report->page, "size", text);
-    snprintf(text, sizeof text, "%u a pixel (still), %u (path)", results->reference_samples,
+    snprintf(text, sizeof text, "%u a pixel (still), twice %u (path)", results->reference_samples,
              results->path_samples);
     write_fact(report->page, "reference samples", text);
     snprintf(text, sizeof text, "%u of each row", results->frames);

@@ -103,20 +103,20 @@ lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_s
 
 /// What the reference does at the stations of a scene's path.
 typedef struct sweep_path {
-    lobe_image *changes; ///< by station: from one frame to the next
-    double squares;      ///< of all first frames' red, green and blue
+    lobe_image *changes[2]; ///< of two references, by station: from one frame to the next
+    double squares;         ///< of all first frames' red, green and blue
 } sweep_path;
 
-/// Renders the reference: two frames a station. Free with sweep_path_free, after a failure too.
+/// Renders two references of independent samples: two frames a station each. Free with
+/// sweep_path_free, after a failure too.
 lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
                               lobe_renderer *renderer, sweep_path *path);
 void sweep_path_free(const sweep_job *job, sweep_path *path);
 
-/// See sweep_row.flicker. The reference's own noise is in it, and falls with the square root of
-/// its samples: of toksvig at 160x90 with 16, 64, 256 and 1024 samples 0.67, 0.36, 0.19, 0.09 on
-/// bumps and 0.105, 0.056, 0.035, 0.026 on tablecloth. Small values therefore need many samples
-/// before they can be compared. Negative where the filter supersamples, as the reference does, and
-/// where there are no stations.
+/// See sweep_row.flicker. A filter's change beyond one reference's times that beyond the other's:
+/// what both references have in common stays, and their noise, which they have not, falls out of
+/// the sum; 0 where more than that falls out. Negative where the filter supersamples, as the
+/// reference does.
 lobe_result sweep_path_flicker(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, const sweep_variant *variant,
                                const sweep_path *path, double *flicker);

@@ -64,7 +64,7 @@ static double time_work(const sweep_job *job) {
 
 double sweep_scene_work(const sweep_job *job) {
     double truths = job->brief ? 1 : 2;
-    double work = truths * job->bench.samples + 2.0 * job->stations * job->path_samples;
+    double work = truths * job->bench.samples + 4.0 * job->stations * job->path_samples;
     for (size_t i = 0; i < job->plan.count; ++i)
         work += still_work(job, &job->plan.variants[i]);
     return work + time_work(job);

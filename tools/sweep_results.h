@@ -52,7 +52,8 @@ typedef struct sweep_row {
     error_metrics error;           ///< of the still picture against the reference
     error_metrics error_lobe_base; ///< against one whose base lobes were converted first
     /// Along the path: |(a' - a) - (r' - r)| / |r|, relative L2 over all pairs of frames, a and a'
-    /// the filter's, r and r' the reference's. Negative where it was not measured.
+    /// the filter's, r and r' the reference's, its noise left out. Negative where it was not
+    /// measured.
     double flicker;
     /// EXR file of the still picture, relative to the JSON file; NULL where none was kept.
     char *picture;

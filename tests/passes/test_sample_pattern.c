@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "passes/sample_pattern.h"
 
@@ -64,11 +65,44 @@ static void samples_are_even_in_both_directions(void **state) {
     }
 }
 
+/// Moved as a whole, within the pixel, and no two patterns by nearly as much.
+static void patterns_are_moved_apart(void **state) {
+    (void)state;
+    enum { COUNT = 16, PATTERNS = 20 };
+    float moved[PATTERNS][2];
+    for (uint32_t pattern = 0; pattern < PATTERNS; pattern++) {
+        for (uint32_t i = 0; i < COUNT; i++) {
+            float plain[2], position[2];
+            sample_position(i, COUNT, plain);
+            memcpy(position, plain, sizeof position);
+            sample_position_in_pattern(pattern, position);
+            for (int axis = 0; axis < 2; axis++) {
+                assert_true(position[axis] >= 0 && position[axis] < 1);
+                float by = position[axis] - plain[axis];
+                by -= floorf(by);
+                if (i == 0)
+                    moved[pattern][axis] = by;
+                assert_true(fabsf(by - moved[pattern][axis]) < 1e-5f);
+            }
+        }
+        for (uint32_t other = 0; other < pattern; other++) {
+            double distance = 0;
+            for (int axis = 0; axis < 2; axis++) {
+                float by = fabsf(moved[pattern][axis] - moved[other][axis]);
+                distance += pow((double)fminf(by, 1 - by), 2);
+            }
+            assert_true(sqrt(distance) > 0.5 / sqrt(PATTERNS));
+        }
+    }
+    assert_true(moved[0][0] == 0 && moved[0][1] == 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_sample_is_the_centre),
         cmocka_unit_test(any_count_is_stratified),
         cmocka_unit_test(samples_are_even_in_both_directions),
+        cmocka_unit_test(patterns_are_moved_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

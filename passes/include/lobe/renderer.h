@@ -40,6 +40,9 @@ typedef struct lobe_render_parameters {
     uint32_t width, height;        ///< pixels; 0: 1280, 720
     /// Samples a pixel, [1, LOBE_MAXIMUM_SAMPLES]; 0: 64. Used by the reference alone.
     uint32_t samples;
+    /// Which of many patterns the samples lie in: pictures of different patterns have errors of
+    /// their own, by which noise can be told from what is true. Used by the reference alone.
+    uint32_t pattern;
     /// Also deliver depth, normal, lobe count and level (one sample, at the pixel's centre).
     bool arbitrary_output_variables;
     /// Build every map again, as if the scene had changed.

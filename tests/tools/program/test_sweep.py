@@ -118,7 +118,7 @@ def test_flicker_and_error_tell_filters_apart():
     *_, results = two_scenes()
     direct, mipmap = [next(row for row in results["rows"] if row["scene"] == "checkerboard" and
                            row["filter"] == name and row["varied"] == "") for name in FILTERS]
-    check(0 < mipmap["flicker"] < direct["flicker"], f"{mipmap['flicker']} {direct['flicker']}")
+    check(0 <= mipmap["flicker"] < direct["flicker"], f"{mipmap['flicker']} {direct['flicker']}")
     check(0 < mipmap["error"]["relative_l2"] < direct["error"]["relative_l2"], "errors")
 
 
@@ -185,7 +185,7 @@ def test_tables_are_made_from_json():
                             capture_output=True, text=True, check=False)
     check(result.returncode == 0, result.stderr)
     check("| error(lobes) / error(direct) | – | – |" in result.stdout, result.stdout)
-    check(result.stdout.count("| bumps |") == 3, result.stdout)
+    check(result.stdout.count("\n| bumps |") == 3, result.stdout)
     errors = [row["error"]["relative_l2"] for row in results["rows"]
               if row["scene"] == "bumps" and row["varied"] == ""]
     check("| bumps | " + " | ".join(f"{error:.3f}" for error in errors) + " |" in result.stdout,
