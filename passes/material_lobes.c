@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "passes/image_texel.h"
+#include "passes/mean_resultant_length.h"
 
 static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,
                       uint32_t width, uint32_t height, float value[4]) {
@@ -28,16 +29,11 @@ static bool texel_normal(const lobe_scene *scene, const device_material *materia
     return true;
 }
 
-/// Mardia, Jupp, 2000, section 9.3: R = coth kappa - 1/kappa.
-static double resultant(double kappa) {
-    return kappa < 1e-2 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
-}
-
 /// As convolved_parameter in shaders/lib/base_lobe.glsl, with Xu et al. 2017, Eq. 8.
 static double convolved(lobe_distribution distribution, double kappa, double within) {
     if (distribution != LOBE_DISTRIBUTION_VMF)
         return kappa * within / (kappa + within);
-    double r = resultant(kappa) * resultant(within);
+    double r = mean_resultant_length(kappa) * mean_resultant_length(within);
     return r * (3 - r * r) / (1 - r * r);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "passes/material_patch.h"
+#include "passes/mean_resultant_length.h"
 #include "passes/sample_pattern.h"
 
 // More samples or rounds change no picture.
@@ -235,8 +236,7 @@ typedef struct extremes {
 static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double square = fmin(2 / kappa, 0.9), clamped = fmax(kappa, 1e-6);
-    double resultant = clamped < 1e-2 ? clamped / 6 : 1 / tanh(clamped / 2) - 2 / clamped;
-    double projected = 0.5 * (1 + resultant) / (1 + exp(-clamped));
+    double projected = 0.5 * (1 + mean_resultant_length(clamped / 2)) / (1 + exp(-clamped));
     double peak = clamped / -expm1(-2 * clamped);
     double mass = variance_of(kappa) * peak / (microfacet ? projected : 1);
     return microfacet ? fmax(mass, fmax(1 / (1 - square), 1 + variance_of(kappa))) : mass;

@@ -4,24 +4,21 @@
 #include <string.h>
 
 #include "passes/material_patch.h"
+#include "passes/mean_resultant_length.h"
 #include "shaders/interface/cluster.h"
 
 // A subdivision is good enough when its error is at most this many times the least, or this much:
 // each finer one more than doubles what a pixel costs.
 static const double tolerance = 1.5, negligible = 0.03;
 
-/// R(kappa) = coth kappa - 1/kappa.
-static double resultant(double kappa) {
-    return kappa < 1e-3 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
-}
-
-/// Its inverse: Xu et al. 2017, Eq. 8, and Newton's method.
+/// The inverse of mean_resultant_length: Xu et al. 2017, Eq. 8, and Newton's method.
 static double concentration(double length) {
     double r = fmin(length, 1 - 1e-7);
     double kappa = r * (3 - r * r) / (1 - r * r);
     for (int i = 0; i < 3 && kappa > 1e-3; ++i) {
         double sinh_kappa = sinh(fmin(kappa, 300));
-        kappa -= (resultant(kappa) - r) / (1 / (kappa * kappa) - 1 / (sinh_kappa * sinh_kappa));
+        kappa -= (mean_resultant_length(kappa) - r) /
+                 (1 / (kappa * kappa) - 1 / (sinh_kappa * sinh_kappa));
     }
     return kappa;
 }
@@ -42,7 +39,7 @@ static size_t make_mixture(const material_patch *source, uint32_t subdivision,
     for (size_t i = 0; i < source->count; ++i) {
         const material_lobe *lobe = &source->lobes[i];
         double *sum = sums[cluster_of(lobe->axis) / clusters_a_lobe[subdivision]];
-        double length = resultant(lobe->concentration);
+        double length = mean_resultant_length(lobe->concentration);
         for (int axis = 0; axis < 3; ++axis)
             sum[axis] += lobe->weight * length * lobe->axis[axis];
         sum[3] += lobe->weight;

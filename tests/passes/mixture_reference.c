@@ -1,11 +1,14 @@
 #include "tests/passes/mixture_reference.h"
 
+#include "tests/passes/fixture.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "shaders/interface/slope_moments.h"
 #include "tests/reference/base_lobe.h"
+#include "tests/reference/box_reduction.h"
 #include "tests/reference/half_vector_lobe.h"
 #include "tests/reference/lobe_mixture.h"
 #include "tests/reference/normal_map.h"
@@ -187,4 +190,36 @@ uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer) {
     return mixture->mean_layer != 0 && layer == mixture->mean_layer
                ? (uint32_t)REFERENCE_MIXTURE_LAYER_MEAN
                : layer;
+}
+
+static void check_level(const float *texel, const reference_layers *exact, uint32_t level,
+                        double tolerance, double rounding) {
+    uint32_t count = exact->width * exact->height;
+    for (uint32_t i = 0; i < count * exact->layers; i++, texel += 4) {
+        uint32_t at = i % count;
+        const double *expected =
+            reference_texel(exact, at % exact->width, at / exact->width, i / count);
+        for (int channel = 0; channel < 4; channel++) {
+            double bound = rounding + tolerance * (fabs(expected[channel]) + 0.1);
+            if (!(fabs((double)texel[channel] - expected[channel]) <= bound))
+                fail_msg("level %u, layer %u, texel %u, channel %d: %.8g instead of %.8g", level,
+                         i / count, at, channel, (double)texel[channel], expected[channel]);
+        }
+    }
+}
+
+void check_reduced_levels(const reduced_map *map, const float *texel,
+                          const reference_layers *texels, double tolerance, double rounding) {
+    reference_layers exact = reference_reduce(texels);
+    assert_int_equal(map->width, exact.width);
+    assert_int_equal(map->height, exact.height);
+    assert_int_equal(map->layers, exact.layers);
+    for (uint32_t level = 0; level < map->levels; level++) {
+        check_level(texel, &exact, level, tolerance, rounding * (level + 1));
+        texel += (size_t)4 * exact.width * exact.height * exact.layers;
+        reference_layers next = reference_reduce(&exact);
+        reference_layers_free(&exact);
+        exact = next;
+    }
+    reference_layers_free(&exact);
 }

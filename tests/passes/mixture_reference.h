@@ -46,6 +46,12 @@ reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_mat
 /// Layer of the reference that a layer of a mixture map holds.
 uint32_t mixture_reference_layer(const mixture_map *mixture, uint32_t layer);
 
+/// Fails unless every level of a map that was read back, layers within levels, is the mean of the
+/// one before it, from `texels` on: by induction, that of all texels of the maps. Each value may be
+/// off by `tolerance` of itself and 0.1, and by `rounding` once more on every level.
+void check_reduced_levels(const reduced_map *map, const float *texel,
+                          const reference_layers *texels, double tolerance, double rounding);
+
 /// Base lobe `i` of a material of half-vector lobes, or of microfacets (i = 0): its parameter (as
 /// in tests/reference/base_lobe.h) and its concentration where the width map's texel is `width`;
 /// its share of the reflectance.

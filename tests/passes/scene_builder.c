@@ -105,6 +105,15 @@ void scene_look_from(lobe_scene *scene, const double towards[3], double height) 
     scene->has_camera = true;
 }
 
+void scene_look_along(lobe_scene *scene) {
+    scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 2);
+    scene_add_sun(scene, (double[]){0, 1, -3}, 2);
+    scene->camera = (lobe_camera){.eye = {0.5f, 0.4f, 1.4f},
+                                  .up = {0, 1, 0},
+                                  .vertical_field_of_view = 0.9f,
+                                  .near_plane = 0.01f};
+}
+
 void scene_look_down(lobe_scene *scene, double height) {
     scene_look_from(scene, (double[]){0, 1, 0}, height);
 }

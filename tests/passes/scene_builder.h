@@ -33,6 +33,8 @@ void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity)
 void scene_look_down(lobe_scene *scene, double height);
 /// The same from another side: `towards` points from the origin to the viewer.
 void scene_look_from(lobe_scene *scene, const double towards[3], double height);
+/// A square of scene_add_square that is seen near and far at once, under two suns.
+void scene_look_along(lobe_scene *scene);
 
 /// Sets the bounds; the last step.
 void scene_end(lobe_scene *scene);

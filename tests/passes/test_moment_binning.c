@@ -93,34 +93,11 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     lobe_scene_destroy(&scene);
 }
 
-/// Every level is the mean of the one before it, from the texels' own on: by induction, that of
-/// all texels of the maps.
+/// Every level and layer.
 static void check_all(const float *texel, const moment_map *map, const reference_layers *texels,
                       const reference_moment_bins *bins, const map_request *request) {
-    reference_layers exact = reference_reduce(texels);
-    assert_int_equal(map->map.width, exact.width);
-    assert_int_equal(map->map.height, exact.height);
     assert_int_equal(map->map.layers, reference_moment_layers(bins));
-    for (uint32_t level = 0; level < map->map.levels; level++) {
-        uint32_t count = exact.width * exact.height;
-        double rounding = request->rounding * (level + 1);
-        for (uint32_t i = 0; i < count * map->map.layers; i++, texel += 4) {
-            uint32_t at = i % count;
-            const double *expected =
-                reference_texel(&exact, at % exact.width, at / exact.width, i / count);
-            for (int channel = 0; channel < 4; channel++) {
-                double bound = rounding + request->tolerance * (fabs(expected[channel]) + 0.1);
-                if (!(fabs((double)texel[channel] - expected[channel]) <= bound))
-                    fail_msg("level %u, layer %u, texel %u, channel %d: %.8g instead of %.8g",
-                             level, i / count, at, channel, (double)texel[channel],
-                             expected[channel]);
-            }
-        }
-        reference_layers next = reference_reduce(&exact);
-        reference_layers_free(&exact);
-        exact = next;
-    }
-    reference_layers_free(&exact);
+    check_reduced_levels(&map->map, texel, texels, request->tolerance, request->rounding);
 }
 
 static lobe_material microfacet_material(int distribution) {

@@ -432,13 +432,8 @@ static lobe_scene *varied_square(void) {
     material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.5, 431));
     material.metallic_roughness_map = scene_add_map(scene, random_map(64, 64, 0.2, 1, 432));
     scene_add_square(scene, &material, 4, NULL);
-    scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 2);
-    scene_add_sun(scene, (double[]){0, 1, -3}, 2);
+    scene_look_along(scene);
     scene_end(scene);
-    scene->camera = (lobe_camera){.eye = {0.5f, 0.4f, 1.4f},
-                                  .up = {0, 1, 0},
-                                  .vertical_field_of_view = 0.9f,
-                                  .near_plane = 0.01f};
     return scene;
 }
 

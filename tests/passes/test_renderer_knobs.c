@@ -21,13 +21,8 @@ static lobe_scene *both_models(void) {
     material.metallic_roughness_map = scene_add_map(scene, random_map(16, 16, 0.1, 1, 114));
     float beside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.5f, 0.2f, 0, 1};
     scene_add_square(scene, &material, 1, beside);
-    scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 2);
-    scene_add_sun(scene, (double[]){0, 1, -3}, 2);
+    scene_look_along(scene);
     scene_end(scene);
-    scene->camera = (lobe_camera){.eye = {0.5f, 0.4f, 1.4f},
-                                  .up = {0, 1, 0},
-                                  .vertical_field_of_view = 0.9f,
-                                  .near_plane = 0.01f};
     return scene;
 }
 

@@ -65,29 +65,8 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
 /// Every level and layer.
 static void check_all(const float *texel, const reduced_map *map, const reference_layers *texels,
                       double tolerance) {
-    reference_layers exact = reference_reduce(texels);
-    assert_int_equal(map->width, exact.width);
-    assert_int_equal(map->height, exact.height);
     assert_int_equal(map->layers, SLOPE_LAYERS);
-    for (uint32_t level = 0; level < map->levels; level++) {
-        uint32_t count = exact.width * exact.height;
-        for (uint32_t i = 0; i < count * SLOPE_LAYERS; i++, texel += 4) {
-            uint32_t at = i % count;
-            const double *expected =
-                reference_texel(&exact, at % exact.width, at / exact.width, i / count);
-            for (int channel = 0; channel < 4; channel++) {
-                double bound = tolerance * (fabs(expected[channel]) + 0.1);
-                if (!(fabs((double)texel[channel] - expected[channel]) <= bound))
-                    fail_msg("level %u, layer %u, texel %u, channel %d: %.8g instead of %.8g",
-                             level, i / count, at, channel, (double)texel[channel],
-                             expected[channel]);
-            }
-        }
-        reference_layers next = reference_reduce(&exact);
-        reference_layers_free(&exact);
-        exact = next;
-    }
-    reference_layers_free(&exact);
+    check_reduced_levels(map, texel, texels, tolerance, 0);
 }
 
 static void odd_sizes_are_averaged_exactly(void **state) {
