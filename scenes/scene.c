@@ -124,6 +124,7 @@ void lobe_scene_destroy(lobe_scene **scene) {
     free(old->meshes);
     free(old->instances);
     free(old->lights);
+    lobe_environment_destroy(&old->environment);
     free(old->name);
     free(old);
 }

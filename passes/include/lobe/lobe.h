@@ -5,6 +5,7 @@
 
 #include <lobe/colour.h>
 #include <lobe/device.h>
+#include <lobe/environment.h>
 #include <lobe/exr.h>
 #include <lobe/file.h>
 #include <lobe/filter.h>

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/environment.h>
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/result.h>
@@ -182,6 +183,8 @@ typedef struct lobe_scene {
     size_t instance_count;
     lobe_light *lights;
     size_t light_count;
+    lobe_environment *environment; ///< light from all around; NULL: none
+    bool environment_visible;      ///< it is seen where nothing is hit, instead of `background`
     lobe_camera camera;
     bool has_camera;     ///< false: the file brought none; `camera` is that of lobe_scene_frame
                          ///< for a picture of 16:9
