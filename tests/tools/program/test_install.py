@@ -1,5 +1,5 @@
 """Installs the library, and builds and runs programs of others against it: the README's own, in C
-and linked statically too, and one in C++."""
+and linked statically too, and one in C++; by what pkg-config says, and by CMake."""
 
 import os
 import re
@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import tap
-from program import FOLDER, ROOT, check
+from program import FOLDER, ROOT, check, fresh_folder
 
 BUILD = Path(sys.argv[3]).resolve()
 C_COMPILER, CPP_COMPILER = sys.argv[4].split(), sys.argv[5].split()
@@ -27,6 +27,18 @@ int main() {
     lobe_settings_default(filter, &settings);
     std::printf("%s %g\\n", lobe_version(), lobe_settings_get(filter, &settings, "epsilon0"));
 }
+"""
+
+CMAKE_PROJECT = """
+cmake_minimum_required(VERSION 3.16)
+project(embedding C CXX)
+find_package(lobe 0.1 REQUIRED COMPONENTS static)
+add_executable(embed embed.c)
+target_link_libraries(embed lobe::lobe)
+add_executable(embed-static embed.c)
+target_link_libraries(embed-static lobe::lobe_static)
+add_executable(settings settings.cpp)
+target_link_libraries(settings lobe::lobe)
 """
 
 
@@ -57,8 +69,16 @@ def readme_program():
 def test_install():
     run(["meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", TARGET])
     for pattern in ("bin/lobe", "liblobe.a", "liblobe.so", "lobe.pc", "lobe/lobe.h",
-                    "lobe/result.h"):
+                    "lobe/result.h", "cmake/lobe/lobeConfig.cmake",
+                    "cmake/lobe/lobeConfigVersion.cmake"):
         installed(pattern)
+
+
+def test_library_is_versioned():
+    library = installed("liblobe.so")
+    check(library.is_symlink() and library.readlink().name == "liblobe.so.0", library.readlink())
+    said = run(["readelf", "--dynamic", "--wide", library])
+    check("Library soname: [liblobe.so.0]" in said, said)
 
 
 def test_every_public_header_is_installed():
@@ -103,8 +123,43 @@ def test_program_in_cpp():
     source.write_text(CPP_PROGRAM)
     run([*CPP_COMPILER, "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", source, "-o",
          FOLDER / "settings", *flags(TARGET, "--cflags", "--libs")])
-    output = run([FOLDER / "settings"], LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+    says_default(FOLDER / "settings")
+
+
+def says_default(program):
+    output = run([program], LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
     check(output.split()[1] == "0.95", output)
+
+
+def configure(project, *options):
+    return ["cmake", "-S", project, "-B", project / "build", f"-DCMAKE_C_COMPILER={C_COMPILER[-1]}",
+            f"-DCMAKE_CXX_COMPILER={CPP_COMPILER[-1]}", *options,
+            f"-DCMAKE_PREFIX_PATH={installed('lib').parent}"]
+
+
+def test_programs_by_cmake():
+    if not shutil.which("cmake"):
+        return "there is no cmake"
+    project = fresh_folder("cmake")
+    (project / "CMakeLists.txt").write_text(CMAKE_PROJECT)
+    (project / "embed.c").write_text(readme_program())
+    (project / "settings.cpp").write_text(CPP_PROGRAM)
+    run(configure(project))
+    run(["cmake", "--build", project / "build"])
+    for program in ("embed", "embed-static"):
+        check((project / "build" / program).exists(), program)
+    says_default(project / "build/settings")
+    return None
+
+
+def test_cmake_refuses_another_version():
+    if not shutil.which("cmake"):
+        return "there is no cmake"
+    project = fresh_folder("cmake-version")
+    (project / "CMakeLists.txt").write_text(CMAKE_PROJECT.replace("lobe 0.1", "lobe 0.99"))
+    result = subprocess.run(configure(project), text=True, capture_output=True, check=False)
+    check(result.returncode != 0 and 'requested version "0.99"' in result.stderr, result.stderr)
+    return None
 
 
 if __name__ == "__main__":
