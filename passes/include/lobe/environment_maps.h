@@ -1,0 +1,102 @@
+#ifndef LOBE_ENVIRONMENT_MAPS_H
+#define LOBE_ENVIRONMENT_MAPS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/device.h>
+#include <lobe/environment.h>
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/renderer.h>
+#include <lobe/result.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The maps that the device makes of an environment so that lobes can be lit by it: for tools that
+/// look at them, store them or time them. A renderer makes its own.
+///
+/// All are cubes of RGBA32_FLOAT, faces in the order +X -X +Y -Y +Z -Z and oriented as Vulkan's,
+/// in the environment's own space: without its rotation and intensity. Alpha is 1.
+///
+/// Not thread-safe: one object, one thread.
+typedef struct lobe_environment_maps lobe_environment_maps;
+
+typedef enum lobe_environment_map {
+    /// The radiance itself, and its means over larger and larger texels down to 1x1: each level
+    /// holds the energy of level 0. A lobe's exact light is the sum over the texels of level 0 of
+    /// radiance * solid angle * lobe at the texel's centre.
+    LOBE_ENVIRONMENT_RADIANCE,
+    /// Each level filtered with a von Mises-Fisher lobe about the direction; from one level to the
+    /// next the concentration falls to a quarter.
+    LOBE_ENVIRONMENT_VON_MISES_FISHER,
+    /// The same levels with GGX lobes, proportional to D(theta/2) of alpha^2 = 1/(2 kappa), where
+    /// theta is the angle to the direction and kappa the level's concentration; alpha is at most 1.
+    LOBE_ENVIRONMENT_GGX,
+    LOBE_ENVIRONMENT_MAP_COUNT
+} lobe_environment_map;
+
+typedef struct lobe_environment_maps_parameters {
+    const lobe_environment *environment; ///< copied to the device before the call returns
+    /// Texels along a face of the radiance: a power of two in [16, 2048]; 0: 256.
+    uint32_t size;
+    bool wanted[LOBE_ENVIRONMENT_MAP_COUNT]; ///< the radiance is always made
+    /// Parts of the work to do in one submission, so that other work of the device gets its turn;
+    /// 0: all in one.
+    uint32_t parts_a_submission;
+    /// Called between submissions with the part done, [0, 1]; returning false stops with
+    /// LOBE_OK and no maps. NULL: none.
+    bool (*progress)(void *user, double part);
+    void *user;
+    const lobe_log *log; ///< copied; NULL: silent
+} lobe_environment_maps_parameters;
+
+/// Makes the maps and waits for them. On failure, or when stopped, `*maps` is NULL.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (size; an image that does not have its layout's shape),
+/// LOBE_ERROR_LIMIT (an image larger than the device allows), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+lobe_result lobe_environment_maps_create(lobe_device *device,
+                                         const lobe_environment_maps_parameters *parameters,
+                                         lobe_environment_maps **maps);
+/// Clears the pointer; NULL is fine. The device stays.
+void lobe_environment_maps_destroy(lobe_environment_maps **maps);
+
+/// Replaces the environment by one of the same layout and extent (NULL: by itself, for timing)
+/// and makes all maps again. After a failure the maps have no content.
+lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
+                                         const lobe_environment *environment);
+
+typedef struct lobe_environment_maps_information {
+    /// Texels along a face of level 0, and levels down to 1x1; 0 of a map that was not wanted.
+    uint32_t width[LOBE_ENVIRONMENT_MAP_COUNT];
+    uint32_t levels[LOBE_ENVIRONMENT_MAP_COUNT];
+    double milliseconds; ///< device time of all submissions of the last creation or update
+    uint32_t submissions;
+    /// Passes of these submissions. "environment_reduction" is the plain MIP chain of the radiance:
+    /// what all else may be compared with.
+    const lobe_pass_time *passes;
+    size_t pass_count;
+} lobe_environment_maps_information;
+
+/// Valid until the next update.
+const lobe_environment_maps_information *
+lobe_environment_maps_describe(const lobe_environment_maps *maps);
+
+/// The concentration kappa of the lobe that a level of a filtered cube stands for, where level 0
+/// has `width` texels along a face. Lobes in between lie between levels: prefiltered_level() in
+/// shaders/lib/environment_level.glsl.
+double lobe_environment_level_concentration(uint32_t width, uint32_t level);
+
+/// Copies one face of one level to host memory: RGBA32_FLOAT, rows from top to bottom as Vulkan
+/// has them; free it with lobe_image_free. On failure `*image` is empty.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no such map, level or face), ...
+lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environment_map map,
+                                       uint32_t level, uint32_t face, lobe_image *image);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
