@@ -1,0 +1,72 @@
+#ifndef SCENES_ENVIRONMENT_DIRECTION_H
+#define SCENES_ENVIRONMENT_DIRECTION_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <lobe/environment.h>
+
+/// Where directions of an environment's own space lie on its image, for each layout.
+///
+/// Positions are in texels: x to the right, y downwards, (0, 0) is the image's top left corner and
+/// texel (i, j) covers [i, i + 1] x [j, j + 1], so that its middle is (i + 0.5, j + 0.5).
+///
+/// Latitude and longitude: longitude = atan2(x, z) = (1/2 - u) 2 pi and latitude = asin(y) =
+/// (1/2 - v) pi, where (u, v) = position / extent. (OpenEXR puts the middles of the outermost
+/// texels on the poles and on -Z; like most programs, lobe spreads the texels evenly instead.)
+///
+/// Cubes: on a face, the direction of the point (s, t), both in [-1, 1], s to the right and t
+/// downwards, is forward + s right + t down. Pictures are never mirrored: right = forward x up, as
+/// for someone inside who looks at the face.
+///
+///     face  | column, row (as OpenEXR) | crosses, which fold along the edges that touch
+///           | right   down             | right   down
+///     +X    |  +Z      -Y              |  +Z      -Y
+///     -X    |  -Z      -Y              |  -Z      -Y
+///     +Y    |  +X      -Z              |  -X      +Z
+///     -Y    |  +X      +Z              |  -X      -Z
+///     +Z    |  -X      -Y              |  -X      -Y
+///     -Z    |  +X      -Y              |  +X      -Y (horizontal), -X  +Y (vertical)
+///
+/// Where the faces lie:
+///
+///     column: +X    row: +X -X +Y -Y +Z -Z    vertical cross:      +Y
+///             -X                                                +X +Z -X
+///             +Y    horizontal cross:    +Y                        -Y
+///             -Y                      +X +Z -X -Z                  -Z
+///             +Z                         -Y
+///             -Z
+
+/// A face of a cube on the image.
+typedef struct environment_face {
+    uint32_t column, row; ///< its place, in faces
+    double forward[3];    ///< the direction of its middle
+    double right[3], down[3];
+} environment_face;
+
+#define ENVIRONMENT_FACE_COUNT 6
+
+/// The six faces in the order +X -X +Y -Y +Z -Z; NULL for latitude and longitude.
+const environment_face *environment_faces(lobe_environment_layout layout);
+
+/// Into how many columns and rows of equal regions the layout divides the image: of faces, or one.
+void environment_grid(lobe_environment_layout layout, uint32_t grid[2]);
+
+/// Whether an image of this extent can have the layout: whole square faces, of one texel at least.
+bool environment_layout_fits(lobe_environment_layout layout, uint32_t width, uint32_t height);
+
+/// The position of a direction of any length but 0, for an image that the layout fits. A direction
+/// on an edge lies on one of the faces that meet there.
+void environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                          const double direction[3], double position[2]);
+
+/// The unit direction of a position; false where a cross is empty, or outside the image.
+bool environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                           const double position[2], double direction[3]);
+
+/// The solid angle, in steradian, of the rectangle from (left, top) to (right, bottom), which lies
+/// within one face (or anywhere on latitude and longitude); 0 where a cross is empty.
+double environment_solid_angle(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                               double left, double top, double right, double bottom);
+
+#endif
