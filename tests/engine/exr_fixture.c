@@ -44,7 +44,7 @@ static uint8_t *fill_plane(const exr_fixture_channel *channel, int index, const 
     return plane;
 }
 
-/// See the same in engine/exr_write.c.
+/// See the same in engine/exr_encode.c.
 static exr_result_t compress(exr_encode_pipeline_t *pipeline) {
     exr_result_t (**library)(exr_encode_pipeline_t *) = pipeline->encoding_user_data;
     exr_result_t code = (*library)(pipeline);
@@ -92,6 +92,14 @@ static void write_scanlines(exr_context_t context, int part_index, const exr_fix
     }
 }
 
+/// See the same in engine/exr_encode.c.
+static void cut_tile(exr_chunk_info_t *chunk, int width, int height) {
+    uint64_t texel = chunk->unpacked_size / ((uint64_t)chunk->width * (uint64_t)chunk->height);
+    chunk->width = chunk->width < width ? chunk->width : width;
+    chunk->height = chunk->height < height ? chunk->height : height;
+    chunk->unpacked_size = texel * (uint64_t)chunk->width * (uint64_t)chunk->height;
+}
+
 static void write_level(exr_context_t context, int part_index, const exr_fixture_part *part,
                         int level) {
     int32_t width, height;
@@ -100,6 +108,7 @@ static void write_level(exr_context_t context, int part_index, const exr_fixture
         for (int column = 0; column * part->tile_width < width; column++) {
             exr_chunk_info_t chunk;
             must(exr_write_tile_chunk_info(context, part_index, column, row, level, level, &chunk));
+            cut_tile(&chunk, width - column * part->tile_width, height - row * part->tile_height);
             block block = {part->data_window.min.x + column * part->tile_width,
                            part->data_window.min.y + row * part->tile_height, chunk.width,
                            chunk.height, level};

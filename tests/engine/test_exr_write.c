@@ -246,7 +246,8 @@ static void the_header_says_what_was_asked(void **state) {
         {.name = long_name, .type = LOBE_EXR_NUMBER, .number = 0.1f},
         {.name = "lobe.samples", .type = LOBE_EXR_INTEGER, .integer = -4096},
     };
-    const lobe_exr_parameters parameters = {&layer, 1, attributes, 4};
+    const lobe_exr_parameters parameters = {
+        .layers = &layer, .layer_count = 1, .attributes = attributes, .attribute_count = 4};
     assert_int_equal(lobe_exr_write(path, &parameters, NULL), LOBE_OK);
 
     exr_context_t context;
@@ -310,6 +311,15 @@ static void expect_layers_refused(const lobe_exr_layer *layers, size_t count, co
     expect_refused(&(lobe_exr_parameters){.layers = layers, .layer_count = count}, cause);
 }
 
+static void expect_attributes_refused(const lobe_exr_layer *layer,
+                                      const lobe_exr_attribute *attributes, size_t count,
+                                      const char *cause) {
+    expect_refused(
+        &(lobe_exr_parameters){
+            .layers = layer, .layer_count = 1, .attributes = attributes, .attribute_count = count},
+        cause);
+}
+
 static void wrong_layers_are_refused(void **state) {
     (void)state;
     lobe_image small = make_noise(LOBE_FORMAT_RGBA32_FLOAT, 4, 4, 1);
@@ -349,8 +359,8 @@ static void wrong_attributes_are_refused(void **state) {
     };
     const char *const causes[] = {"channels", "name", "name", "textless", "odd"};
     for (int index = 0; index < 5; index++)
-        expect_refused(&(lobe_exr_parameters){&layer, 1, &wrong[index], 1}, causes[index]);
-    expect_refused(&(lobe_exr_parameters){&layer, 1, twice, 2}, "'a'");
+        expect_attributes_refused(&layer, &wrong[index], 1, causes[index]);
+    expect_attributes_refused(&layer, twice, 2, "'a'");
     lobe_image_free(&image);
 }
 
@@ -375,7 +385,12 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
     assert_int_equal(write_layers(path, NULL, 0, NULL), LOBE_ERROR_INVALID_ARGUMENT);
     const lobe_exr_layer layer = {.image = &image};
     const lobe_exr_attribute reserved = {.name = "channels", .type = LOBE_EXR_INTEGER};
-    assert_int_equal(lobe_exr_write(path, &(lobe_exr_parameters){&layer, 1, &reserved, 1}, NULL),
+    assert_int_equal(lobe_exr_write(path,
+                                    &(lobe_exr_parameters){.layers = &layer,
+                                                           .layer_count = 1,
+                                                           .attributes = &reserved,
+                                                           .attribute_count = 1},
+                                    NULL),
                      LOBE_ERROR_INVALID_ARGUMENT);
     uint8_t *data;
     size_t size;

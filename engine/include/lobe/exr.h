@@ -26,7 +26,10 @@ typedef struct lobe_exr_layer {
     /// A name for each channel of the image; NULL leaves that channel out. All NULL: R, G, B, A
     /// for an image of four channels, X, Y for two, Y for one.
     const char *channels[4];
-    const lobe_image *image; ///< one of the formats R/RG/RGBA of 16_FLOAT or 32_FLOAT
+    /// One of the formats R/RG/RGBA of 16_FLOAT or 32_FLOAT. In a file of levels: as many images,
+    /// one after the other, the finest first, each half as large as the one before (rounded down,
+    /// at least 1) and of as many channels.
+    const lobe_image *image;
     lobe_exr_depth depth;
 } lobe_exr_layer;
 
@@ -45,17 +48,30 @@ typedef struct lobe_exr_attribute {
     int32_t integer;
 } lobe_exr_attribute;
 
+/// How the sphere of directions is laid out on an image (the standard attribute "envmap"). For the
+/// cube: six square faces below one another, +X -X +Y -Y +Z -Z, turned as ImfEnvmap.h shows.
+typedef enum lobe_exr_environment {
+    LOBE_EXR_NO_ENVIRONMENT, ///< not an environment, or the file does not say
+    LOBE_EXR_LATITUDE_LONGITUDE,
+    LOBE_EXR_CUBE,
+} lobe_exr_environment;
+
 typedef struct lobe_exr_parameters {
     const lobe_exr_layer *layers; ///< at least one; all images of the same extent
     size_t layer_count;
     const lobe_exr_attribute *attributes;
     size_t attribute_count;
+    /// 0 means 1; otherwise MIP levels down to a single texel: floor(log2(max(width, height))) + 1.
+    uint32_t level_count;
+    lobe_exr_environment environment;
 } lobe_exr_parameters;
 
-/// Writes one part of scan lines, ZIP-compressed, with the chromaticities of Rec. 709 (white point
-/// D65). Equal parameters give equal bytes. The file appears whole or not at all.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, another format, a channel or
-/// attribute twice or without a name), LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY.
+/// Writes one part, ZIP-compressed, with the chromaticities of Rec. 709 (white point D65): scan
+/// lines, or, of several levels, tiles of 64x64 texels. Equal parameters give equal bytes. The file
+/// appears whole or not at all.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, another number of levels,
+/// another format, a channel or attribute twice or without a name), LOBE_ERROR_WRITE,
+/// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
                            const lobe_log *log);
 
@@ -78,6 +94,29 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *log,
                           lobe_image *image);
+
+/// All that is known of one layer.
+typedef struct lobe_exr_contents {
+    /// The finest first, each RGBA32_FLOAT. One only where there are no MIP levels, and where the
+    /// data window is not the display window.
+    lobe_image *levels;
+    uint32_t level_count;
+    lobe_exr_environment environment;
+    lobe_exr_attribute *attributes; ///< texts, numbers and integers, in the file's order
+    size_t attribute_count;
+} lobe_exr_contents;
+
+/// As lobe_exr_read, with every level, and what the header says. `contents` is overwritten; free it
+/// with lobe_exr_contents_free. The same errors.
+lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
+                                   lobe_exr_contents *contents);
+
+/// NULL where there is none of this name and type.
+const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
+                                                  const char *name, lobe_exr_attribute_type type);
+
+/// Frees all and zeroes the structure. NULL is fine.
+void lobe_exr_contents_free(lobe_exr_contents *contents);
 
 #ifdef __cplusplus
 }
