@@ -268,7 +268,8 @@ static int run(int argc, char **argv) {
          .kind = OPTION_TEXT,
          .argument = "A,B,C",
          .summary = "filters to measure, see 'lobe filters' (default: all)",
-         .target = &request.filters},
+         .target = &request.filters,
+         .values = OPTION_VALUES_FILTER_LIST},
         {.name = "frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
@@ -296,7 +297,8 @@ static int run(int argc, char **argv) {
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
          .summary = "sets a knob in every filter that has it",
-         .target = &request.assignments},
+         .target = &request.assignments,
+         .values = OPTION_VALUES_KNOB},
         {.name = "json",
          .kind = OPTION_TEXT,
          .argument = "FILE",
@@ -354,6 +356,7 @@ static int run(int argc, char **argv) {
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,
         .maximum_operands = 64,
+        .operand_values = OPTION_VALUES_SCENE,
     };
     int status;
     if (options_parse(&table, argc, argv, &request.scenes, &status))

@@ -236,6 +236,7 @@ static int run(int argc, char **argv) {
         .option_count = sizeof options / sizeof options[0],
         .minimum_operands = 2,
         .maximum_operands = COMPARE_MAXIMUM_TESTS + 1,
+        .operand_values = OPTION_VALUES_FILE,
     };
     option_list operands = {0};
     int status;

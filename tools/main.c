@@ -7,19 +7,13 @@
 
 #include "tools/subcommand.h"
 
-static const subcommand *const subcommands[] = {
-    &render_subcommand, &bench_subcommand,   &report_subcommand, &compare_subcommand,
-    &scenes_subcommand, &filters_subcommand, &info_subcommand,
-};
-static const size_t subcommand_count = sizeof subcommands / sizeof *subcommands;
-
 static void print_help(FILE *stream) {
     fputs("Usage: lobe SUBCOMMAND [OPTION]... [OPERAND]...\n\n"
           "Renders scenes whose appearance stays true at every distance: normal and BRDF maps\n"
           "are filtered into mixtures of lobes.\n\nSubcommands:\n",
           stream);
-    for (size_t i = 0; i < subcommand_count; ++i)
-        fprintf(stream, "  %-9s %s\n", subcommands[i]->name, subcommands[i]->summary);
+    for (size_t i = 0; subcommands[i]; ++i)
+        fprintf(stream, "  %-10s %s\n", subcommands[i]->name, subcommands[i]->summary);
     fputs("\n'lobe help SUBCOMMAND' or 'lobe SUBCOMMAND --help' tells more.\n"
           "'lobe --version' prints the version.\n"
           "Exit status: 0 done, 1 failed, 2 wrong usage.\n",
@@ -31,14 +25,6 @@ static int usage_error(const char *what, const char *text) {
     return 2;
 }
 
-static const subcommand *find_subcommand(const char *name) {
-    for (size_t i = 0; i < subcommand_count; ++i) {
-        if (strcmp(subcommands[i]->name, name) == 0)
-            return subcommands[i];
-    }
-    return NULL;
-}
-
 /// `lobe help`, `lobe help SUBCOMMAND`
 static int help(int argc, char **argv) {
     if (argc > 2)
@@ -47,7 +33,7 @@ static int help(int argc, char **argv) {
         print_help(stdout);
         return 0;
     }
-    const subcommand *found = find_subcommand(argv[1]);
+    const subcommand *found = subcommand_find(argv[1]);
     if (!found)
         return usage_error("unknown subcommand", argv[1]);
     char option[] = "--help";
@@ -67,7 +53,7 @@ static int run(int argc, char **argv) {
     }
     if (argv[1][0] == '-')
         return usage_error("unknown option", argv[1]);
-    const subcommand *found = find_subcommand(argv[1]);
+    const subcommand *found = subcommand_find(argv[1]);
     return found ? found->run(argc - 1, argv + 1) : usage_error("unknown subcommand", argv[1]);
 }
 

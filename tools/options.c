@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/option_form.h"
+
 // ---------------------------------------------------------------------------------------------
 // Values
 
@@ -212,7 +214,7 @@ typedef struct parser {
     int argc, next; ///< argv[next] is read next
     bool *seen;     ///< for each option of the table
     option_list *operands;
-    bool help;
+    option_form *help; ///< NULL: not asked for
 } parser;
 
 static const option *find_by_name(const option_table *table, const char *name, size_t length) {
@@ -248,13 +250,19 @@ static int take_value(parser *parser, const option *option, const char *value) {
     return store(parser->table, option, value);
 }
 
+/// `equals` is the end of "--help=FORM", or NULL.
+static int ask_for_help(parser *parser, const char *equals) {
+    parser->help = equals != NULL ? option_form_find(equals + 1) : options_print_help;
+    return parser->help != NULL
+               ? 0
+               : options_usage_error(parser->table, "--help: there is no form '%s'", equals + 1);
+}
+
 static int parse_long(parser *parser, const char *text) {
     const char *equals = strchr(text, '=');
     size_t length = equals != NULL ? (size_t)(equals - text) : strlen(text);
-    if (length == 4 && memcmp(text, "help", 4) == 0 && equals == NULL) {
-        parser->help = true;
-        return 0;
-    }
+    if (length == 4 && memcmp(text, "help", 4) == 0)
+        return ask_for_help(parser, equals);
     const option *option = find_by_name(parser->table, text, length);
     if (option == NULL)
         return options_usage_error(parser->table, "unknown option --%.*s", (int)length, text);
@@ -315,7 +323,7 @@ static int check_operand_count(const parser *parser) {
 
 bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
                    int *status) {
-    parser parser = {table, argv, argc, 1, NULL, operands, false};
+    parser parser = {table, argv, argc, 1, NULL, operands, NULL};
     parser.seen = calloc(table->option_count + 1, sizeof *parser.seen);
     if (parser.seen == NULL) {
         *status = out_of_memory(table);
@@ -323,7 +331,7 @@ bool options_parse(const option_table *table, int argc, char **argv, option_list
     }
     *status = parse_arguments(&parser);
     if (*status == 0 && parser.help)
-        options_print_help(table, stdout);
+        parser.help(table, stdout);
     if (*status == 0 && !parser.help)
         *status = check_operand_count(&parser);
     if (*status == 0 && !parser.help)
@@ -363,8 +371,20 @@ static void print_wrapped(FILE *stream, const char *text, size_t column) {
     fputc('\n', stream);
 }
 
+void option_print_limits(const option *option, char *text, size_t size) {
+    char range[96], names[256] = "";
+    describe_range(option, range, sizeof range);
+    if (option->kind == OPTION_CHOICE)
+        join_choices(option, names, sizeof names);
+    snprintf(text, size, "%s%s%s%s%s%s%s%s", range[0] != '\0' ? " " : "", range,
+             names[0] != '\0' ? ": " : "", names,
+             option->kind == OPTION_LIST ? " (may be repeated)" : "",
+             option->fallback != NULL ? " (default " : "",
+             option->fallback != NULL ? option->fallback : "", option->fallback != NULL ? ")" : "");
+}
+
 static void print_option_help(FILE *stream, const option *option) {
-    char start[64], range[96], names[256] = "", words[768];
+    char start[64], limits[400], words[768];
     char letter[5] = "    ";
     if (option->letter != '\0')
         snprintf(letter, sizeof letter, "-%c, ", option->letter);
@@ -376,23 +396,18 @@ static void print_option_help(FILE *stream, const option *option) {
         fprintf(stream, "\n%*s", HELP_INDENT, "");
     else
         fprintf(stream, "%*s", HELP_INDENT - used, "");
-    describe_range(option, range, sizeof range);
-    if (option->kind == OPTION_CHOICE)
-        join_choices(option, names, sizeof names);
-    snprintf(words, sizeof words, "%s%s%s%s%s%s%s%s%s", option->summary,
-             range[0] != '\0' ? " " : "", range, names[0] != '\0' ? ": " : "", names,
-             option->kind == OPTION_LIST ? " (may be repeated)" : "",
-             option->fallback != NULL ? " (default " : "",
-             option->fallback != NULL ? option->fallback : "", option->fallback != NULL ? ")" : "");
+    option_print_limits(option, limits, sizeof limits);
+    snprintf(words, sizeof words, "%s%s", option->summary, limits);
     print_wrapped(stream, words, HELP_INDENT);
 }
 
+const option option_help = {.name = "help", .summary = "show this help"};
+
 void options_print_help(const option_table *table, FILE *stream) {
-    static const option help = {.name = "help", .summary = "show this help"};
     fprintf(stream, "Usage: %s [OPTION]...%s%s\n\n%s\n\nOptions:\n", table->program,
             table->operands != NULL ? " " : "", table->operands != NULL ? table->operands : "",
             table->summary);
     for (size_t index = 0; index < table->option_count; index++)
         print_option_help(stream, &table->options[index]);
-    print_option_help(stream, &help);
+    print_option_help(stream, &option_help);
 }

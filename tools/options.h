@@ -22,6 +22,22 @@ typedef enum option_kind {
     OPTION_LIST,    ///< may be repeated; option_list of texts
 } option_kind;
 
+/// What may stand as a value or an operand: shells offer it to who types.
+typedef enum option_values {
+    /// What the rest of the entry says: the choices; files where `argument` begins with FILE,
+    /// folders where it begins with DIR; else nothing.
+    OPTION_VALUES_PLAIN,
+    OPTION_VALUES_NONE,
+    OPTION_VALUES_CHOICE,
+    OPTION_VALUES_FILE,
+    OPTION_VALUES_FOLDER,
+    OPTION_VALUES_SCENE,       ///< built-in scenes, files and folders
+    OPTION_VALUES_FILTER,      ///< filters
+    OPTION_VALUES_FILTER_LIST, ///< filters with commas between
+    OPTION_VALUES_KNOB,        ///< KNOB=VALUE
+    OPTION_VALUES_SUBCOMMAND,
+} option_values;
+
 /// Texts in the order given. Zero it before parsing; free it with option_list_free.
 typedef struct option_list {
     const char **values; ///< the texts belong to argv or to the table
@@ -40,7 +56,8 @@ typedef struct option {
     const char *fallback;
     double minimum, maximum;    ///< both included; no limit where they are equal
     const char *const *choices; ///< ends with NULL
-    bool *given;                ///< told whether the command line had it; NULL: nobody asks
+    option_values values;
+    bool *given; ///< told whether the command line had it; NULL: nobody asks
 } option;
 
 typedef struct option_table {
@@ -50,12 +67,16 @@ typedef struct option_table {
     const option *options;
     size_t option_count;
     size_t minimum_operands, maximum_operands;
+    option_values operand_values;
+    /// Writes what the manual page has beyond this table, in roff (tools/roff.h). NULL: nothing.
+    void (*manual)(FILE *stream);
 } option_table;
 
 /// Reads argv[1] to argv[argc - 1] into the targets. `operands` may be NULL where the table allows
 /// none. Returns true to go on. Returns false when the subcommand is to return `*status` at once:
 /// 0 after `--help` (printed on standard output), 2 after a mistake (one line on
-/// standard error), 1 when out of memory. Call options_free in all cases.
+/// standard error), 1 when out of memory. Call options_free in all cases. `--help=FORM` prints the
+/// table in another form (tools/option_form.h); the subcommands `manual` and `completion` use it.
 bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
                    int *status);
 
@@ -64,6 +85,13 @@ void options_free(const option_table *table, option_list *operands);
 
 /// Writes what `--help` shows.
 void options_print_help(const option_table *table, FILE *stream);
+
+/// The option that every table has without listing it.
+extern const option option_help;
+
+/// Range, choices, repetition and default, as they stand behind an option's summary: " [1, 9]
+/// (default 3)", or "". Cut where `size` is too small.
+void option_print_limits(const option *option, char *text, size_t size);
 
 /// For mistakes that only the subcommand can see: prints "PROGRAM: MESSAGE (see ...)" on
 /// standard error, returns 2.

@@ -341,12 +341,14 @@ static int run(int argc, char **argv) {
          .summary = "how appearance is filtered, see 'lobe filters'",
          .target = &request.filter_name,
          .fallback = "lobes",
+         .values = OPTION_VALUES_FILTER,
          .given = &request.has_filter},
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
          .summary = "sets a knob of the filter, see 'lobe filters'",
-         .target = &request.assignments},
+         .target = &request.assignments,
+         .values = OPTION_VALUES_KNOB},
         budget_option_milliseconds(&request.budget),
         budget_option_error(&request.budget),
         budget_option_sweep(&request.budget),
@@ -434,6 +436,7 @@ static int run(int argc, char **argv) {
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .maximum_operands = 1,
+        .operand_values = OPTION_VALUES_SCENE,
     };
     int status;
     if (options_parse(&table, argc, argv, &operands, &status)) {

@@ -143,6 +143,7 @@ static int run(int argc, char **argv) {
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,
         .maximum_operands = 1,
+        .operand_values = OPTION_VALUES_FILE,
     };
     option_list operands = {0};
     int status;

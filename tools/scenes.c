@@ -3,7 +3,16 @@
 #include <lobe/scene.h>
 
 #include "tools/options.h"
+#include "tools/roff.h"
 #include "tools/subcommand.h"
+
+static void print_manual(FILE *stream) {
+    roff_section(stream, "SCENES");
+    for (size_t i = 0; i < lobe_builtin_scene_count(); ++i) {
+        const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
+        roff_item(stream, scene->name, NULL, scene->summary);
+    }
+}
 
 static int run(int argc, char **argv) {
     const option_table table = {
@@ -12,6 +21,7 @@ static int run(int argc, char **argv) {
             "Lists the built-in scenes. Wherever a scene is asked for, the path of a .gltf or\n"
             ".glb file will do as well, or a folder of PBR maps, which are put on a cloth. Assets\n"
             "are found in the folder that --assets DIR or LOBE_ASSETS says.",
+        .manual = print_manual,
     };
     int status;
     if (!options_parse(&table, argc, argv, NULL, &status))

@@ -17,5 +17,15 @@ extern const subcommand compare_subcommand;
 extern const subcommand scenes_subcommand;
 extern const subcommand filters_subcommand;
 extern const subcommand info_subcommand;
+extern const subcommand manual_subcommand;
+extern const subcommand completion_subcommand;
+
+/// All of them in the order of `lobe --help`, ended by NULL.
+extern const subcommand *const subcommands[];
+/// NULL where there is none of that name.
+const subcommand *subcommand_find(const char *name);
+/// Has a subcommand print its option table in another form (option_form_find) on standard output.
+/// Returns the exit status.
+int subcommand_print(const subcommand *subcommand, const char *form);
 
 #endif

@@ -5,7 +5,8 @@ import sys
 import tap
 from program import check, fails, is_wrong_usage, leaves, fresh_folder, lobe, report, succeeds
 
-SUBCOMMANDS = ["render", "bench", "report", "compare", "scenes", "filters", "info"]
+SUBCOMMANDS = ["render", "bench", "report", "compare", "scenes", "filters", "info", "manual",
+               "completion"]
 OUTPUT = ["-o", "never.exr"]
 
 

@@ -1,0 +1,138 @@
+"""What shells offer to who types a command line of `lobe`: subcommands, options, and the names of
+filters, knobs, scenes and files."""
+
+import shutil
+import subprocess
+import sys
+
+import tap
+from program import FOLDER, check, fresh_folder, is_wrong_usage, succeeds
+
+BASH = """
+source "$1"
+COMP_LINE=$2 COMP_POINT=${#2}
+_lobe
+printf '%s\\n' "${COMPREPLY[@]}"
+"""
+
+
+def script(shell):
+    path = FOLDER / f"lobe.{shell}"
+    if not path.exists():
+        path.write_text(succeeds("completion", shell).stdout, encoding="utf-8")
+    return path
+
+
+def run(*command, cwd=FOLDER):
+    result = subprocess.run(command, cwd=cwd, text=True, capture_output=True, check=False,
+                            env={"PATH": "/usr/bin:/bin", "HOME": str(FOLDER),
+                                 "LC_ALL": "C.UTF-8"})
+    check(result.returncode == 0 and not result.stderr, f"{command}: {result.stderr}")
+    return result.stdout.split("\n")
+
+
+def offers(line, **keywords):
+    """What bash would put in for the last word of a line."""
+    words = run("bash", "--norc", "-c", BASH, "bash", script("bash"), line, **keywords)
+    return {word for word in words if word}
+
+
+def filters():
+    return [line.split(":")[0] for line in succeeds("filters").stdout.splitlines()
+            if line and not line.startswith(" ")]
+
+
+def knobs():
+    """The choices of all knobs by name; none where it is a number."""
+    found = {}
+    for line in succeeds("filters").stdout.splitlines():
+        words = line.split()
+        if line.startswith("    ") and len(words) > 2 and words[2][0] in "[{":
+            choices = line[line.index("{") + 1:-1].split(", ") if "{" in line else []
+            found.setdefault(words[0], set()).update(choices)
+    return found
+
+
+def scenes():
+    return {line.split()[0] for line in succeeds("scenes").stdout.splitlines()}
+
+
+def test_subcommands():
+    check(offers("lobe re") == {"render", "report"}, offers("lobe re"))
+    check({"bench", "help", "--version", "manual"} <= offers("lobe "), offers("lobe "))
+    check(offers("lobe help com") == {"compare", "completion"}, offers("lobe help com"))
+    check(offers("lobe manual fi") == {"filters"}, offers("lobe manual fi"))
+
+
+def test_options_of_a_subcommand():
+    check(offers("lobe render hall --fi") == {"--filter"}, offers("lobe render hall --fi"))
+    check(offers("lobe compare --") >= {"--diff", "--crop", "--json", "--help"}, "compare")
+    check("--diff" not in offers("lobe render --"), "an option of another subcommand")
+
+
+def test_filters():
+    check(offers("lobe render hall --filter ") == set(filters()), "all")
+    check(offers("lobe render hall --filter=le") == {"lean", "leadr"}, "after =")
+    check(offers("lobe bench --filters direct,mo") == {"direct,moments"}, "in a list")
+
+
+def test_knobs_and_their_choices():
+    check(offers("lobe render --set ") == {f"{name}=" for name in knobs()}, "names")
+    check(offers("lobe render --set epsilon") == {"epsilon0=", "epsilon1="}, "epsilon")
+    for name, choices in knobs().items():
+        check(offers(f"lobe render hall --set {name}=") == choices, name)
+
+
+def test_choices_of_an_option():
+    check(offers("lobe render --depth ") == {"half", "float"}, "after a blank")
+    check(offers("lobe render --depth=ha") == {"half"}, "after =")
+    check(offers("lobe render --frames ") == set(), "numbers")
+
+
+def test_scenes_and_files():
+    folder = fresh_folder("completion")
+    (folder / "hall of mirrors.gltf").touch()
+    (folder / "textures").mkdir()
+    check(offers("lobe render ", cwd=folder) ==
+          scenes() | {"hall of mirrors.gltf", "textures"}, "all")
+    check(offers("lobe bench hall h", cwd=folder) == {"hall", "hall of mirrors.gltf"}, "h")
+    check(offers("lobe render -o hall\\ of", cwd=folder) == {"hall of mirrors.gltf"}, "escaped")
+    check(offers("lobe render --assets ", cwd=folder) == {"textures"}, "folders")
+
+
+def test_fish():
+    if not shutil.which("fish"):
+        return "there is no fish"
+
+    def offered(line):
+        return {word.split("\t")[0] for word in
+                run("fish", "--no-config", "-c", f"source {script('fish')}; complete -C '{line}'")
+                if word}
+    check(offered("lobe re") == {"render", "report"}, offered("lobe re"))
+    check(offered("lobe render hall --filter le") == {"lean", "leadr"}, "filters")
+    check(offered("lobe render hall --set view=") == {"view=radiance", "view=lobes", "view=level"},
+          offered("lobe render hall --set view="))
+    check(offered("lobe compare --di") == {"--diff"}, "options")
+    check({"hall"} <= offered("lobe render ha"), "scenes")
+    return None
+
+
+def test_zsh():
+    if not shutil.which("zsh"):
+        return "there is no zsh"
+    text = script("zsh").read_text()
+    run("zsh", "-n", script("zsh"))
+    check(text.startswith("#compdef lobe\n"), text[:40])
+    check("'(-o --output)'" not in text or "{-o+,--output=}" in text, "output")
+    for name in (*filters(), *knobs(), *scenes()):
+        check(name in text, name)
+    return None
+
+
+def test_unknown_shell():
+    is_wrong_usage("completion", "csh", says=["csh", "bash"])
+    is_wrong_usage("completion", says="bash")
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))
