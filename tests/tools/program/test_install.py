@@ -100,6 +100,20 @@ def test_installed_program_runs():
     check(output.startswith("lobe "), output)
 
 
+def test_every_subcommand_has_its_manual_page():
+    names = re.findall(r"^  (\w+)  ", run([installed("bin/lobe"), "--help"]), re.MULTILINE)
+    check("render" in names, names)
+    for name in names:
+        check(f"lobe\\-{name}" in installed(f"man1/lobe-{name}.1").read_text(), name)
+    check("lobe\\-render" in installed("man1/lobe.1").read_text(), "lobe.1")
+
+
+def test_shells_find_their_scripts():
+    for place in ("bash-completion/completions/lobe.bash", "zsh/site-functions/_lobe",
+                  "fish/vendor_completions.d/lobe.fish"):
+        check("epsilon0" in installed(place).read_text(), place)
+
+
 def test_program_in_c():
     source = FOLDER / "embed.c"
     source.write_text(readme_program())
