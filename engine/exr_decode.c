@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/half.h"
+#include "third_party/openexr.h"
 
 static uint32_t load_little_endian(const uint8_t *bytes, int count) {
     uint32_t value = 0;
@@ -189,6 +190,55 @@ static lobe_result decode_tiles(exr_reader *reader) {
     return LOBE_OK;
 }
 
+// ---------------------------------------------------------------------------------------------
+// What OpenEXRCore cannot unpack
+
+bool engine_exr_is_left_to_openexr(const exr_reader *reader) {
+    exr_compression_t compression;
+    return exr_get_compression(reader->input.context, reader->part, &compression) ==
+               EXR_ERR_SUCCESS &&
+           (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB);
+}
+
+static void place_openexr_row(void *user, int y, const float *row) {
+    const exr_reader *reader = user;
+    for (int64_t column = 0; column < reader->data.width; column++) {
+        float *texel = find_texel(reader, reader->data.x + column, y);
+        if (texel != NULL)
+            memcpy(texel, row + 4 * column, 4 * sizeof *row);
+    }
+}
+
+/// OpenEXR takes each channel once.
+static void spread_grey(const exr_reader *reader) {
+    float *texels = reader->image->texels;
+    const size_t count = (size_t)reader->image->width * reader->image->height;
+    for (size_t index = 0; index < count; index++)
+        texels[4 * index + 1] = texels[4 * index + 2] = texels[4 * index];
+}
+
+static lobe_result decode_by_openexr(exr_reader *reader) {
+    const bool grey = reader->sources[0] == reader->sources[1];
+    openexr_source source = {.bytes = reader->input.data,
+                             .size = reader->input.size,
+                             .part = reader->part,
+                             .place = place_openexr_row,
+                             .user = reader};
+    for (int component = 0; component < 4; component++) {
+        const int index = reader->sources[component];
+        if (index >= 0 && (!grey || component == 0 || component == 3))
+            source.channels[component] = reader->channels->entries[index].name.str;
+    }
+    char message[OPENEXR_MESSAGE_SIZE];
+    if (!openexr_read(&source, message))
+        return engine_exr_fail_damaged(&reader->input, message);
+    if (grey)
+        spread_grey(reader);
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+
 exr_block engine_exr_block_of_window(const exr_attr_box2i_t *window) {
     return (exr_block){window->min.x, window->min.y, (int64_t)window->max.x - window->min.x + 1,
                        (int64_t)window->max.y - window->min.y + 1};
@@ -222,6 +272,8 @@ lobe_result engine_exr_decode_level(exr_reader *reader, uint32_t level, lobe_ima
     if (result != LOBE_OK)
         return result;
     reader->image = image;
+    if (engine_exr_is_left_to_openexr(reader))
+        return decode_by_openexr(reader);
     exr_storage_t storage;
     exr_result_t code = exr_get_storage(reader->input.context, reader->part, &storage);
     if (code != EXR_ERR_SUCCESS)

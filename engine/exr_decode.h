@@ -28,7 +28,12 @@ typedef struct exr_reader {
     lobe_image *image;
 } exr_reader;
 
+/// In the file's own coordinates.
 exr_block engine_exr_block_of_window(const exr_attr_box2i_t *window);
+
+/// Whether the part's compression (DWAA, DWAB) is one that OpenEXRCore 3.1 knows by name only. Of
+/// such parts the finest level can be read.
+bool engine_exr_is_left_to_openexr(const exr_reader *reader);
 
 /// Reads a level, below `level_count`, into a new RGBA32_FLOAT image, to free by the caller after
 /// a failure too. Sizes have been checked.

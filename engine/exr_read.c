@@ -181,7 +181,7 @@ static lobe_result count_levels(exr_reader *reader) {
     reader->level_count = 1;
     if (memcmp(&reader->data_window, &reader->display_window, sizeof reader->data_window) != 0 ||
         exr_get_storage(reader->input.context, reader->part, &storage) != EXR_ERR_SUCCESS ||
-        storage != EXR_STORAGE_TILED)
+        storage != EXR_STORAGE_TILED || engine_exr_is_left_to_openexr(reader))
         return LOBE_OK;
     exr_result_t code = exr_get_tile_descriptor(reader->input.context, reader->part, &width,
                                                 &height, &mode, &rounding);

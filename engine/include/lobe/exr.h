@@ -84,21 +84,20 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
 ///
 /// A layer's channels are placed so: R, G, B (and A) as they are; else X, Y, Z into R, G, B; else
 /// Y, or the only channel, into R, G and B alike. Without a channel A, alpha is 1. Scan lines and
-/// tiles, single and multi-part files, every compression but DWAA and DWAB; of several resolutions
-/// the finest.
+/// tiles, single and multi-part files, every compression; of several resolutions the finest.
 ///
 /// `image` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_NOT_FOUND (no file, or no layer of that name), LOBE_ERROR_READ,
 /// LOBE_ERROR_MALFORMED (damaged or truncated), LOBE_ERROR_UNSUPPORTED (deep data, no suitable
-/// channels, subsampled colour, DWAA or DWAB), LOBE_ERROR_LIMIT (too large),
+/// channels, subsampled colour), LOBE_ERROR_LIMIT (too large),
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *log,
                           lobe_image *image);
 
 /// All that is known of one layer.
 typedef struct lobe_exr_contents {
-    /// The finest first, each RGBA32_FLOAT. One only where there are no MIP levels, and where the
-    /// data window is not the display window.
+    /// The finest first, each RGBA32_FLOAT. One only where there are no MIP levels, where the
+    /// data window is not the display window, and of the compressions DWAA and DWAB.
     lobe_image *levels;
     uint32_t level_count;
     lobe_exr_environment environment;
