@@ -1,6 +1,8 @@
 #ifndef LOBE_ENVIRONMENT_H
 #define LOBE_ENVIRONMENT_H
 
+#include <stdbool.h>
+
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/result.h>
@@ -34,6 +36,12 @@ typedef struct lobe_environment {
     float world_from_environment[3][3];
     float intensity; ///< [0, infinity): the image's radiance is multiplied by it
 } lobe_environment;
+
+/// Where a direction (of the environment's own space, of any length but 0) lies on the image, in
+/// texels from its top left corner. False where the image does not have the layout's shape: whole
+/// square faces.
+bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
+                               double position[2]);
 
 /// Frees all and clears the pointer. NULL is fine.
 void lobe_environment_destroy(lobe_environment **environment);
