@@ -10,6 +10,8 @@ static void record(void *user, lobe_log_level level, const char *message) {
     } else if (level == LOBE_LOG_WARNING) {
         recorder->warnings++;
         snprintf(recorder->last_warning, sizeof recorder->last_warning, "%s", message);
+    } else if (level == LOBE_LOG_NOTICE) {
+        recorder->notices++;
     }
 }
 

@@ -6,7 +6,7 @@
 /// A log that keeps what it is told, for tests to look at.
 typedef struct log_recorder {
     lobe_log log; ///< hand this to lobe
-    int errors, warnings;
+    int errors, warnings, notices;
     char last_error[1024];
     char last_warning[1024];
 } log_recorder;
