@@ -71,6 +71,20 @@ def test_setup_hands_options_to_meson_once():
     check(calls == ["meson setup build-other -Dx=y --fast", "ninja -C build-other"], str(calls))
 
 
+def test_debian_packages_are_built_with_what_setup_installs():
+    setup = (ROOT / "tools/setup").read_text()
+    listed = setup[setup.index("packages=("):setup.index("# to test")].splitlines()[1:]
+    words = {word for line in listed if "#" not in line for word in line.split()}
+    # There on every machine that builds packages, or only for running.
+    words -= {"gcc", "g++", "libc6-dev", "ninja-build", "mesa-vulkan-drivers",
+              "vulkan-validationlayers"}
+    control = (ROOT / "tools/debian/control").read_text()
+    depends = control[control.index("Build-Depends:"):control.index("Standards-Version")]
+    needed = {word for word in depends.replace(",", " ").split() if word[0].isalpha()}
+    needed -= {"Build-Depends:", "debhelper-compat"}
+    check(needed == words, f"setup alone: {words - needed}; packages alone: {needed - words}")
+
+
 def count(*entries):
     """The last line and the exit status of the summary of a log."""
     log = fresh_folder("log") / "testlog.json"
