@@ -42,8 +42,8 @@ target_link_libraries(settings lobe::lobe)
 """
 
 
-def run(command, **environment):
-    result = subprocess.run(command, env={**os.environ, **environment}, text=True, check=False,
+def run(command, cwd=None, **environment):
+    result = subprocess.run(command, env={**os.environ, **environment}, text=True, check=False, cwd=cwd,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     check(result.returncode == 0, f"{shlex.join(map(str, command))}\n{result.stdout}")
     return result.stdout
@@ -120,6 +120,20 @@ def test_program_in_c():
     run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", source, "-o",
          FOLDER / "embed", *flags(TARGET, "--cflags", "--libs")])
     run([FOLDER / "embed"], LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+
+
+def test_programs_of_the_document_on_embedding():
+    text = (ROOT / "docs/embed.md").read_text()
+    sources = [code for code in re.findall(r"```c\n(.*?)```", text, re.DOTALL) if "main(" in code]
+    check(len(sources) >= 2, "no programs")
+    folder = fresh_folder("document")
+    for number, code in enumerate(sources):
+        source, program = folder / f"{number}.c", folder / f"{number}"
+        source.write_text(code)
+        run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", source, "-o",
+             program, *flags(TARGET, "--cflags", "--libs")])
+        run([program], cwd=folder, LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+    check(len(list(folder.glob("frame*.exr"))) == 10, "not ten frames of an animation")
 
 
 def test_program_in_c_linked_statically():
