@@ -44,8 +44,8 @@ uint64_t environment_cache_key(const lobe_environment *environment, uint32_t siz
     return mix_texels(hash, image->texels, (size_t)image->width * image->height);
 }
 
-static uint64_t checksum_of(const environment_cube *cube) {
-    return mix_texels(0, cube->texels, environment_cube_texels(cube));
+static uint64_t checksum_of(const cube_image *cube) {
+    return mix_texels(0, cube->texels, cube_image_texels(cube));
 }
 
 typedef struct number_as_text {
@@ -75,22 +75,22 @@ static bool says(const lobe_exr_contents *contents, const char *name, uint64_t n
     return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
 }
 
-static bool load(const char *path, uint64_t key, uint32_t width, environment_cube *cube) {
+static bool load(const char *path, uint64_t key, uint32_t width, cube_image *cube) {
     lobe_exr_contents contents;
     if (lobe_exr_read_contents(path, NULL, NULL, &contents) != LOBE_OK)
         return false;
     bool whole = says(&contents, key_attribute, key) &&
-                 environment_cube_from(path, &contents, NULL, cube) == LOBE_OK;
+                 cube_image_from(path, &contents, NULL, cube) == LOBE_OK;
     whole = whole && cube->width == width && says(&contents, checksum_attribute, checksum_of(cube));
     if (!whole)
-        environment_cube_free(cube);
+        cube_image_free(cube);
     lobe_exr_contents_free(&contents);
     return whole;
 }
 
 bool environment_cache_load(const char *folder, uint64_t key, uint32_t width, const lobe_log *log,
-                            environment_cube *cube) {
-    *cube = (environment_cube){0};
+                            cube_image *cube) {
+    *cube = (cube_image){0};
     char *path = path_of(folder, key);
     bool there = path && access(path, F_OK) == 0;
     bool loaded = there && load(path, key, width, cube);
@@ -100,16 +100,16 @@ bool environment_cache_load(const char *folder, uint64_t key, uint32_t width, co
     return loaded;
 }
 
-static lobe_result store(const char *path, uint64_t key, const environment_cube *cube) {
+static lobe_result store(const char *path, uint64_t key, const cube_image *cube) {
     const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
         {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
         {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},
     };
-    return environment_cube_write(path, cube, attributes, 2, NULL);
+    return cube_image_write(path, cube, attributes, 2, NULL);
 }
 
-void environment_cache_store(const char *folder, uint64_t key, const environment_cube *cube,
+void environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
                              const lobe_log *log) {
     char *path = path_of(folder, key);
     if (!path || store(path, key, cube) != LOBE_OK)

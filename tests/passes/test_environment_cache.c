@@ -25,12 +25,12 @@ static void vulkan_direction(uint32_t face, double s, double t, double direction
 }
 
 /// Each texel holds the direction it looks to, and its level.
-static environment_cube cube_of_directions(uint32_t width) {
-    environment_cube cube;
-    assert_int_equal(environment_cube_allocate(&cube, width, NULL), LOBE_OK);
+static cube_image cube_of_directions(uint32_t width) {
+    cube_image cube;
+    assert_int_equal(cube_image_allocate(&cube, width, NULL), LOBE_OK);
     for (uint32_t level = 0; level < cube.levels; ++level) {
         for (uint32_t face = 0; face < 6; ++face) {
-            float *texel = environment_cube_face(&cube, level, face);
+            float *texel = cube_image_face(&cube, level, face);
             uint32_t extent = width >> level;
             for (uint32_t i = 0; i < extent * extent; ++i, texel += 4) {
                 double direction[3];
@@ -45,25 +45,25 @@ static environment_cube cube_of_directions(uint32_t width) {
     return cube;
 }
 
-static void expect_same(const environment_cube *found, const environment_cube *expected) {
+static void expect_same(const cube_image *found, const cube_image *expected) {
     assert_int_equal(found->width, expected->width);
     assert_int_equal(found->levels, expected->levels);
-    assert_memory_equal(found->texels, expected->texels, 16 * environment_cube_texels(expected));
+    assert_memory_equal(found->texels, expected->texels, 16 * cube_image_texels(expected));
 }
 
 static void cubes_survive_a_file(void **state) {
     (void)state;
     const char *path = temporary_folder_file(&test_folder, "cube.exr");
     for (uint32_t width = 1; width <= 64; width *= 4) {
-        environment_cube cube = cube_of_directions(width), read;
+        cube_image cube = cube_of_directions(width), read;
         lobe_exr_contents contents;
-        assert_int_equal(environment_cube_write(path, &cube, NULL, 0, NULL), LOBE_OK);
+        assert_int_equal(cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
         assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
-        assert_int_equal(environment_cube_from(path, &contents, NULL, &read), LOBE_OK);
+        assert_int_equal(cube_image_from(path, &contents, NULL, &read), LOBE_OK);
         expect_same(&read, &cube);
         lobe_exr_contents_free(&contents);
-        environment_cube_free(&read);
-        environment_cube_free(&cube);
+        cube_image_free(&read);
+        cube_image_free(&cube);
     }
 }
 
@@ -72,9 +72,9 @@ static void cubes_survive_a_file(void **state) {
 static void files_are_oriented_as_the_format_says(void **state) {
     (void)state;
     const char *path = temporary_folder_file(&test_folder, "cube.exr");
-    environment_cube cube = cube_of_directions(16);
+    cube_image cube = cube_of_directions(16);
     lobe_exr_contents contents;
-    assert_int_equal(environment_cube_write(path, &cube, NULL, 0, NULL), LOBE_OK);
+    assert_int_equal(cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
     assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
     assert_int_equal(contents.level_count, 7);
     for (uint32_t level = 0; level < contents.level_count; ++level) {
@@ -92,7 +92,7 @@ static void files_are_oriented_as_the_format_says(void **state) {
         }
     }
     lobe_exr_contents_free(&contents);
-    environment_cube_free(&cube);
+    cube_image_free(&cube);
 }
 
 static void other_files_are_no_cubes(void **state) {
@@ -115,10 +115,10 @@ static void other_files_are_no_cubes(void **state) {
         log_recorder recorder;
         log_recorder_start(&recorder);
         lobe_exr_contents contents;
-        environment_cube cube;
+        cube_image cube;
         assert_int_equal(lobe_exr_write(path, &parameters, NULL), LOBE_OK);
         assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
-        assert_int_equal(environment_cube_from(path, &contents, &recorder.log, &cube),
+        assert_int_equal(cube_image_from(path, &contents, &recorder.log, &cube),
                          LOBE_ERROR_MALFORMED);
         assert_int_equal(recorder.errors, 1);
         assert_null(cube.texels);
@@ -160,7 +160,7 @@ static void keys_tell_content_apart(void **state) {
 
 static void what_was_kept_is_found(void **state) {
     (void)state;
-    environment_cube cube = cube_of_directions(16), found;
+    cube_image cube = cube_of_directions(16), found;
     log_recorder recorder;
     log_recorder_start(&recorder);
     assert_false(environment_cache_load(test_folder.path, 7, 16, &recorder.log, &found));
@@ -168,11 +168,11 @@ static void what_was_kept_is_found(void **state) {
     assert_int_equal(temporary_folder_count(&test_folder), 1);
     assert_true(environment_cache_load(test_folder.path, 7, 16, &recorder.log, &found));
     expect_same(&found, &cube);
-    environment_cube_free(&found);
+    cube_image_free(&found);
     assert_false(environment_cache_load(test_folder.path, 8, 16, &recorder.log, &found));
     assert_null(found.texels);
     assert_int_equal(recorder.notices + recorder.warnings + recorder.errors, 0);
-    environment_cube_free(&cube);
+    cube_image_free(&cube);
 }
 
 /// The file of key 7.
@@ -182,7 +182,7 @@ static const char *kept_file(void) {
 
 static void expect_passed_over(uint32_t width) {
     log_recorder recorder;
-    environment_cube found;
+    cube_image found;
     log_recorder_start(&recorder);
     assert_false(environment_cache_load(test_folder.path, 7, width, &recorder.log, &found));
     assert_null(found.texels);
@@ -191,17 +191,16 @@ static void expect_passed_over(uint32_t width) {
 }
 
 /// Nothing of the format's own tells.
-static void change_a_texel(environment_cube *cube) {
+static void change_a_texel(cube_image *cube) {
     lobe_exr_contents contents;
     assert_int_equal(lobe_exr_read_contents(kept_file(), NULL, NULL, &contents), LOBE_OK);
-    float *texel = environment_cube_face(cube, 2, 3), kept = *texel;
+    float *texel = cube_image_face(cube, 2, 3), kept = *texel;
     *texel = nextafterf(kept, 9);
     assert_int_equal(lobe_exr_find_attribute(&contents, "lobe.environment.key", LOBE_EXR_TEXT) -
                          contents.attributes,
                      contents.attribute_count - 2);
-    assert_int_equal(environment_cube_write(kept_file(), cube,
-                                            &contents.attributes[contents.attribute_count - 2], 2,
-                                            NULL),
+    assert_int_equal(cube_image_write(kept_file(), cube,
+                                      &contents.attributes[contents.attribute_count - 2], 2, NULL),
                      LOBE_OK);
     *texel = kept;
     lobe_exr_contents_free(&contents);
@@ -211,7 +210,7 @@ static void change_a_texel(environment_cube *cube) {
 /// gives way to the next that is kept.
 static void damaged_and_foreign_files_are_passed_over(void **state) {
     (void)state;
-    environment_cube cube = cube_of_directions(16), found;
+    cube_image cube = cube_of_directions(16), found;
     uint8_t *data;
     size_t size;
     environment_cache_store(test_folder.path, 7, &cube, NULL);
@@ -237,13 +236,13 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     environment_cache_store(test_folder.path, 7, &cube, NULL);
     assert_true(environment_cache_load(test_folder.path, 7, 16, NULL, &found));
     expect_same(&found, &cube);
-    environment_cube_free(&found);
-    environment_cube_free(&cube);
+    cube_image_free(&found);
+    cube_image_free(&cube);
 }
 
 static void a_folder_that_takes_nothing_is_told(void **state) {
     (void)state;
-    environment_cube cube = cube_of_directions(4), found;
+    cube_image cube = cube_of_directions(4), found;
     const char *folder = temporary_folder_file(&test_folder, "none");
     log_recorder recorder;
     log_recorder_start(&recorder);
@@ -251,7 +250,7 @@ static void a_folder_that_takes_nothing_is_told(void **state) {
     environment_cache_store(folder, 7, &cube, &recorder.log);
     assert_int_equal(recorder.warnings, 1);
     assert_int_equal(recorder.errors, 0);
-    environment_cube_free(&cube);
+    cube_image_free(&cube);
 }
 
 int main(void) {

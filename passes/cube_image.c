@@ -1,4 +1,4 @@
-#include "passes/environment_cube_file.h"
+#include "passes/cube_image.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -12,40 +12,40 @@
 // ---------------------------------------------------------------------------------------------
 // The cube in memory
 
-static size_t face_texels(const environment_cube *cube, uint32_t level) {
+static size_t face_texels(const cube_image *cube, uint32_t level) {
     size_t width = cube->width >> level;
     return width * width;
 }
 
-size_t environment_cube_texels(const environment_cube *cube) {
+size_t cube_image_texels(const cube_image *cube) {
     size_t count = 0;
     for (uint32_t level = 0; level < cube->levels; ++level)
         count += FACES * face_texels(cube, level);
     return count;
 }
 
-float *environment_cube_face(const environment_cube *cube, uint32_t level, uint32_t face) {
+float *cube_image_face(const cube_image *cube, uint32_t level, uint32_t face) {
     size_t first = face * face_texels(cube, level);
     for (uint32_t finer = 0; finer < level; ++finer)
         first += FACES * face_texels(cube, finer);
     return cube->texels + 4 * first;
 }
 
-lobe_result environment_cube_allocate(environment_cube *cube, uint32_t width, const lobe_log *log) {
-    *cube = (environment_cube){.width = width};
+lobe_result cube_image_allocate(cube_image *cube, uint32_t width, const lobe_log *log) {
+    *cube = (cube_image){.width = width};
     for (uint32_t extent = width; extent > 0; extent /= 2)
         ++cube->levels;
-    cube->texels = calloc(4 * environment_cube_texels(cube), sizeof *cube->texels);
+    cube->texels = calloc(4 * cube_image_texels(cube), sizeof *cube->texels);
     if (cube->texels)
         return LOBE_OK;
-    *cube = (environment_cube){0};
+    *cube = (cube_image){0};
     return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "environment: no memory for a cube of %u",
                          width);
 }
 
-void environment_cube_free(environment_cube *cube) {
+void cube_image_free(cube_image *cube) {
     free(cube->texels);
-    *cube = (environment_cube){0};
+    *cube = (cube_image){0};
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -69,24 +69,24 @@ static void turn_face(uint32_t face, uint32_t width, const float *source, float 
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-static void fill_column(const environment_cube *cube, uint32_t level, lobe_image *image) {
+static void fill_column(const cube_image *cube, uint32_t level, lobe_image *image) {
     uint32_t width = cube->width >> level;
     for (uint32_t face = 0; face < FACES; ++face)
-        turn_face(face, width, environment_cube_face(cube, level, face),
+        turn_face(face, width, cube_image_face(cube, level, face),
                   (float *)image->texels + 4 * (size_t)face * width * width);
 }
 
-static void fill_with_mean(const environment_cube *cube, lobe_image *image) {
+static void fill_with_mean(const cube_image *cube, lobe_image *image) {
     float *texels = image->texels;
     for (size_t i = 0; i < (size_t)4 * image->width * image->height; ++i) {
         double sum = 0;
         for (uint32_t face = 0; face < FACES; ++face)
-            sum += (double)environment_cube_face(cube, cube->levels - 1, face)[i % 4];
+            sum += (double)cube_image_face(cube, cube->levels - 1, face)[i % 4];
         texels[i] = (float)(sum / FACES);
     }
 }
 
-static lobe_result make_levels(const environment_cube *cube, const lobe_log *log,
+static lobe_result make_levels(const cube_image *cube, const lobe_log *log,
                                lobe_image images[MOST_LEVELS], uint32_t *count) {
     uint32_t width = cube->width, height = FACES * cube->width;
     lobe_result result = LOBE_OK;
@@ -105,9 +105,9 @@ static lobe_result make_levels(const environment_cube *cube, const lobe_log *log
     return result;
 }
 
-lobe_result environment_cube_write(const char *path, const environment_cube *cube,
-                                   const lobe_exr_attribute *attributes, size_t attribute_count,
-                                   const lobe_log *log) {
+lobe_result cube_image_write(const char *path, const cube_image *cube,
+                             const lobe_exr_attribute *attributes, size_t attribute_count,
+                             const lobe_log *log) {
     lobe_image images[MOST_LEVELS] = {0};
     uint32_t count = 0;
     lobe_result result = make_levels(cube, log, images, &count);
@@ -136,18 +136,18 @@ static bool is_cube(const lobe_exr_contents *contents) {
            finest->height == FACES * finest->width && contents->level_count > 1;
 }
 
-lobe_result environment_cube_from(const char *path, const lobe_exr_contents *contents,
-                                  const lobe_log *log, environment_cube *cube) {
-    *cube = (environment_cube){0};
+lobe_result cube_image_from(const char *path, const lobe_exr_contents *contents,
+                            const lobe_log *log, cube_image *cube) {
+    *cube = (cube_image){0};
     if (!is_cube(contents))
         return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not a cube with levels", path);
-    lobe_result result = environment_cube_allocate(cube, contents->levels[0].width, log);
+    lobe_result result = cube_image_allocate(cube, contents->levels[0].width, log);
     for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; ++level) {
         uint32_t width = cube->width >> level;
         const float *column = contents->levels[level].texels;
         for (uint32_t face = 0; face < FACES; ++face)
             turn_face(face, width, column + 4 * (size_t)face * width * width,
-                      environment_cube_face(cube, level, face));
+                      cube_image_face(cube, level, face));
     }
     return result;
 }
