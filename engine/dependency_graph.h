@@ -35,6 +35,8 @@ typedef enum engine_layout {
     ENGINE_LAYOUT_DEPTH,
     ENGINE_LAYOUT_COPY_SOURCE,
     ENGINE_LAYOUT_COPY_TARGET,
+    ENGINE_LAYOUT_LENT,     ///< the one that a borrowed image comes in
+    ENGINE_LAYOUT_RETURNED, ///< the one that it is given back in
 } engine_layout;
 
 /// Stages and access types are masks of the caller's: only united and compared here.
@@ -73,8 +75,12 @@ typedef struct engine_dependency_fault {
 typedef struct engine_dependency_resource {
     const char *name; ///< borrowed
     uint32_t levels, layers;
-    bool imported;         ///< has content from the start, is never written
-    bool retained;         ///< its content stays for the next frame
+    bool imported; ///< has content from the start, is never written
+    bool retained; ///< its content stays for the next frame
+    bool borrowed; ///< the host's: passes may write it, and it is given back
+    /// Borrowed: what was done to it before the frame, and will be after it. The layouts are LENT
+    /// (UNDEFINED: it has no content) and RETURNED.
+    engine_access_state before, after;
     engine_stamp identity; ///< digest of the description (format, extent); imported: of the content
     const engine_stamp *recorded;       ///< retained: stamp of what each subresource holds, or NULL
     const engine_layout *start_layouts; ///< of each subresource at the start; NULL: undefined

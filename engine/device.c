@@ -38,23 +38,11 @@ static lobe_result select_physical(lobe_device *device, const char *select) {
     return result;
 }
 
-static bool has_extension(VkPhysicalDevice physical, const char *name) {
-    uint32_t count = 0;
-    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
-        return false;
-    VkExtensionProperties *extensions = calloc(count + 1, sizeof *extensions);
-    bool found = false;
-    if (extensions &&
-        vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
-        for (uint32_t i = 0; i < count && !found; i++)
-            found = !strcmp(extensions[i].extensionName, name);
-    free(extensions);
-    return found;
-}
-
 static lobe_result open_device(lobe_device *device) {
-    const char *const budget = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
-    device->memory_budget = has_extension(device->physical, budget);
+    const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
+    const uint32_t extension_count = lobe_vulkan_extensions_fill(device->physical, extensions);
+    for (uint32_t i = 0; i < extension_count; i++)
+        device->memory_budget |= !strcmp(extensions[i], VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     engine_features_enable(device->information.features, &device->features);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {
@@ -68,8 +56,8 @@ static lobe_result open_device(lobe_device *device) {
         .pNext = &device->features.core,
         .queueCreateInfoCount = 1,
         .pQueueCreateInfos = &queue,
-        .enabledExtensionCount = device->memory_budget ? 1 : 0,
-        .ppEnabledExtensionNames = &budget,
+        .enabledExtensionCount = extension_count,
+        .ppEnabledExtensionNames = extensions,
     };
     const lobe_result result =
         VULKAN_CHECK(&device->log, vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
@@ -121,17 +109,27 @@ static lobe_result create_memory(lobe_device *device, uint64_t limit) {
     return engine_memory_create(&parameters, &device->memory);
 }
 
-static lobe_result create_all(lobe_device *device, const lobe_device_parameters *parameters) {
+static lobe_result open_vulkan(lobe_device *device, const lobe_device_parameters *parameters) {
     lobe_result result = open_instance(device, parameters->validation);
     if (result == LOBE_OK)
         result = select_physical(device, parameters->select);
-    if (result == LOBE_OK)
-        result = open_device(device);
-    if (result != LOBE_OK)
-        return result;
+    return result == LOBE_OK ? open_device(device) : result;
+}
+
+lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device) {
+    *device = calloc(1, sizeof **device);
+    if (!*device)
+        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
+    pthread_mutex_init(&(*device)->queue_mutex, NULL);
+    if (parameters->log)
+        (*device)->log = *parameters->log;
+    return LOBE_OK;
+}
+
+lobe_result engine_device_equip(lobe_device *device, const lobe_device_parameters *parameters) {
     read_limits(device);
     engine_debug_labels_load(device);
-    result = create_timeline(device);
+    lobe_result result = create_timeline(device);
     if (result == LOBE_OK)
         result = create_command_pool(device);
     if (result == LOBE_OK)
@@ -150,25 +148,30 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
     static const lobe_device_parameters defaults = {0};
     if (!parameters)
         parameters = &defaults;
-    *device = calloc(1, sizeof **device);
-    if (!*device)
-        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
-    if (parameters->log)
-        (*device)->log = *parameters->log;
-    const lobe_result result = create_all(*device, parameters);
+    lobe_result result = engine_device_allocate(parameters, device);
+    if (result != LOBE_OK)
+        return result;
+    result = open_vulkan(*device, parameters);
+    if (result == LOBE_OK)
+        result = engine_device_equip(*device, parameters);
     if (result != LOBE_OK)
         lobe_device_destroy(device);
     return result;
 }
 
 static void destroy_vulkan(lobe_device *device) {
-    vkDeviceWaitIdle(device->vulkan);
+    // Of a host's device, what lobe submitted is all that matters. One that is lost has finished.
+    if (!device->imported)
+        vkDeviceWaitIdle(device->vulkan);
+    else if (device->timeline)
+        (void)engine_device_wait_all(device);
     engine_pipelines_destroy(device, &device->pipelines);
     engine_shaders_destroy(&device->shaders);
     engine_memory_destroy(&device->memory);
     vkDestroyCommandPool(device->vulkan, device->commands, NULL);
     vkDestroySemaphore(device->vulkan, device->timeline, NULL);
-    vkDestroyDevice(device->vulkan, NULL);
+    if (!device->imported)
+        vkDestroyDevice(device->vulkan, NULL);
 }
 
 void lobe_device_destroy(lobe_device **device) {
@@ -176,7 +179,9 @@ void lobe_device_destroy(lobe_device **device) {
         return;
     if ((*device)->vulkan)
         destroy_vulkan(*device);
-    engine_instance_destroy(&(*device)->instance);
+    if (!(*device)->imported)
+        engine_instance_destroy(&(*device)->instance);
+    pthread_mutex_destroy(&(*device)->queue_mutex);
     free((void *)(*device)->information.features);
     free(*device);
     *device = NULL;

@@ -1,6 +1,7 @@
 #ifndef ENGINE_DEVICE_H
 #define ENGINE_DEVICE_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -8,17 +9,10 @@
 #include <vulkan/vulkan.h>
 
 #include <lobe/device.h>
+#include <lobe/vulkan.h>
 
 #include "engine/instance.h"
 #include "engine/memory.h"
-
-/// Vulkan's features in the form they are queried and enabled.
-typedef struct engine_features {
-    VkPhysicalDeviceFeatures2 core;
-    VkPhysicalDeviceVulkan11Features vulkan_1_1;
-    VkPhysicalDeviceVulkan12Features vulkan_1_2;
-    VkPhysicalDeviceVulkan13Features vulkan_1_3;
-} engine_features;
 
 struct lobe_device {
     lobe_log log; ///< always valid; `write` may be NULL
@@ -26,18 +20,21 @@ struct lobe_device {
     engine_instance instance;
     VkPhysicalDevice physical;
     VkDevice vulkan;
-    VkQueue queue; ///< graphics, compute and transfer
+    VkQueue queue; ///< graphics, compute and transfer; used between lock and unlock alone
+    pthread_mutex_t queue_mutex;
+    bool imported;           ///< instance, device and queue are the host's
+    lobe_vulkan_device host; ///< where imported: the callbacks; what it points to may be gone
     uint32_t queue_family;
     uint32_t timestamp_bits; ///< valid bits of a timestamp; 0: the queue has none
     VkPhysicalDeviceLimits limits;
-    engine_features features; ///< what was enabled
-    VkSemaphore timeline;     ///< reaches n when the n-th submission is done
-    uint64_t submitted;       ///< submissions so far
-    VkCommandPool commands;   ///< of single-use command buffers
+    lobe_vulkan_features features; ///< what was enabled
+    VkSemaphore timeline;          ///< reaches n when the n-th submission is done
+    _Atomic uint64_t submitted;    ///< submissions so far; grows under the lock of the queue
+    VkCommandPool commands;        ///< of single-use command buffers
     engine_memory *memory;
     struct engine_shaders *shaders;     ///< see engine/shader.h
     struct engine_pipelines *pipelines; ///< see engine/pipeline.h
-    uint64_t last_stamp;                ///< see engine_device_stamp
+    _Atomic uint64_t last_stamp;        ///< see engine_device_stamp
     lobe_device_information information;
     _Atomic uint64_t validation_count;
     bool memory_budget; ///< VK_EXT_memory_budget is enabled
@@ -47,16 +44,29 @@ struct lobe_device {
     PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 };
 
+/// The first step of creation: an empty device with the log. Logs with the parameters' log.
+lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device);
+/// The last: what lobe itself needs of a Vulkan device that is there.
+lobe_result engine_device_equip(lobe_device *device, const lobe_device_parameters *parameters);
+
+/// Around every use of the queue; not nested.
+void engine_device_lock_queue(lobe_device *device);
+void engine_device_unlock_queue(lobe_device *device);
+
 /// A number that was never given before on this device, above 0: what a content is known by.
 uint64_t engine_device_stamp(lobe_device *device);
 
 /// Submits a finished command buffer. `*value` is what the timeline reaches when it is done;
-/// `value` may be NULL. Submissions execute in order only where barriers say so.
-lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands, uint64_t *value);
+/// `value` may be NULL. Submissions execute in order only where barriers say so. `host`: its
+/// semaphores; NULL: none.
+lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
+                                 const lobe_vulkan_submission *host, uint64_t *value);
 /// Waits until the timeline has reached `value`.
 lobe_result engine_device_wait(lobe_device *device, uint64_t value);
 /// Waits for all submissions.
 lobe_result engine_device_wait_all(lobe_device *device);
+/// Waits for all that was submitted to the queue, by the host too.
+lobe_result engine_device_wait_queue(lobe_device *device);
 
 /// A command buffer in recording state, for single use. `purpose` is for the error line.
 lobe_result engine_device_begin_commands(lobe_device *device, const char *purpose,

@@ -6,6 +6,7 @@
 #include <vulkan/vulkan.h>
 
 #include <lobe/device.h>
+#include <lobe/vulkan.h>
 
 #include "engine/device.h"
 
@@ -16,10 +17,14 @@
 void engine_features_query(VkPhysicalDevice physical,
                            lobe_device_feature features[ENGINE_FEATURE_COUNT]);
 
+/// The same list from what a host turned on: a chain as for lobe_vulkan_device.
+void engine_features_read(const VkPhysicalDeviceFeatures2 *enabled,
+                          lobe_device_feature features[ENGINE_FEATURE_COUNT]);
+
 /// The structures that enable all features of the list that are present, chained for
 /// VkDeviceCreateInfo.pNext; `enable` must stay where it is while they are used.
 void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_COUNT],
-                            engine_features *enable);
+                            lobe_vulkan_features *enable);
 
 /// The first that is required but absent; NULL where nothing is missing.
 const lobe_device_feature *

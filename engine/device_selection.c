@@ -25,17 +25,26 @@ static lobe_device_type type_of(VkPhysicalDeviceType type) {
     }
 }
 
-static void find_queue_family(engine_candidate *candidate) {
+#define MAXIMUM_FAMILIES 32
+
+bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
+                                uint32_t *timestamp_bits) {
     const VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    VkQueueFamilyProperties families[32];
-    uint32_t count = sizeof families / sizeof *families;
-    vkGetPhysicalDeviceQueueFamilyProperties(candidate->physical, &count, families);
-    candidate->queue_family = UINT32_MAX;
-    for (uint32_t i = 0; i < count && candidate->queue_family == UINT32_MAX; i++)
-        if ((families[i].queueFlags & wanted) == wanted) {
-            candidate->queue_family = i;
-            candidate->timestamp_bits = families[i].timestampValidBits;
-        }
+    VkQueueFamilyProperties families[MAXIMUM_FAMILIES];
+    uint32_t count = MAXIMUM_FAMILIES;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
+    if (family >= count || (families[family].queueFlags & wanted) != wanted)
+        return false;
+    *timestamp_bits = families[family].timestampValidBits;
+    return true;
+}
+
+uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits) {
+    *timestamp_bits = 0;
+    for (uint32_t family = 0; family < MAXIMUM_FAMILIES; family++)
+        if (engine_queue_family_serves(physical, family, timestamp_bits))
+            return family;
+    return UINT32_MAX;
 }
 
 static uint64_t device_local_bytes(VkPhysicalDevice physical) {
@@ -86,7 +95,8 @@ static void describe(engine_candidate *candidate) {
     information->maximum_image_extent = properties->limits.maxImageDimension2D;
     information->memory_bytes = device_local_bytes(candidate->physical);
     information->linear_filter_float32 = filters_float32(candidate->physical);
-    find_queue_family(candidate);
+    candidate->queue_family =
+        engine_queue_family_find(candidate->physical, &candidate->timestamp_bits);
     if (candidate->timestamp_bits)
         information->timestamp_period = properties->limits.timestampPeriod;
 }
@@ -99,6 +109,16 @@ static bool describe_features(engine_candidate *candidate) {
     candidate->information.features = features;
     candidate->information.feature_count = ENGINE_FEATURE_COUNT;
     return true;
+}
+
+lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log *log,
+                                      engine_candidate *candidate) {
+    *candidate = (engine_candidate){.physical = physical};
+    describe(candidate);
+    return describe_features(candidate)
+               ? LOBE_OK
+               : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
+                               candidate->information.name);
 }
 
 // ---------------------------------------------------------------------------------------------

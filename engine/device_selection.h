@@ -1,6 +1,7 @@
 #ifndef ENGINE_DEVICE_SELECTION_H
 #define ENGINE_DEVICE_SELECTION_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include <vulkan/vulkan.h>
@@ -15,6 +16,17 @@ typedef struct engine_candidate {
     uint32_t queue_family; ///< with graphics and compute; UINT32_MAX: none
     uint32_t timestamp_bits;
 } engine_candidate;
+
+/// Whether a queue family has both graphics and compute; if so, says how many bits its timestamps
+/// have.
+bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
+                                uint32_t *timestamp_bits);
+/// The first that serves; UINT32_MAX (and no bits): none.
+uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits);
+
+/// Describes one device; `candidate->information.features` is to free().
+lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log *log,
+                                      engine_candidate *candidate);
 
 /// Lists all devices. LOBE_ERROR_NO_DEVICE where there is none, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,

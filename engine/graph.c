@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "engine/graph_binding.h"
+#include "engine/graph_flight.h"
+#include "engine/graph_host.h"
 #include "engine/graph_memory.h"
 #include "engine/graph_raster.h"
 #include "engine/graph_record.h"
@@ -52,29 +54,6 @@ lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Life
 
-static lobe_result create_commands(lobe_graph *graph) {
-    lobe_device *device = graph->device;
-    const VkCommandPoolCreateInfo pool = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-        .queueFamilyIndex = device->queue_family,
-    };
-    lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateCommandPool(device->vulkan, &pool, NULL, &graph->command_pool),
-        "render graph");
-    if (result != LOBE_OK)
-        return result;
-    const VkCommandBufferAllocateInfo commands = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = graph->command_pool,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 1,
-    };
-    return VULKAN_CHECK(&device->log,
-                        vkAllocateCommandBuffers(device->vulkan, &commands, &graph->commands),
-                        "render graph");
-}
-
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     *graph = NULL;
     lobe_graph *created = calloc(1, sizeof *created);
@@ -83,14 +62,13 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
                              "render graph: no host memory");
     created->device = device;
     created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
-    lobe_result result = create_commands(created);
+    lobe_result result = engine_graph_create_flights(created);
     if (result != LOBE_OK)
         lobe_graph_destroy(&created);
     *graph = created;
     return result;
 }
 
-/// The device must have finished with it.
 static void forget_frame(lobe_graph *graph) {
     engine_graph_forget_imports(graph);
     engine_dependency_graph_reset(&graph->dependencies);
@@ -104,14 +82,11 @@ void lobe_graph_destroy(lobe_graph **graph) {
     lobe_graph *gone = *graph;
     if (!gone)
         return;
-    // A device that was lost has finished, too.
-    if (gone->submission)
-        engine_device_wait(gone->device, gone->submission);
+    engine_graph_finish_flights(gone);
     forget_frame(gone);
     engine_graph_free_retained(gone);
     engine_graph_free_memory(gone);
-    engine_graph_free_recording(gone);
-    vkDestroyCommandPool(gone->device->vulkan, gone->command_pool, NULL);
+    engine_graph_free_flights(gone);
     engine_dependency_graph_free(&gone->dependencies);
     engine_arena_free(&gone->arena);
     free(gone->resources);
@@ -122,12 +97,9 @@ void lobe_graph_destroy(lobe_graph **graph) {
 }
 
 void lobe_graph_begin(lobe_graph *graph) {
-    lobe_result result = LOBE_OK;
-    if (graph->submission)
-        result = engine_device_wait(graph->device, graph->submission);
     forget_frame(graph);
     engine_graph_begin_retained(graph);
-    engine_graph_propagate(graph, result);
+    engine_graph_propagate(graph, engine_graph_begin_flight(graph));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -148,17 +120,18 @@ static lobe_result derive_barriers(lobe_graph *graph) {
 }
 
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
-    engine_graph_check_rasters,    // attachments fit each other
-    engine_graph_resolve_bindings, // names meet shaders: how each resource is used
-    engine_graph_check_retained,   // kept objects fit these uses
-    engine_graph_sign_passes,      // what would make a pass compute something else
-    analyse,                       // sources, order, what runs, lifetimes
-    engine_graph_release_retained, // what this frame does not know any more
-    engine_graph_find_pipelines,   // of what runs
-    engine_graph_place_retained,   // memory of their own
-    engine_graph_place_transients, // memory shared between those not alive together
-    derive_barriers,               // transitions, and waits for former tenants of the memory
-    engine_graph_count_traffic,    // what each pass must read and write
+    engine_graph_check_rasters,     // attachments fit each other
+    engine_graph_resolve_bindings,  // names meet shaders: how each resource is used
+    engine_graph_check_host_images, // they allow these uses
+    engine_graph_check_retained,    // kept objects fit these uses
+    engine_graph_sign_passes,       // what would make a pass compute something else
+    analyse,                        // sources, order, what runs, lifetimes
+    engine_graph_release_retained,  // what this frame does not know any more
+    engine_graph_find_pipelines,    // of what runs
+    engine_graph_place_retained,    // memory of their own
+    engine_graph_place_transients,  // memory shared between those not alive together
+    derive_barriers,                // transitions, and waits for former tenants of the memory
+    engine_graph_count_traffic,     // what each pass must read and write
     engine_graph_report_compiled,
 };
 
@@ -174,12 +147,44 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
     return LOBE_OK;
 }
 
-lobe_result lobe_graph_execute(lobe_graph *graph) {
-    if (graph->phase == ENGINE_GRAPH_EXECUTED)
+static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    if (graph->phase == ENGINE_GRAPH_SUBMITTED || graph->phase == ENGINE_GRAPH_EXECUTED)
         return engine_graph_fail(graph, LOBE_ERROR_GRAPH,
                                  "render graph: executed twice; begin a new frame in between");
     lobe_result result = lobe_graph_compile(graph);
+    return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
+}
+
+lobe_result lobe_graph_execute(lobe_graph *graph) {
+    lobe_result result = run(graph, NULL);
     if (result == LOBE_OK)
-        result = engine_graph_run(graph);
+        result = engine_graph_finish(graph);
     return engine_graph_propagate(graph, result);
+}
+
+static lobe_result check_submission(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    uint32_t waits = submission->wait_count, signals = submission->signal_count;
+    if (submission->commands && (waits || signals))
+        return engine_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
+                                 "render graph: semaphores are for whoever submits the host's "
+                                 "command buffer");
+    if (waits > LOBE_VULKAN_MAXIMUM_SEMAPHORES || signals > LOBE_VULKAN_MAXIMUM_SEMAPHORES)
+        return engine_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
+                                 "render graph: %u semaphores to wait for and %u to signal, more "
+                                 "than %d each",
+                                 waits, signals, LOBE_VULKAN_MAXIMUM_SEMAPHORES);
+    return LOBE_OK;
+}
+
+lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    lobe_result result = check_submission(graph, submission);
+    if (result == LOBE_OK)
+        result = run(graph, submission);
+    return engine_graph_propagate(graph, result);
+}
+
+lobe_result lobe_graph_wait(lobe_graph *graph) {
+    if (graph->phase != ENGINE_GRAPH_SUBMITTED)
+        return graph->result;
+    return engine_graph_propagate(graph, engine_graph_finish(graph));
 }

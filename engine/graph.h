@@ -76,6 +76,7 @@ typedef enum engine_graph_origin {
     ENGINE_GRAPH_TEXTURE,
     ENGINE_GRAPH_BUFFER, ///< imported
     ENGINE_GRAPH_UPLOAD,
+    ENGINE_GRAPH_HOST_IMAGE,
 } engine_graph_origin;
 
 typedef struct engine_graph_resource {
@@ -89,7 +90,8 @@ typedef struct engine_graph_resource {
     bool cube;     ///< some shader reads it as a cube
     const lobe_texture *texture;
     const lobe_buffer *buffer;
-    const void *upload; ///< bytes, in the arena
+    const lobe_vulkan_image *host; ///< in the arena
+    const void *upload;            ///< bytes, in the arena
     engine_graph_retained *retained;
     engine_graph_object *object; ///< where it is on the device; NULL: nothing that runs uses it
     uint64_t offset;             ///< of a buffer's content within the object's
@@ -163,8 +165,26 @@ struct lobe_pass {
 typedef enum engine_graph_phase {
     ENGINE_GRAPH_DECLARING,
     ENGINE_GRAPH_COMPILED,
+    ENGINE_GRAPH_SUBMITTED,
     ENGINE_GRAPH_EXECUTED,
 } engine_graph_phase;
+
+/// What a frame needs until the device has finished it.
+typedef struct engine_graph_flight {
+    bool busy;           ///< given to the device or the host, and not known to be finished
+    uint64_t submission; ///< value of the device's timeline that ends it; 0: the host submits it
+    VkCommandPool command_pool;
+    VkCommandBuffer commands; ///< of the pool
+    engine_graph_object uploads;
+    engine_allocation upload_memory;
+    uint64_t upload_size;
+    engine_staging read_back;
+    engine_graph_view *views; ///< of imported images
+    VkDescriptorPool descriptors;
+    uint32_t descriptor_capacity[5]; ///< sets, then as ENGINE_GRAPH_DESCRIPTOR_TYPES
+    VkQueryPool timestamps;
+    uint32_t timestamp_capacity;
+} engine_graph_flight;
 
 struct lobe_graph {
     lobe_device *device;
@@ -179,18 +199,11 @@ struct lobe_graph {
 
     engine_graph_retained *retained;
     engine_graph_transients transients;
-    engine_graph_object upload_object;
-    engine_allocation upload_memory;
-    uint64_t upload_size;
-    engine_staging read_back;
     engine_graph_object *imported; ///< of this frame, by resource
-    VkCommandPool command_pool;
-    VkCommandBuffer commands;
-    uint64_t submission; ///< value of the device's timeline that ends the last frame
-    VkDescriptorPool descriptors;
-    uint32_t descriptor_capacity[5]; ///< sets, then as ENGINE_GRAPH_DESCRIPTOR_TYPES
-    VkQueryPool timestamps;
-    uint32_t timestamp_capacity;
+    engine_graph_flight flights[LOBE_MAXIMUM_FRAMES_IN_FLIGHT];
+    uint32_t flight_count;       ///< of those in use
+    engine_graph_flight *flight; ///< of this frame
+    VkCommandBuffer commands;    ///< recorded into: the flight's or the host's
 
     lobe_graph_report report;
     lobe_pass_report *pass_reports;

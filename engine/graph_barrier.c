@@ -180,6 +180,10 @@ static void start_resource(barrier_builder *builder, uint32_t index) {
         tracker->write_stages = former.stages;
         tracker->write_access = former.access;
         tracker->took_memory = former.stages != 0;
+        if (resource->borrowed)
+            *tracker = (subresource_tracker){.layout = resource->before.layout,
+                                             .write_stages = resource->before.stages,
+                                             .write_access = resource->before.access};
     }
     builder->started[index] = true;
 }
@@ -368,6 +372,29 @@ static bool restore_imports(barrier_builder *builder) {
     return true;
 }
 
+/// What was borrowed goes back as its owner wants it, used or not.
+static bool return_borrowed(barrier_builder *builder) {
+    engine_dependency_graph *graph = builder->graph;
+    for (uint32_t index = 0; index < graph->resource_count; index++) {
+        const engine_dependency_resource *resource = &graph->resources[index];
+        if (!resource->borrowed)
+            continue;
+        if (!builder->started[index])
+            start_resource(builder, index);
+        for (uint32_t s = 0; s < resource->levels * resource->layers; s++) {
+            const subresource_tracker *last = &builder->trackers[resource->first_subresource + s];
+            subresource_use use = {
+                .position = graph->running_count, .resource = index, .subresource = s};
+            engine_access_state from = {.stages = last->write_stages | last->reader_stages,
+                                        .access = last->write_access,
+                                        .layout = last->layout};
+            if (!emit(builder, &use, from, resource->after))
+                return false;
+        }
+    }
+    return true;
+}
+
 static void record_end_layouts(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
     for (uint32_t index = 0; index < graph->resource_count; index++) {
@@ -400,7 +427,7 @@ bool engine_dependency_barriers(engine_dependency_graph *graph) {
     barrier_builder builder = {.graph = graph};
     graph->barrier_count = 0;
     bool fine = builder_create(&builder) && list_uses(&builder) && group_reads(&builder) &&
-                derive(&builder) && restore_imports(&builder);
+                derive(&builder) && restore_imports(&builder) && return_borrowed(&builder);
     if (fine) {
         extend_levels(graph);
         record_end_layouts(&builder);

@@ -7,6 +7,10 @@
 /// frame where `what` (a pass or resource) comes too late.
 bool engine_graph_may_declare(lobe_graph *graph, const char *what);
 
+/// Adds the resource under the same index to both tables; all zero after a failure.
+lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
+                                        const engine_dependency_resource *dependency);
+
 /// Adds a pass that the caller did not ask for; NULL after a failure.
 lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
 

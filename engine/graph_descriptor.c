@@ -75,38 +75,41 @@ static lobe_result create_pool(lobe_graph *graph) {
     VkDescriptorPoolSize sizes[TYPE_COUNT];
     uint32_t used = 0;
     for (size_t n = 0; n < TYPE_COUNT; n++)
-        if (graph->descriptor_capacity[1 + n] > 0)
-            sizes[used++] = (VkDescriptorPoolSize){types[n], graph->descriptor_capacity[1 + n]};
+        if (graph->flight->descriptor_capacity[1 + n] > 0)
+            sizes[used++] =
+                (VkDescriptorPoolSize){types[n], graph->flight->descriptor_capacity[1 + n]};
     const VkDescriptorPoolCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = graph->descriptor_capacity[0],
+        .maxSets = graph->flight->descriptor_capacity[0],
         .poolSizeCount = used,
         .pPoolSizes = sizes,
     };
-    return VULKAN_CHECK(&device->log,
-                        vkCreateDescriptorPool(device->vulkan, &create, NULL, &graph->descriptors),
-                        "render graph");
+    return VULKAN_CHECK(
+        &device->log,
+        vkCreateDescriptorPool(device->vulkan, &create, NULL, &graph->flight->descriptors),
+        "render graph");
 }
 
 /// Empties the pool; makes a larger one where it is too small for this frame.
 static lobe_result prepare_pool(lobe_graph *graph) {
     lobe_device *device = graph->device;
     uint32_t counts[1 + TYPE_COUNT] = {0};
-    bool large_enough = graph->descriptors != VK_NULL_HANDLE;
+    bool large_enough = graph->flight->descriptors != VK_NULL_HANDLE;
     count_descriptors(graph, counts);
     for (size_t n = 0; n < 1 + TYPE_COUNT; n++)
-        if (counts[n] > graph->descriptor_capacity[n]) {
-            graph->descriptor_capacity[n] = counts[n];
+        if (counts[n] > graph->flight->descriptor_capacity[n]) {
+            graph->flight->descriptor_capacity[n] = counts[n];
             large_enough = false;
         }
     if (large_enough || counts[0] == 0)
-        return graph->descriptors == VK_NULL_HANDLE
+        return graph->flight->descriptors == VK_NULL_HANDLE
                    ? LOBE_OK
-                   : VULKAN_CHECK(&device->log,
-                                  vkResetDescriptorPool(device->vulkan, graph->descriptors, 0),
-                                  "render graph");
-    vkDestroyDescriptorPool(device->vulkan, graph->descriptors, NULL);
-    graph->descriptors = VK_NULL_HANDLE;
+                   : VULKAN_CHECK(
+                         &device->log,
+                         vkResetDescriptorPool(device->vulkan, graph->flight->descriptors, 0),
+                         "render graph");
+    vkDestroyDescriptorPool(device->vulkan, graph->flight->descriptors, NULL);
+    graph->flight->descriptors = VK_NULL_HANDLE;
     return create_pool(graph);
 }
 
@@ -116,7 +119,7 @@ static lobe_result prepare_pool(lobe_graph *graph) {
 static lobe_result allocate_set(lobe_graph *graph, engine_graph_command *command) {
     const VkDescriptorSetAllocateInfo allocate = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = graph->descriptors,
+        .descriptorPool = graph->flight->descriptors,
         .descriptorSetCount = 1,
         .pSetLayouts = &command->pipeline->set_layout,
     };

@@ -2,7 +2,10 @@
 
 #include <string.h>
 
+#include <lobe/vulkan.h>
+
 #include "engine/graph_descriptor.h"
+#include "engine/graph_flight.h"
 #include "engine/graph_memory.h"
 #include "engine/graph_report.h"
 #include "engine/graph_retain.h"
@@ -28,11 +31,11 @@ static lobe_result place_read_backs(lobe_graph *graph) {
         size += (command->read_back_size + READ_BACK_ALIGNMENT - 1) / READ_BACK_ALIGNMENT *
                 READ_BACK_ALIGNMENT;
     }
-    if (size <= graph->read_back.size)
+    if (size <= graph->flight->read_back.size)
         return LOBE_OK;
-    engine_staging_destroy(graph->device, &graph->read_back);
+    engine_staging_destroy(graph->device, &graph->flight->read_back);
     return engine_staging_create(graph->device, "read back of the frame", size,
-                                 ENGINE_MEMORY_READ_BACK, &graph->read_back);
+                                 ENGINE_MEMORY_READ_BACK, &graph->flight->read_back);
 }
 
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size) {
@@ -45,7 +48,7 @@ const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, siz
             continue;
         if (size)
             *size = command->read_back_size;
-        return (const char *)graph->read_back.mapped + command->read_back_offset;
+        return (const char *)graph->flight->read_back.mapped + command->read_back_offset;
     }
     return NULL;
 }
@@ -60,7 +63,8 @@ static lobe_result begin_recording(lobe_graph *graph) {
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkResetCommandPool(device->vulkan, graph->command_pool, 0), "render graph");
+        &device->log, vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
+        "render graph");
     if (result == LOBE_OK)
         result = VULKAN_CHECK(&device->log, vkBeginCommandBuffer(graph->commands, &begin),
                               "render graph");
@@ -85,11 +89,13 @@ static lobe_result record_passes(lobe_graph *graph) {
     return result;
 }
 
-static lobe_result record(lobe_graph *graph) {
-    lobe_result result = begin_recording(graph);
+/// `host`: into the command buffer of the host.
+static lobe_result record(lobe_graph *graph, VkCommandBuffer host) {
+    graph->commands = host ? host : graph->flight->commands;
+    lobe_result result = host ? LOBE_OK : begin_recording(graph);
     if (result == LOBE_OK)
         result = record_passes(graph);
-    if (result == LOBE_OK)
+    if (result == LOBE_OK && !host)
         result =
             VULKAN_CHECK(&graph->device->log, vkEndCommandBuffer(graph->commands), "render graph");
     return result;
@@ -109,30 +115,44 @@ static lobe_result prepare(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Execution
 
-static lobe_result submit_and_wait(lobe_graph *graph) {
+/// Where the host submits, it does so before anything else that lobe does on the queue: what is
+/// retained counts as made in both cases.
+static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    engine_graph_flight *flight = graph->flight;
+    lobe_result result = LOBE_OK;
     engine_graph_doubt_retained(graph);
-    lobe_result result = engine_device_submit(graph->device, graph->commands, &graph->submission);
+    if (!submission || !submission->commands)
+        result =
+            engine_device_submit(graph->device, graph->commands, submission, &flight->submission);
+    if (result != LOBE_OK)
+        return result;
+    flight->busy = true;
+    engine_graph_record_retained(graph);
+    return LOBE_OK;
+}
+
+lobe_result engine_graph_run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    lobe_result result = prepare(graph);
     if (result == LOBE_OK)
-        result = engine_device_wait(graph->device, graph->submission);
+        result = record(graph, submission ? submission->commands : VK_NULL_HANDLE);
     if (result == LOBE_OK)
-        engine_graph_record_retained(graph);
+        result = submit(graph, submission);
+    graph->phase = result == LOBE_OK ? ENGINE_GRAPH_SUBMITTED : ENGINE_GRAPH_EXECUTED;
+    engine_graph_forget_imports(graph);
     return result;
 }
 
-lobe_result engine_graph_run(lobe_graph *graph) {
-    lobe_result result = prepare(graph);
-    if (result == LOBE_OK)
-        result = record(graph);
-    if (result == LOBE_OK)
-        result = submit_and_wait(graph);
+lobe_result engine_graph_finish(lobe_graph *graph) {
+    engine_graph_flight *flight = graph->flight;
+    lobe_result result = LOBE_OK;
+    if (flight->submission)
+        result = engine_device_wait(graph->device, flight->submission);
+    graph->phase = ENGINE_GRAPH_EXECUTED;
+    engine_graph_retire_flight(graph, flight);
     if (result == LOBE_OK)
         result = engine_graph_read_timestamps(graph);
-    graph->phase = ENGINE_GRAPH_EXECUTED;
-    engine_graph_forget_imports(graph);
-    return result == LOBE_OK ? engine_graph_report_executed(graph) : result;
-}
-
-void engine_graph_free_recording(lobe_graph *graph) {
-    vkDestroyDescriptorPool(graph->device->vulkan, graph->descriptors, NULL);
-    vkDestroyQueryPool(graph->device->vulkan, graph->timestamps, NULL);
+    if (result == LOBE_OK)
+        return engine_graph_report_executed(graph);
+    engine_graph_doubt_retained(graph);
+    return result;
 }

@@ -5,7 +5,10 @@
 #include <string.h>
 
 #include "engine/graph_alias.h"
+#include "engine/graph_flight.h"
 #include "engine/graph_object.h"
+
+#include <lobe/vulkan.h>
 
 // ---------------------------------------------------------------------------------------------
 // Which transients, and whether they are those of the last frame
@@ -219,6 +222,8 @@ static void publish_transients(lobe_graph *graph) {
 lobe_result engine_graph_place_transients(lobe_graph *graph) {
     engine_stamp plan = plan_stamp(graph);
     if (graph->transients.plan != plan) {
+        if (graph->transients.count > 0)
+            engine_graph_finish_flights(graph);
         free_transients(graph);
         lobe_result result = make_transients(graph);
         if (result != LOBE_OK) {
@@ -235,18 +240,18 @@ lobe_result engine_graph_place_transients(lobe_graph *graph) {
 // What comes from the host
 
 static lobe_result reserve_uploads(lobe_graph *graph, uint64_t size) {
-    if (size <= graph->upload_size)
+    if (size <= graph->flight->upload_size)
         return LOBE_OK;
-    engine_buffer_destroy_placed(graph->device, &graph->upload_object.buffer,
-                                 &graph->upload_memory);
-    graph->upload_size = 0;
+    engine_buffer_destroy_placed(graph->device, &graph->flight->uploads.buffer,
+                                 &graph->flight->upload_memory);
+    graph->flight->upload_size = 0;
     VkFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     lobe_result result = engine_buffer_create_placed(
         graph->device, "uploads of the frame", size, usage, ENGINE_MEMORY_UPLOAD,
-        &graph->upload_object.buffer, &graph->upload_memory);
+        &graph->flight->uploads.buffer, &graph->flight->upload_memory);
     if (result == LOBE_OK)
-        graph->upload_size = size;
+        graph->flight->upload_size = size;
     return result;
 }
 
@@ -274,8 +279,8 @@ static lobe_result place_uploads(lobe_graph *graph) {
         engine_graph_resource *resource = &graph->resources[n];
         if (resource->origin != ENGINE_GRAPH_UPLOAD)
             continue;
-        resource->object = &graph->upload_object;
-        memcpy((char *)graph->upload_memory.mapped + resource->offset, resource->upload,
+        resource->object = &graph->flight->uploads;
+        memcpy((char *)graph->flight->upload_memory.mapped + resource->offset, resource->upload,
                resource->size);
     }
     return result;
@@ -288,12 +293,14 @@ lobe_result engine_graph_place_imports(lobe_graph *graph) {
         return engine_graph_fail_memory(graph);
     for (uint32_t n = 0; n < count; n++) {
         engine_graph_resource *resource = &graph->resources[n];
-        if (resource->origin != ENGINE_GRAPH_TEXTURE && resource->origin != ENGINE_GRAPH_BUFFER)
-            continue;
-        if (resource->origin == ENGINE_GRAPH_TEXTURE)
+        if (resource->texture)
             graph->imported[n].image = resource->texture->image;
-        else
+        else if (resource->buffer)
             graph->imported[n].buffer = resource->buffer->buffer;
+        else if (resource->host)
+            graph->imported[n].image = resource->host->image;
+        else
+            continue;
         resource->object = &graph->imported[n];
     }
     return place_uploads(graph);
@@ -301,13 +308,15 @@ lobe_result engine_graph_place_imports(lobe_graph *graph) {
 
 void engine_graph_forget_imports(lobe_graph *graph) {
     for (uint32_t n = 0; graph->imported && n < graph->dependencies.resource_count; n++)
-        engine_graph_free_views(graph->device, &graph->imported[n]);
+        while (graph->imported[n].views) {
+            engine_graph_view *view = graph->imported[n].views;
+            graph->imported[n].views = view->next;
+            view->next = graph->flight->views;
+            graph->flight->views = view;
+        }
     graph->imported = NULL;
 }
 
 void engine_graph_free_memory(lobe_graph *graph) {
     free_transients(graph);
-    engine_buffer_destroy_placed(graph->device, &graph->upload_object.buffer,
-                                 &graph->upload_memory);
-    engine_staging_destroy(graph->device, &graph->read_back);
 }

@@ -9,10 +9,10 @@ lobe_result engine_graph_place_transients(lobe_graph *graph);
 
 /// Execution: objects for what comes from the host; copies the uploads.
 lobe_result engine_graph_place_imports(lobe_graph *graph);
-/// Drops views of imported images: the images may be gone before the next frame.
+/// Hands views of imported images to the flight: the images may be gone before the next frame.
 void engine_graph_forget_imports(lobe_graph *graph);
 
-/// Frees transients, uploads and read back memory.
+/// Frees transients. All frames must have been finished.
 void engine_graph_free_memory(lobe_graph *graph);
 
 #endif

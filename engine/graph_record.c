@@ -230,7 +230,7 @@ static void read_back_image(lobe_graph *graph, const engine_graph_command *comma
                                         .imageExtent = extent};
         vkCmdCopyImageToBuffer(graph->commands, source->object->image,
                                engine_graph_vulkan_layout(access->state.layout),
-                               graph->read_back.buffer, 1, &copy);
+                               graph->flight->read_back.buffer, 1, &copy);
         offset += (VkDeviceSize)extent.width * extent.height * access->range.layer_count *
                   lobe_format_size(source->format);
     }
@@ -245,7 +245,8 @@ static void record_read_back(lobe_graph *graph, const engine_graph_command *comm
     const VkBufferCopy copy = {.srcOffset = source->offset,
                                .dstOffset = command->read_back_offset,
                                .size = command->read_back_size};
-    vkCmdCopyBuffer(graph->commands, source->object->buffer, graph->read_back.buffer, 1, &copy);
+    vkCmdCopyBuffer(graph->commands, source->object->buffer, graph->flight->read_back.buffer, 1,
+                    &copy);
 }
 
 // ---------------------------------------------------------------------------------------------

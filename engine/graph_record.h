@@ -20,8 +20,9 @@ void engine_graph_reset_timestamps(lobe_graph *graph);
 void engine_graph_write_timestamp(lobe_graph *graph, uint32_t position, bool after);
 lobe_result engine_graph_read_timestamps(lobe_graph *graph);
 
-/// Records, submits and waits (graph_execute.c).
-lobe_result engine_graph_run(lobe_graph *graph);
-void engine_graph_free_recording(lobe_graph *graph);
+/// Records and submits (graph_execute.c). `submission` NULL: without semaphores of the host's.
+lobe_result engine_graph_run(lobe_graph *graph, const lobe_vulkan_submission *submission);
+/// Waits for what was submitted, and reads the times.
+lobe_result engine_graph_finish(lobe_graph *graph);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "engine/format.h"
-#include "engine/graph_descriptor.h"
+#include "engine/graph_host.h"
 
 typedef struct barrier_batch {
     VkImageMemoryBarrier2 *images;
@@ -42,11 +42,13 @@ void engine_graph_record_end(lobe_graph *graph) {
 }
 
 /// Content from a former frame has no stage in this one to wait for: its transition must then
-/// come after the barrier at the start.
+/// come after the barrier at the start. So must that of memory which a former frame, still under
+/// way, may be using; the stages that use it next are enough to wait for.
 static VkPipelineStageFlags2 source_stages(const engine_dependency_barrier *barrier) {
-    if (barrier->from.stages == 0 && barrier->from.layout != ENGINE_LAYOUT_UNDEFINED)
-        return VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    return barrier->from.stages;
+    if (barrier->from.stages != 0)
+        return barrier->from.stages;
+    return barrier->from.layout == ENGINE_LAYOUT_UNDEFINED ? barrier->to.stages
+                                                           : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 }
 
 static void add_image(const lobe_graph *graph, const engine_dependency_barrier *barrier,
@@ -58,8 +60,8 @@ static void add_image(const lobe_graph *graph, const engine_dependency_barrier *
         .srcAccessMask = barrier->from.access,
         .dstStageMask = barrier->to.stages,
         .dstAccessMask = barrier->to.access,
-        .oldLayout = engine_graph_vulkan_layout(barrier->from.layout),
-        .newLayout = engine_graph_vulkan_layout(barrier->to.layout),
+        .oldLayout = engine_graph_layout_of(resource, barrier->from.layout),
+        .newLayout = engine_graph_layout_of(resource, barrier->to.layout),
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = resource->object->image,

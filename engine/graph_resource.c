@@ -19,9 +19,8 @@ bool engine_graph_may_declare(lobe_graph *graph, const char *what) {
     return false;
 }
 
-/// Adds the resource under the same index to both tables.
-static lobe_resource add_resource(lobe_graph *graph, const engine_graph_resource *resource,
-                                  const engine_dependency_resource *dependency) {
+lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
+                                        const engine_dependency_resource *dependency) {
     uint32_t index = graph->dependencies.resource_count;
     if (!engine_array_reserve((void **)&graph->resources, &graph->resource_capacity,
                               (uint64_t)index + 1, sizeof *graph->resources)) {
@@ -131,7 +130,7 @@ static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource,
         if (!claim_retained(graph, resource, &dependency))
             return (lobe_resource){0};
     }
-    return add_resource(graph, resource, &dependency);
+    return engine_graph_add_resource(graph, resource, &dependency);
 }
 
 lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description) {
@@ -208,7 +207,8 @@ lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *t
                                              .imported = true,
                                              .identity = texture->stamp,
                                              .start_layouts = &layout};
-    return resource.name ? add_resource(graph, &resource, &dependency) : (lobe_resource){0};
+    return resource.name ? engine_graph_add_resource(graph, &resource, &dependency)
+                         : (lobe_resource){0};
 }
 
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer) {
@@ -229,7 +229,8 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
                                              .layers = 1,
                                              .imported = true,
                                              .identity = buffer->stamp};
-    return resource.name ? add_resource(graph, &resource, &dependency) : (lobe_resource){0};
+    return resource.name ? engine_graph_add_resource(graph, &resource, &dependency)
+                         : (lobe_resource){0};
 }
 
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data,
@@ -260,5 +261,5 @@ lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void 
                                              .imported = true,
                                              .identity =
                                                  engine_stamp_bytes(ENGINE_STAMP_NONE, data, size)};
-    return add_resource(graph, &resource, &dependency);
+    return engine_graph_add_resource(graph, &resource, &dependency);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/format.h"
+#include "engine/graph_flight.h"
 #include "engine/graph_object.h"
 #include "engine/vulkan_check.h"
 
@@ -37,6 +38,7 @@ lobe_result engine_graph_release_retained(lobe_graph *graph) {
             continue;
         }
         *link = kept->next;
+        engine_graph_finish_flights(graph);
         free_retained(graph, kept);
     }
     return LOBE_OK;
@@ -80,6 +82,7 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
             resource->is_image && resource->layers % 6 == 0 && resource->width == resource->height;
         if (!kept || (resource->usage & ~kept->usage) == 0)
             continue;
+        engine_graph_finish_flights(graph);
         engine_graph_free_object(graph->device, &kept->object);
         engine_memory_free(graph->device->memory, &kept->allocation);
         forget_content(kept);

@@ -9,27 +9,28 @@ static bool can_time(const lobe_graph *graph) {
 lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
     lobe_device *device = graph->device;
     uint32_t needed = 2 * graph->dependencies.running_count;
-    if (!can_time(graph) || needed <= graph->timestamp_capacity)
+    if (!can_time(graph) || needed <= graph->flight->timestamp_capacity)
         return LOBE_OK;
-    vkDestroyQueryPool(device->vulkan, graph->timestamps, NULL);
-    graph->timestamps = VK_NULL_HANDLE;
-    graph->timestamp_capacity = 0;
+    vkDestroyQueryPool(device->vulkan, graph->flight->timestamps, NULL);
+    graph->flight->timestamps = VK_NULL_HANDLE;
+    graph->flight->timestamp_capacity = 0;
     const VkQueryPoolCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
         .queryType = VK_QUERY_TYPE_TIMESTAMP,
         .queryCount = needed,
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateQueryPool(device->vulkan, &create, NULL, &graph->timestamps),
+        &device->log, vkCreateQueryPool(device->vulkan, &create, NULL, &graph->flight->timestamps),
         "render graph");
     if (result == LOBE_OK)
-        graph->timestamp_capacity = needed;
+        graph->flight->timestamp_capacity = needed;
     return result;
 }
 
 void engine_graph_reset_timestamps(lobe_graph *graph) {
     if (can_time(graph))
-        vkCmdResetQueryPool(graph->commands, graph->timestamps, 0, graph->timestamp_capacity);
+        vkCmdResetQueryPool(graph->commands, graph->flight->timestamps, 0,
+                            graph->flight->timestamp_capacity);
 }
 
 /// After all commands so far are done, on both sides of a pass: else passes that overlap would
@@ -37,7 +38,7 @@ void engine_graph_reset_timestamps(lobe_graph *graph) {
 void engine_graph_write_timestamp(lobe_graph *graph, uint32_t position, bool after) {
     if (can_time(graph))
         vkCmdWriteTimestamp2(graph->commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                             graph->timestamps, 2 * position + after);
+                             graph->flight->timestamps, 2 * position + after);
 }
 
 static double milliseconds_between(const lobe_graph *graph, uint64_t first, uint64_t last) {
@@ -53,12 +54,12 @@ lobe_result engine_graph_read_timestamps(lobe_graph *graph) {
     uint64_t *ticks = engine_arena_allocate(&graph->arena, 2 * count * sizeof *ticks);
     if (!ticks)
         return engine_graph_fail_memory(graph);
-    lobe_result result =
-        VULKAN_CHECK(&graph->device->log,
-                     vkGetQueryPoolResults(graph->device->vulkan, graph->timestamps, 0, 2 * count,
-                                           2 * count * sizeof *ticks, ticks, sizeof *ticks,
-                                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                     "render graph");
+    lobe_result result = VULKAN_CHECK(
+        &graph->device->log,
+        vkGetQueryPoolResults(graph->device->vulkan, graph->flight->timestamps, 0, 2 * count,
+                              2 * count * sizeof *ticks, ticks, sizeof *ticks,
+                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+        "render graph");
     if (result != LOBE_OK)
         return result;
     for (uint32_t n = 0; n < count; n++)

@@ -60,8 +60,10 @@ static bool pass_reads(const history *past, const subresource_history *subresour
 
 /// From the host, or from the frame before.
 static bool has_content_at_start(const engine_dependency_resource *resource, uint32_t subresource) {
-    return resource->imported || (resource->retained && resource->recorded &&
-                                  resource->recorded[subresource] != ENGINE_STAMP_NONE);
+    return resource->imported ||
+           (resource->borrowed && resource->before.layout != ENGINE_LAYOUT_UNDEFINED) ||
+           (resource->retained && resource->recorded &&
+            resource->recorded[subresource] != ENGINE_STAMP_NONE);
 }
 
 static bool link_read(engine_dependency_graph *graph, history *past,

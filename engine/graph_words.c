@@ -27,6 +27,8 @@ const char *engine_graph_layout_word(engine_layout layout) {
         [ENGINE_LAYOUT_DEPTH] = "depth",
         [ENGINE_LAYOUT_COPY_SOURCE] = "copy source",
         [ENGINE_LAYOUT_COPY_TARGET] = "copy target",
+        [ENGINE_LAYOUT_LENT] = "lent",
+        [ENGINE_LAYOUT_RETURNED] = "returned",
     };
     return words[layout];
 }
@@ -35,7 +37,7 @@ const char *engine_graph_origin_word(engine_graph_origin origin) {
     static const char *const words[] = {
         [ENGINE_GRAPH_TRANSIENT] = "transient", [ENGINE_GRAPH_RETAINED] = "retained",
         [ENGINE_GRAPH_TEXTURE] = "imported",    [ENGINE_GRAPH_BUFFER] = "imported",
-        [ENGINE_GRAPH_UPLOAD] = "uploaded",
+        [ENGINE_GRAPH_UPLOAD] = "uploaded",     [ENGINE_GRAPH_HOST_IMAGE] = "the host's",
     };
     return words[origin];
 }

@@ -23,6 +23,8 @@ static const format_information *describe(lobe_format format) {
         [LOBE_FORMAT_R32_FLOAT] = {"R32_FLOAT", 4, 1},
         [LOBE_FORMAT_RG32_FLOAT] = {"RG32_FLOAT", 8, 2},
         [LOBE_FORMAT_RGBA32_FLOAT] = {"RGBA32_FLOAT", 16, 4},
+        [LOBE_FORMAT_BGRA8_UNORM] = {"BGRA8_UNORM", 4, 4},
+        [LOBE_FORMAT_BGRA8_SRGB] = {"BGRA8_SRGB", 4, 4},
         [LOBE_FORMAT_D32_FLOAT] = {"D32_FLOAT", 4, 1},
     };
     return &formats[(unsigned)format < LOBE_FORMAT_COUNT ? format : LOBE_FORMAT_NONE];

@@ -13,6 +13,7 @@ typedef struct shader_table {
     const engine_shader_code *codes;
     size_t count;
     char *folder; ///< of the sources; NULL where none is known
+    void *owned;  ///< what `codes` points to; NULL where that outlives the device
 } shader_table;
 
 typedef struct loaded_shader {
@@ -68,10 +69,29 @@ static const shader_table *library_table(const engine_shaders *shaders) {
 // ---------------------------------------------------------------------------------------------
 // Loading
 
+/// Of the host's shaders there is no source: their words are what they are.
+static lobe_result get_words(const engine_shaders *shaders, lobe_log_level level,
+                             const engine_shader_folders *folders, const engine_shader_code *code,
+                             engine_shader_words *words) {
+    if (code->source)
+        return engine_shader_words_get(&shaders->device->log, level, folders, code, words);
+    *words = (engine_shader_words){code->words, code->size / sizeof *code->words, NULL};
+    return LOBE_OK;
+}
+
+static bool are_stale(const loaded_shader *loaded) {
+    return loaded->code->source && engine_shader_words_are_stale(&loaded->words);
+}
+
+static void free_words(const engine_shader_code *code, engine_shader_words *words) {
+    if (code->source)
+        engine_shader_words_free(words);
+}
+
 static void free_loaded(lobe_device *device, loaded_shader *loaded) {
     vkDestroyShaderModule(device->vulkan, loaded->shader.module, NULL);
     engine_reflection_free(&loaded->shader);
-    engine_shader_words_free(&loaded->words);
+    free_words(loaded->code, &loaded->words);
     free(loaded);
 }
 
@@ -96,7 +116,7 @@ static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
     lobe_device *device = shaders->device;
     loaded_shader *loaded = calloc(1, sizeof *loaded);
     if (!loaded) {
-        engine_shader_words_free(words);
+        free_words(code, words);
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
                              code->name);
     }
@@ -128,10 +148,9 @@ static loaded_shader *find_loaded(const engine_shaders *shaders, const engine_sh
 static lobe_result load_first(engine_shaders *shaders, const engine_shader_code *code,
                               const engine_shader_folders *folders, loaded_shader **loaded) {
     engine_shader_words words;
-    const lobe_result result =
-        engine_shader_words_get(&shaders->device->log, LOBE_LOG_ERROR, folders, code, &words);
+    const lobe_result result = get_words(shaders, LOBE_LOG_ERROR, folders, code, &words);
     if (result != LOBE_OK) {
-        engine_shader_words_free(&words);
+        free_words(code, &words);
         return result;
     }
     return load(shaders, code, &words, loaded);
@@ -142,14 +161,13 @@ static lobe_result load_first(engine_shaders *shaders, const engine_shader_code 
 static lobe_result load_again(engine_shaders *shaders, const engine_shader_code *code,
                               const engine_shader_folders *folders, loaded_shader **loaded) {
     engine_shader_words words;
-    const lobe_result result =
-        engine_shader_words_get(&shaders->device->log, LOBE_LOG_WARNING, folders, code, &words);
+    const lobe_result result = get_words(shaders, LOBE_LOG_WARNING, folders, code, &words);
     if (result == LOBE_OK)
         return load(shaders, code, &words, loaded);
     engine_source_files *old = (*loaded)->words.files;
     (*loaded)->words.files = words.files;
     words.files = old;
-    engine_shader_words_free(&words);
+    free_words(code, &words);
     return LOBE_OK;
 }
 
@@ -180,6 +198,7 @@ void engine_shaders_destroy(engine_shaders **shaders) {
     for (shader_table *table = (*shaders)->tables, *next; table; table = next) {
         next = table->next;
         free(table->folder);
+        free(table->owned);
         free(table);
     }
     free(*shaders);
@@ -189,6 +208,51 @@ void engine_shaders_destroy(engine_shaders **shaders) {
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder) {
     return add_table(device->shaders, codes, count, folder);
+}
+
+/// Name and words lie behind the code, in one piece of memory.
+static engine_shader_code *copy_code(const lobe_shader *shader) {
+    const size_t name_size = strlen(shader->name) + 1;
+    engine_shader_code *code = malloc(sizeof *code + shader->size + name_size);
+    if (!code)
+        return NULL;
+    uint32_t *words = (uint32_t *)(code + 1);
+    char *name = (char *)words + shader->size;
+    memcpy(words, shader->words, shader->size);
+    memcpy(name, shader->name, name_size);
+    *code = (engine_shader_code){.name = name, .words = words, .size = shader->size};
+    return code;
+}
+
+static void remove_last_table(engine_shaders *shaders) {
+    shader_table *gone = shaders->tables;
+    shaders->tables = gone->next;
+    free(gone->owned);
+    free(gone);
+}
+
+lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader) {
+    engine_shaders *shaders = device->shaders;
+    if (!shader->name || !shader->words || shader->size == 0 || shader->size % 4 != 0)
+        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "shader '%s': a name and whole words of SPIR-V are needed",
+                             shader->name ? shader->name : "");
+    engine_shader_code *code = copy_code(shader);
+    if (!code)
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                             shader->name);
+    lobe_result result = add_table(shaders, code, 1, NULL);
+    if (result != LOBE_OK) {
+        free(code);
+        return result;
+    }
+    shaders->tables->owned = code;
+    // What is wrong with it is told here, not by the first pass that uses it.
+    const engine_shader *found;
+    result = engine_shader_find(device, shader->name, &found);
+    if (result != LOBE_OK)
+        remove_last_table(shaders);
+    return result;
 }
 
 lobe_result engine_shader_find(lobe_device *device, const char *name,
@@ -204,7 +268,7 @@ lobe_result engine_shader_find(lobe_device *device, const char *name,
     lobe_result result = LOBE_OK;
     if (!loaded)
         result = load_first(shaders, code, &folders, &loaded);
-    else if (engine_shader_words_are_stale(&loaded->words))
+    else if (are_stale(loaded))
         result = load_again(shaders, code, &folders, &loaded);
     if (result == LOBE_OK)
         *shader = &loaded->shader;

@@ -44,8 +44,9 @@ typedef struct engine_shader {
 /// A shader as the build embeds it: its words, and what they were made from, so that a build with
 /// hot reload can make them again.
 typedef struct engine_shader_code {
-    const char *name;        ///< "shading_lobes_aov.frag"
-    const char *source;      ///< "shading.frag", relative to the shader folder
+    const char *name; ///< "shading_lobes_aov.frag"
+    /// "shading.frag", relative to the shader folder; NULL: there is none, the words are all.
+    const char *source;
     const char *definitions; ///< "AOV", separated by spaces
     const char *substitute;  ///< what `#include "filter.glsl"` stands for; "" where nothing
     const uint32_t *words;

@@ -451,12 +451,12 @@ static void a_still_frame_allocates_nothing(void **state) {
     // Whoever plans memory anew loses the mark.
     const uint32_t mark = 12345;
     fixture->graph->transients.requests[0].first = mark;
-    const VkDescriptorPool pool = fixture->graph->descriptors;
-    const VkQueryPool timestamps = fixture->graph->timestamps;
+    const VkDescriptorPool pool = fixture->graph->flight->descriptors;
+    const VkQueryPool timestamps = fixture->graph->flight->timestamps;
     timed_frame(fixture, 1 << 16);
     assert_int_equal(fixture->graph->transients.requests[0].first, mark);
-    assert_ptr_equal(fixture->graph->descriptors, pool);
-    assert_ptr_equal(fixture->graph->timestamps, timestamps);
+    assert_ptr_equal(fixture->graph->flight->descriptors, pool);
+    assert_ptr_equal(fixture->graph->flight->timestamps, timestamps);
     timed_frame(fixture, 1 << 17);
     assert_int_not_equal(fixture->graph->transients.requests[0].first, mark);
 }

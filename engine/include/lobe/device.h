@@ -136,6 +136,22 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
 lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data);
 void lobe_buffer_destroy(lobe_buffer **buffer);
 
+// ---------------------------------------------------------------------------------------------
+// Shaders
+
+/// A shader of the host's, for passes of its own.
+typedef struct lobe_shader {
+    const char *name;      ///< by which passes call it, for example "outline.frag"
+    const uint32_t *words; ///< SPIR-V of one vertex, fragment or compute shader; entry point "main"
+    size_t size;           ///< bytes
+} lobe_shader;
+
+/// Makes a shader known to the device. Copied. A shader of the same name is replaced, for passes
+/// that are declared from now on; one of lobe's own, too. Its bindings are in set 0, see
+/// lobe_binding. Errors: LOBE_ERROR_SHADER (not SPIR-V, another stage, another set),
+/// LOBE_ERROR_INVALID_ARGUMENT (no name, no words, a part of a word); nothing is replaced then.
+lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader);
+
 #ifdef __cplusplus
 }
 #endif

@@ -25,6 +25,11 @@ extern "C" {
 /// Not thread-safe: one graph, one thread.
 typedef struct lobe_graph lobe_graph;
 
+/// An image of a host with Vulkan of its own, and how such a host's frame gets to the device: both
+/// are defined in lobe/vulkan.h.
+typedef struct lobe_vulkan_image lobe_vulkan_image;
+typedef struct lobe_vulkan_submission lobe_vulkan_submission;
+
 /// A pass being declared; valid until the next lobe_graph_begin.
 typedef struct lobe_pass lobe_pass;
 
@@ -92,6 +97,11 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 /// live until the frame has executed. Importing the same object twice gives the same resource.
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
+
+/// Brings in an image of the host's Vulkan: passes may draw into it, write it where its usage
+/// allows, and read what it holds. At the end of the frame it is in the layout that the host
+/// wants. Copied. What passes make of its content is made again in every frame.
+lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
 /// A small buffer with content for this frame (camera, lights). Copied; at most 4 MiB. A pass
 /// that reads it counts as unchanged while the bytes stay the same.
@@ -227,9 +237,30 @@ lobe_result lobe_graph_compile(lobe_graph *graph);
 /// Compiles where that was not done, records, submits, and waits for the end.
 lobe_result lobe_graph_execute(lobe_graph *graph);
 
-/// The bytes read back from `resource` in the frame just executed: levels in order, within a
-/// level layers, rows from top to bottom, tightly packed. Valid until the next begin. NULL where
-/// it was not marked with lobe_graph_read_back. `size` may be NULL.
+/// Most frames that may be in flight.
+#define LOBE_MAXIMUM_FRAMES_IN_FLIGHT 4
+
+/// How many submitted frames of this graph the device may have before it, the one being recorded
+/// included; [1, LOBE_MAXIMUM_FRAMES_IN_FLIGHT], else clamped; 1 at first. Holds from the next
+/// begin. Frames of one graph follow one another on the device; the host works ahead of it.
+void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
+
+/// Compiles where that was not done, records, and submits without waiting, or records into the
+/// host's command buffer: `submission` says how. lobe_graph_begin waits until fewer frames than
+/// allowed are in flight; of frames in the host's command buffers the host knows itself: the one
+/// that was recorded so many frames before must have been finished when the next is begun.
+/// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
+/// buffer, or too many).
+lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
+
+/// Waits until the device has finished the frame last submitted: lobe_graph_data has its data,
+/// lobe_graph_describe its times. Where it is in the host's command buffer, the host must have
+/// waited for that itself. Nothing happens where no frame was submitted.
+lobe_result lobe_graph_wait(lobe_graph *graph);
+
+/// The bytes read back from `resource` in the frame just executed, or waited for: levels in order,
+/// within a level layers, rows from top to bottom, tightly packed. Valid until the next begin. NULL
+/// where it was not marked with lobe_graph_read_back. `size` may be NULL.
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
 /// Forgets that retained content is up to date (its memory stays): all its passes run again.

@@ -27,6 +27,8 @@ typedef enum lobe_format {
     LOBE_FORMAT_R32_FLOAT,
     LOBE_FORMAT_RG32_FLOAT,
     LOBE_FORMAT_RGBA32_FLOAT,
+    LOBE_FORMAT_BGRA8_UNORM, ///< as displays want it
+    LOBE_FORMAT_BGRA8_SRGB,
     LOBE_FORMAT_D32_FLOAT, ///< depth, device images only
     LOBE_FORMAT_COUNT
 } lobe_format;
