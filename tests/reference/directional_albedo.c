@@ -6,7 +6,7 @@
 #include "tests/reference/microfacet.h"
 #include "tests/reference/vector.h"
 
-enum { ANGLES = 400, AZIMUTHS = 160, DIFFUSE_STEPS = 400 };
+enum { ANGLES = 240, AZIMUTHS = 96, DIFFUSE_STEPS = 400 };
 
 /// Adds what one half vector of a solid angle reflects.
 static void add_half_vector(lobe_distribution distribution, double parameter,

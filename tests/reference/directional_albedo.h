@@ -6,7 +6,7 @@
 /// What a microfacet surface reflects of even light from all around, in double precision and by
 /// brute force; see shaders/directional_albedo.comp. cosine in (0, 1], roughness in [0, 1].
 
-/// Parts of F_0 and of F_90, to 3e-5.
+/// Parts of F_0 and of F_90, to 7e-5.
 void reference_specular_parts(lobe_distribution distribution, double cosine, double roughness,
                               double parts[2]);
 

@@ -11,6 +11,7 @@
 #include "shaders/interface/clustering.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
+#include "shaders/interface/irradiance_harmonics.h"
 #include "shaders/interface/light.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/moment_bins.h"
@@ -48,6 +49,10 @@ static known_member known[] = {
     MEMBER(frame_constants, point_count, 5),
     MEMBER(frame_constants, spot_count, 6),
     MEMBER(instance_constants, rows, 0),
+    MEMBER(irradiance_harmonics, coefficients, 0),
+    MEMBER(irradiance_harmonics_constants, size, 0),
+    MEMBER(irradiance_harmonics_sum_constants, band_factors, 0),
+    MEMBER(irradiance_harmonics_sum_constants, count, 1),
     MEMBER(light, position, 0),
     MEMBER(light, direction, 1),
     MEMBER(light, intensity, 2),
