@@ -209,11 +209,6 @@ static const char *unpack_line(hdr_reader *reader, uint8_t *line) {
 // ---------------------------------------------------------------------------------------------
 // Texels
 
-// A mantissa stands for all that is cut to it, in the middle of which it is put (Ward 1991).
-static double component(uint8_t mantissa, uint8_t exponent) {
-    return exponent ? ldexp(mantissa + 0.5, exponent - (128 + 8)) : 0;
-}
-
 // From CIE XYZ to Radiance's primaries (0.640, 0.330), (0.290, 0.600), (0.150, 0.060) with white at
 // (1/3, 1/3), after SMPTE RP 177-1993, sections 3.3.1 to 3.3.7.
 static void rgb_of_xyz(double v[3]) {
@@ -226,9 +221,11 @@ static void rgb_of_xyz(double v[3]) {
 }
 
 static void place_texel(const hdr_reader *reader, const uint8_t *from, float *to) {
+    // A mantissa stands for all that is cut to it, in the middle of which it is put (Ward 1991).
+    const double step = from[3] ? ldexp(1, from[3] - (128 + 8)) : 0;
     double v[3];
     for (int i = 0; i < 3; i++)
-        v[i] = component(from[i], from[3]);
+        v[i] = step * (from[i] + 0.5);
     if (reader->xyz)
         rgb_of_xyz(v);
     for (int i = 0; i < 3; i++)

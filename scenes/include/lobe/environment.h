@@ -2,6 +2,7 @@
 #define LOBE_ENVIRONMENT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <lobe/image.h>
 #include <lobe/log.h>
@@ -42,6 +43,39 @@ typedef struct lobe_environment {
 /// square faces.
 bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
                                double position[2]);
+
+/// Largest width or height of an image that lobe_environment_open gives, in texels.
+#define LOBE_ENVIRONMENT_MAXIMUM_EXTENT 16384u
+
+/// Opens an image of all directions, or makes one by code.
+///
+/// - A file: OpenEXR (its main layer) or a Radiance picture (.hdr), told apart by content. What an
+///   OpenEXR file's attribute "envmap" says is believed; else the shape tells: 1:6 and 6:1 are
+///   columns and rows of six faces, 3:4 and 4:3 crosses, and what is between once and four times
+///   as wide as high is latitude and longitude (with a notice where it is not 2:1).
+/// - "sky": a clear sky with a sun (Preetham, Shirley, Smits 1999), 40 degrees high, to the left
+///   behind somebody who looks along -Z, over grey ground. A white level surface under it has a
+///   luminance of 1. A file of that name is "./sky".
+///
+/// Numbers that no light has are repaired, with one warning that counts them: negative ones become
+/// 0, NaN and infinite ones the mean of the finite ones around them. Images finer than a cube of
+/// 2048 texels a face needs, or larger than LOBE_ENVIRONMENT_MAXIMUM_EXTENT, are halved, with a
+/// notice; no light is lost.
+///
+/// On failure `*environment` is NULL and the log has one line that names the file and the cause.
+/// Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED (another format, or no known
+/// shape), _LIMIT, _OUT_OF_MEMORY.
+lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
+                                  lobe_environment **environment);
+
+/// Halves the image, or each of its faces, until neither its width nor its height is above this,
+/// for devices that hold less: [8, 65535] texels. The light from each part of the sphere stays as
+/// it was.
+void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent);
+
+/// Turns the environment about the world's +Y, counter-clockwise as seen from above, in addition to
+/// what it is turned already.
+void lobe_environment_turn(lobe_environment *environment, double degrees);
 
 /// Frees all and clears the pointer. NULL is fine.
 void lobe_environment_destroy(lobe_environment **environment);
