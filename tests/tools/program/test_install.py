@@ -29,6 +29,18 @@ int main() {
 }
 """
 
+STATIC_PROGRAM = """
+#include <lobe/lobe.h>
+int shading(void);
+int shading(void) {
+    return 7;
+}
+int main(void) {
+    lobe_scene *scene;
+    return lobe_scene_open("broken.gltf", NULL, &scene) != LOBE_ERROR_MALFORMED || shading() != 7;
+}
+"""
+
 CMAKE_PROJECT = """
 cmake_minimum_required(VERSION 3.16)
 project(embedding C CXX)
@@ -95,6 +107,14 @@ def test_library_shows_its_public_names_alone():
     check(names == declared, f"not declared: {names - declared}; missing: {declared - names}")
 
 
+def test_static_library_shows_the_same_names():
+    lines = run(["nm", "--defined-only", "--extern-only", installed("liblobe.a")]).splitlines()
+    # C++ keeps some names unique over a whole process ("u"): its own, mangled ones.
+    names = {line.split()[-1] for line in lines if re.search(r" [A-Zu] ", line) and " _Z" not in line}
+    shared = run(["nm", "--dynamic", "--defined-only", installed("liblobe.so")]).splitlines()
+    check(names == {line.split()[-1].split("@")[0] for line in shared}, names)
+
+
 def test_installed_program_runs():
     output = run([installed("bin/lobe"), "--version"])
     check(output.startswith("lobe "), output)
@@ -144,6 +164,12 @@ def test_program_in_c_linked_statically():
     run([*C_COMPILER, "-std=c17", FOLDER / "embed.c", "-o", FOLDER / "embed-static",
          *flags(static, "--static", "--cflags", "--libs")])
     run([FOLDER / "embed-static"])
+    # A function that is called as one of ours, and a file that C++ code finds fault with.
+    (FOLDER / "names.c").write_text(STATIC_PROGRAM)
+    (FOLDER / "broken.gltf").write_text('{"asset": {"version": "2.0"}, "nodes": [{"name": "\\ud800')
+    run([*C_COMPILER, "-std=c17", FOLDER / "names.c", "-o", FOLDER / "names",
+         *flags(static, "--static", "--cflags", "--libs")])
+    run([FOLDER / "names"], cwd=FOLDER)
 
 
 def test_program_in_cpp():
