@@ -35,8 +35,12 @@ lobe_result scene_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t materi
 
 lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log);
 
+/// Where there is neither light nor environment, adds a key light and a weaker fill, seen from the
+/// scene's camera, with a notice; sets `has_added_light`.
+lobe_result scene_add_missing_light(lobe_scene *scene, const lobe_log *log);
+
 /// The last step: sets the scene's bounds; where `has_camera` is false, sets a camera that frames
-/// them; where there is no light, adds a key and a weaker fill. Says so by notices. A scene without
+/// them; where there is no light, adds some. Says so by notices. A scene without
 /// instances stays dark and unsaid.
 lobe_result scene_complete(lobe_scene *scene, const lobe_log *log);
 

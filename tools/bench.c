@@ -19,7 +19,7 @@ typedef struct bench_request {
     const char *filters;     ///< "a,b,c"; NULL: all there are
     option_list assignments; ///< "KNOB=VALUE"
     const char *json;
-    scene_options assets;
+    scene_options opening;
     device_options device;
     bench_job job;
     bool sweep, resume;
@@ -143,7 +143,7 @@ static lobe_result measure_scene(const bench_request *request, const char *name,
                                  bench_result *results, bool *left_out) {
     lobe_scene *scene;
     lobe_result result =
-        scene_options_open(&request->assets, name, request->job.size, request->job.log, &scene);
+        scene_options_open(&request->opening, name, request->job.size, request->job.log, &scene);
     *left_out = scene_options_lack_assets(name, result);
     if (result == LOBE_OK)
         result = bench_measure(&request->job, scene, name, results);
@@ -214,7 +214,7 @@ static lobe_result sweep(const bench_request *request) {
         .bench = request->job,
         .json = request->json,
         .pictures = request->pictures,
-        .assets = &request->assets,
+        .opening = &request->opening,
         .path_samples = request->path_samples,
         .stations = request->stations,
         .resume = request->resume,
@@ -338,7 +338,11 @@ static int run(int argc, char **argv) {
          .minimum = 1,
          .maximum = 1000,
          .given = &request.has_stations},
-        scene_option_assets(&request.assets),
+        scene_option_assets(&request.opening),
+        scene_option_environment(&request.opening),
+        scene_option_rotation(&request.opening),
+        scene_option_intensity(&request.opening),
+        scene_option_background(&request.opening),
         device_option_select(&request.device),
         device_option_validation(&request.device),
     };

@@ -59,7 +59,7 @@ static void append_times(attribute_list *list, const lobe_profile_summary *times
             (float)times->passes[i].median_milliseconds;
 }
 
-enum { FIXED_ATTRIBUTES = 7 };
+enum { FIXED_ATTRIBUTES = 8 };
 
 static bool describe(const capture *capture, attribute_list *list) {
     size_t knobs = lobe_filter_knob_count(capture->filter);
@@ -67,6 +67,8 @@ static bool describe(const capture *capture, attribute_list *list) {
         return false;
     append_text(list, "lobeVersion", lobe_version());
     append_text(list, "scene", capture->scene);
+    if (capture->environment)
+        append_text(list, "environment", capture->environment);
     append_text(list, "filter", lobe_filter_name(capture->filter));
     append_text(list, "device", capture->device->name);
     append_text(list, "driver", capture->device->driver);

@@ -11,6 +11,7 @@
 typedef struct capture {
     const lobe_frame *frame;
     const char *scene;
+    const char *environment; ///< its name; NULL: none
     const lobe_filter *filter;
     const lobe_settings *settings;
     uint32_t samples; ///< a pixel

@@ -30,7 +30,7 @@ typedef struct render_request {
     bool layers; ///< of arbitrary output variables
     double exposure;
     bool has_filter, has_carrier, has_samples, has_depth, has_exposure;
-    scene_options assets;
+    scene_options opening;
     view_options view;
     lobe_light *lights;
     device_options device;
@@ -133,10 +133,13 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_lo
 // Work
 
 static lobe_result open_scene(const render_request *request, render_state *state) {
-    if (request->material)
-        return lobe_scene_open_material(request->material, (lobe_carrier)request->carrier,
-                                        &state->log, &state->scene);
-    return scene_options_open(&request->assets, request->scene, request->size, &state->log,
+    if (request->material) {
+        lobe_result result = lobe_scene_open_material(
+            request->material, (lobe_carrier)request->carrier, &state->log, &state->scene);
+        return result == LOBE_OK ? scene_options_light(&request->opening, &state->log, state->scene)
+                                 : result;
+    }
+    return scene_options_open(&request->opening, request->scene, request->size, &state->log,
                               &state->scene);
 }
 
@@ -226,6 +229,7 @@ static lobe_result write_images(const render_request *request, render_state *sta
     const capture capture = {
         .frame = &state->frame,
         .scene = state->scene->name,
+        .environment = state->scene->environment ? state->scene->environment->name : NULL,
         .filter = request->filter,
         .settings = &request->settings,
         .samples = samples_of(request),
@@ -395,7 +399,11 @@ static int run(int argc, char **argv) {
          .fallback = "plane",
          .choices = carriers,
          .given = &request.has_carrier},
-        scene_option_assets(&request.assets),
+        scene_option_assets(&request.opening),
+        scene_option_environment(&request.opening),
+        scene_option_rotation(&request.opening),
+        scene_option_intensity(&request.opening),
+        scene_option_background(&request.opening),
         {.name = "depth",
          .kind = OPTION_CHOICE,
          .argument = "DEPTH",

@@ -7,13 +7,27 @@
 
 /// The options of every subcommand that takes a SCENE.
 typedef struct scene_options {
-    const char *assets; ///< NULL: the environment variable LOBE_ASSETS, or else none
+    const char *assets;      ///< NULL: the environment variable LOBE_ASSETS, or else none
+    const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
+    double rotation;         ///< of the environment, degrees about +Y
+    double intensity;        ///< factor
+    bool background;         ///< the environment is seen behind the scene
+    bool has_rotation, has_intensity;
 } scene_options;
 
-/// An entry for an option table.
+/// Entries for an option table.
 option scene_option_assets(scene_options *options);
+option scene_option_environment(scene_options *options);
+option scene_option_rotation(scene_options *options);
+option scene_option_intensity(scene_options *options);
+option scene_option_background(scene_options *options);
 
-/// Opens a scene, with the camera that fits a picture of this size where it brings none.
+/// Lights an opened scene as the options ask.
+lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
+                                lobe_scene *scene);
+
+/// Opens a scene and lights it, with the camera that fits a picture of this size where it brings
+/// none.
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_log *log, lobe_scene **result);
 

@@ -192,7 +192,7 @@ static void keep_reason(void *user, lobe_log_level level, const char *message) {
 static lobe_result try_scene(const sweep_job *job, const char *name, const lobe_log *log,
                              lobe_scene **scene) {
     lobe_renderer *renderer = NULL;
-    lobe_result result = scene_options_open(job->assets, name, job->bench.size, log, scene);
+    lobe_result result = scene_options_open(job->opening, name, job->bench.size, log, scene);
     if (result == LOBE_OK)
         result = lobe_renderer_create(job->bench.device, log, &renderer);
     if (result == LOBE_OK)

@@ -42,7 +42,7 @@ typedef struct sweep_job {
     const char *pictures; ///< folder; NULL: beside the JSON
     char *picture_folder; ///< where they go
     char *picture_prefix; ///< the same as seen from the JSON's folder, with a slash
-    const scene_options *assets;
+    const scene_options *opening;
     uint32_t path_samples, stations;
     /// Measures no more than times, memory and the error of the still picture against the truth: no
     /// pictures, no copies, no truth with converted base lobes; then `stations` is 0.

@@ -1,0 +1,76 @@
+"""The options that light a scene by an environment."""
+
+import sys
+
+import tap
+from files import exr_header, gltf_triangle, gltf_write, png_write
+from program import SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report, succeeds
+
+DIRECT = ["--filter", "direct", *SMALL]
+
+
+def write_hdr(path, width=8, height=4, texel=(128, 128, 128, 129)):
+    """A Radiance picture of one colour, not packed."""
+    path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" +
+                     f"-Y {height} +X {width}\n".encode() + bytes(texel) * (width * height))
+    return path
+
+
+def environment_of(path):
+    return exr_header(path).get("environment")
+
+
+def test_file_sky_and_none():
+    folder = fresh_folder("environment")
+    light = write_hdr(folder / "light.hdr")
+    for given, expected in ((light, str(light)), ("sky", "sky"), ("none", None)):
+        result = succeeds("render", "bumps", *DIRECT, "--environment", given, "-o",
+                          folder / "a.exr")
+        check(environment_of(folder / "a.exr") == expected, report(result))
+        check("warning" not in result.stderr, report(result))
+
+
+def test_a_scene_without_light_gets_no_other_beside():
+    folder = fresh_folder("unlit")
+    scene = folder / "unlit.gltf"
+    gltf_write(scene, gltf_triangle())
+    result = succeeds("render", scene, *DIRECT, "--environment", "sky", "--background",
+                      "--environment-rotation", "-90", "--environment-intensity", "0.5", "-o",
+                      folder / "a.exr")
+    check(environment_of(folder / "a.exr") == "sky", report(result))
+    check("warning" not in result.stderr, report(result))
+
+
+def test_options_without_an_environment_are_ignored_with_a_warning():
+    folder = fresh_folder("ignored")
+    for option in (["--environment-rotation", "30"], ["--environment-intensity", "2"],
+                   ["--background"]):
+        result = succeeds("render", "bumps", *DIRECT, *option, "-o", folder / "a.exr")
+        check(f"no environment; {option[0]} is ignored" in result.stderr, report(result))
+
+
+def test_what_is_no_environment():
+    folder = fresh_folder("wrong")
+    output = ["-o", folder / "a.exr"]
+    fails("render", "bumps", *DIRECT, "--environment", folder / "no.hdr", *output, says="no.hdr")
+    tall = write_hdr(folder / "tall.hdr", width=3, height=7)
+    fails("render", "bumps", *DIRECT, "--environment", tall, *output, says=["tall.hdr", "3 x 7"])
+    tall.unlink()
+    leaves(folder)
+    for option, value in (("rotation", "left"), ("rotation", "1e9"), ("intensity", "-1")):
+        is_wrong_usage("render", "bumps", f"--environment-{option}", value, *output,
+                       says=f"--environment-{option}")
+
+
+def test_a_material_is_lit_too():
+    folder = fresh_folder("material")
+    maps = folder / "maps"
+    maps.mkdir()
+    png_write(maps / "rock_normal.png", 2, 2, (128, 128, 255))
+    result = succeeds("render", "--material", maps, *DIRECT, "--environment", "sky", "-o",
+                      folder / "a.exr")
+    check(environment_of(folder / "a.exr") == "sky", report(result))
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))
