@@ -90,6 +90,15 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     return graph->result == LOBE_OK;
 }
 
+void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
+                       uint32_t *height) {
+    *width = *height = 0;
+    if (image.version == 0 || image.index >= graph->dependencies.resource_count)
+        return;
+    *width = graph->resources[image.index].width;
+    *height = graph->resources[image.index].height;
+}
+
 static engine_stamp identity_of(const engine_graph_resource *resource) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, resource->is_image);
     const uint64_t numbers[] = {resource->format, resource->width,  resource->height,

@@ -6,6 +6,7 @@
 #include "passes/accumulation.h"
 #include "passes/device_scene.h"
 #include "passes/filter.h"
+#include "passes/host_frame.h"
 #include "passes/pass_times.h"
 #include "passes/sample_pattern.h"
 #include "passes/settings.h"
@@ -162,13 +163,20 @@ static lobe_result take_image(const rendering *r, lobe_resource resource, lobe_f
     size_t size = 0;
     const void *data = lobe_graph_data(r->renderer->graph, resource, &size);
     lobe_result result = lobe_image_allocate(image, format, r->width, r->height, &r->renderer->log);
-    if (result == LOBE_OK && data)
-        memcpy(image->texels, data, size);
-    return result;
+    if (result != LOBE_OK)
+        return result;
+    // Passes of the host may have put another image here.
+    if (!data || size != (size_t)r->width * r->height * lobe_format_size(format))
+        return lobe_log_fail(&r->renderer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "render: an image to deliver has another extent or format than %ux%u "
+                             "%s",
+                             r->width, r->height, lobe_format_name(format));
+    memcpy(image->texels, data, size);
+    return LOBE_OK;
 }
 
 static void want(const rendering *r, lobe_resource resource) {
-    if (r->parameters->discard)
+    if (!host_frame_delivers(r->parameters))
         lobe_graph_output(r->renderer->graph, resource);
     else
         lobe_graph_read_back(r->renderer->graph, resource, (lobe_range){0});
@@ -181,8 +189,8 @@ static lobe_result out_of_memory(const rendering *r) {
 }
 
 static lobe_result execute(rendering *r, lobe_frame *frame) {
-    lobe_result result = lobe_graph_execute(r->renderer->graph);
-    if (result != LOBE_OK)
+    lobe_result result = host_frame_run(r->renderer->graph, r->parameters);
+    if (result != LOBE_OK || r->parameters->submission)
         return result;
     return pass_times_add(frame, lobe_graph_describe(r->renderer->graph)) ? LOBE_OK
                                                                           : out_of_memory(r);
@@ -191,30 +199,64 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
 // ---------------------------------------------------------------------------------------------
 // One picture
 
+/// Into the host's images where it lends some, and in their extent.
+static lobe_result import_target(rendering *r, shading_targets *imported) {
+    lobe_result result =
+        host_frame_import(r->renderer->graph, r->parameters, r->context.log, imported);
+    if (result == LOBE_OK && imported->width > 0) {
+        r->width = r->context.width = imported->width;
+        r->height = r->context.height = imported->height;
+    }
+    return result;
+}
+
+static void draw_once(rendering *r, bool outputs, const shading_targets *imported,
+                      shading_targets *targets) {
+    static const float centre[2] = {0.5f, 0.5f};
+    lobe_graph *graph = r->renderer->graph;
+    *targets = shading_targets_declare(graph, r->width, r->height, outputs);
+    host_frame_replace(imported, targets);
+    host_frame_before(graph, r->parameters, targets);
+    shading(&r->context, r->renderer->appearances, shading_upload_lights(&r->context), centre,
+            targets);
+    host_frame_after(graph, r->parameters, targets);
+}
+
+static lobe_result take_images(const rendering *r, bool outputs, const shading_targets *targets,
+                               lobe_frame *frame) {
+    lobe_result result = LOBE_OK;
+    if (!r->parameters->target)
+        result = take_image(r, targets->radiance, LOBE_FORMAT_RGBA32_FLOAT, &frame->radiance);
+    if (result == LOBE_OK && outputs)
+        result =
+            take_image(r, targets->normal_depth, LOBE_FORMAT_RGBA32_FLOAT, &frame->normal_depth);
+    if (result == LOBE_OK && outputs)
+        result = take_image(r, targets->lobes_level, LOBE_FORMAT_RG32_FLOAT, &frame->lobes_level);
+    return result;
+}
+
 /// One shading pass at the pixels' centres. `outputs`: with arbitrary output variables.
 static lobe_result render_once(rendering *r, bool outputs, lobe_frame *frame) {
-    static const float centre[2] = {0.5f, 0.5f};
+    shading_targets imported, targets;
+    lobe_graph_set_frames_in_flight(r->renderer->graph, r->parameters->frames_in_flight);
     lobe_graph_begin(r->renderer->graph);
+    lobe_result result = import_target(r, &imported);
+    if (result != LOBE_OK)
+        return result;
     build_maps(r, frame);
-    shading_targets targets =
-        shading_targets_declare(r->renderer->graph, r->width, r->height, outputs);
-    shading(&r->context, r->renderer->appearances, shading_upload_lights(&r->context), centre,
-            &targets);
-    want(r, targets.radiance);
+    draw_once(r, outputs, &imported, &targets);
+    if (r->parameters->target)
+        lobe_graph_output(r->renderer->graph, targets.radiance);
+    else
+        want(r, targets.radiance);
     if (outputs) {
         want(r, targets.normal_depth);
         want(r, targets.lobes_level);
     }
-    lobe_result result = execute(r, frame);
-    if (result != LOBE_OK || r->parameters->discard)
-        return result;
-    result = take_image(r, targets.radiance, LOBE_FORMAT_RGBA32_FLOAT, &frame->radiance);
-    if (result == LOBE_OK && outputs)
-        result =
-            take_image(r, targets.normal_depth, LOBE_FORMAT_RGBA32_FLOAT, &frame->normal_depth);
-    if (result == LOBE_OK && outputs)
-        result = take_image(r, targets.lobes_level, LOBE_FORMAT_RG32_FLOAT, &frame->lobes_level);
-    return result;
+    result = execute(r, frame);
+    return result == LOBE_OK && host_frame_delivers(r->parameters)
+               ? take_images(r, outputs, &targets, frame)
+               : result;
 }
 
 /// Adds samples [first, first + count) of every pixel to the sum.
@@ -300,6 +342,10 @@ static lobe_result check(const rendering *r) {
     uint32_t limit = lobe_device_describe(r->renderer->device)->maximum_image_extent;
     if (!r->renderer->scene)
         return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set");
+    if (r->parameters->filter && lobe_filter_supersamples(r->parameters->filter) &&
+        host_frame_takes_part(r->parameters))
+        return refuse(log, LOBE_ERROR_UNSUPPORTED,
+                      "the reference takes many submissions: it is delivered in host memory alone");
     if (r->samples > LOBE_MAXIMUM_SAMPLES)
         return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "more than 4096 samples a pixel");
     if (r->width > limit || r->height > limit) {

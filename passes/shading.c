@@ -111,10 +111,13 @@ static lobe_resource upload_frame(const filter_context *context, const float sam
 }
 
 static void attach(lobe_pass *pass, const filter_context *context, shading_targets *targets) {
-    lobe_attachment radiance = {.resource = targets->radiance};
+    lobe_attachment radiance = {.resource = targets->radiance,
+                                .load = targets->keep_radiance ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR};
     memcpy(radiance.clear, context->scene->scene->background, 3 * sizeof(float));
     targets->radiance = lobe_pass_colour(pass, 0, &radiance);
-    targets->depth = lobe_pass_depth(pass, &(lobe_attachment){.resource = targets->depth});
+    targets->depth = lobe_pass_depth(
+        pass, &(lobe_attachment){.resource = targets->depth,
+                                 .load = targets->keep_depth ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
     if (targets->normal_depth.version || targets->normal_depth.index) {
         targets->normal_depth =
             lobe_pass_colour(pass, 1, &(lobe_attachment){.resource = targets->normal_depth});

@@ -11,6 +11,8 @@ typedef struct shading_targets {
     lobe_resource depth;        ///< D32_FLOAT
     lobe_resource normal_depth; ///< RGBA32_FLOAT; none without arbitrary output variables
     lobe_resource lobes_level;  ///< RG32_FLOAT; none without arbitrary output variables
+    /// Draw over what radiance and depth hold instead of clearing them.
+    bool keep_radiance, keep_depth;
 } shading_targets;
 
 shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,

@@ -103,6 +103,10 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
 /// wants. Copied. What passes make of its content is made again in every frame.
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
+/// Texels of level 0 of any image of this frame; 0 for a buffer or an unknown handle.
+void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
+                       uint32_t *height);
+
 /// A small buffer with content for this frame (camera, lights). Copied; at most 4 MiB. A pass
 /// that reads it counts as unchanged while the bytes stay the same.
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data, size_t size);

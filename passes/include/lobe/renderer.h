@@ -33,6 +33,37 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
 /// Largest number of samples a pixel of the reference.
 #define LOBE_MAXIMUM_SAMPLES 4096
 
+/// Images of the host's Vulkan that a picture is drawn into.
+typedef struct lobe_render_target {
+    /// A colour attachment. Gets linear radiance, as its format keeps it (an _SRGB format encodes
+    /// it; neither exposure nor tone map is applied), and coverage as alpha.
+    const lobe_vulkan_image *radiance;
+    /// D32_FLOAT, reversed: 1 at the near plane, 0 at infinity. NULL: one of lobe's own.
+    const lobe_vulkan_image *depth;
+    /// Draw over what they hold: the background stays the host's, and what it drew into `depth`
+    /// hides what lies behind it. Otherwise both are cleared.
+    bool keep;
+} lobe_render_target;
+
+/// The resources of a frame, for passes of the host.
+typedef struct lobe_render_resources {
+    uint32_t width, height; ///< pixels
+    lobe_resource radiance; ///< RGBA32_FLOAT, or the target's
+    lobe_resource depth;    ///< D32_FLOAT, reversed
+    /// As in lobe_frame; none unless asked for.
+    lobe_resource normal_depth, lobes_level;
+} lobe_render_resources;
+
+/// Where in a frame passes of the host are added.
+typedef enum lobe_render_stage {
+    /// Nothing is drawn yet. Of radiance and depth, what the host's passes write here is drawn
+    /// over and not cleared.
+    LOBE_RENDER_BEFORE_SHADING,
+    /// The picture is drawn. `radiance` may become another image of the same extent and format:
+    /// that one is delivered then.
+    LOBE_RENDER_AFTER_SHADING,
+} lobe_render_stage;
+
 typedef struct lobe_render_parameters {
     const lobe_filter *filter;     ///< NULL: "lobes"
     const lobe_settings *settings; ///< NULL: the filter's defaults
@@ -52,7 +83,21 @@ typedef struct lobe_render_parameters {
     /// Called between submissions with the part done, [0, 1]; returning false stops the
     /// rendering with LOBE_OK and an empty frame. NULL: none.
     bool (*progress)(void *user, double part);
-    void *user;
+    /// Called once a stage while the frame's graph is declared: adds passes of the host's to it.
+    /// New versions of what they write go back into `resources`. Mistakes stay in the graph.
+    /// NULL: none.
+    void (*add_passes)(void *user, lobe_graph *graph, lobe_render_stage stage,
+                       lobe_render_resources *resources);
+    void *user; ///< handed to both
+    /// Where to draw to. NULL: an image of lobe's own, delivered in the frame. Otherwise no
+    /// radiance is delivered, and `width` and `height` are 0 or the target's.
+    const lobe_render_target *target;
+    /// How the frame gets to the device, see lobe_graph_submit. Nothing is waited for and nothing
+    /// delivered then: lobe_graph_wait on the renderer's graph waits. NULL: lobe submits it, waits
+    /// and delivers.
+    const lobe_vulkan_submission *submission;
+    /// With `submission`: see lobe_graph_set_frames_in_flight; 0: 1.
+    uint32_t frames_in_flight;
 } lobe_render_parameters;
 
 /// Device time of all passes of one name.
@@ -84,8 +129,11 @@ typedef struct lobe_frame {
 
 void lobe_frame_free(lobe_frame *frame);
 
-/// Renders one image. On failure `*frame` is zero. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene,
-/// a value out of range), LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+/// Renders one image. On failure `*frame` is zero, and a command buffer of the host's must not be
+/// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value out of range, another extent
+/// than the target's), LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with a
+/// target, a submission or passes of the host's), LOBE_ERROR_LIMIT (size),
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
                                  lobe_frame *frame);
 
