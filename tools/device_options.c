@@ -1,9 +1,10 @@
 #include "tools/device_options.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <sys/stat.h>
+#include <string.h>
+
+#include "tools/cache_folder.h"
 
 option device_option_select(device_options *options) {
     return (option){
@@ -26,33 +27,17 @@ option device_option_validation(device_options *options) {
     };
 }
 
-/// Makes the folder where the cache lives. False where there is no place for one: then lobe works
-/// without.
-static bool find_cache(char *path, size_t size) {
-    const char *cache = getenv("XDG_CACHE_HOME");
-    const char *home = getenv("HOME");
-    int length;
-    if (cache && cache[0] == '/')
-        length = snprintf(path, size, "%s", cache);
-    else if (home && home[0] == '/')
-        length = snprintf(path, size, "%s/.cache", home);
-    else
-        return false;
-    if (length < 0 || (size_t)length + sizeof "/lobe/pipelines" > size)
-        return false;
-    // Existing folders make mkdir fail, which is fine; any other failure shows in the last stat.
-    mkdir(path, 0700);
-    snprintf(path + length, size - (size_t)length, "/lobe");
-    mkdir(path, 0700);
-    struct stat status;
-    bool usable = stat(path, &status) == 0 && S_ISDIR(status.st_mode);
-    snprintf(path + length, size - (size_t)length, "/lobe/pipelines");
-    return usable;
+/// NULL where there is no place for it.
+static const char *find_pipeline_cache(char *path) {
+    static const char name[] = "/pipelines";
+    if (!cache_folder_find(NULL, path) || strlen(path) + sizeof name > CACHE_FOLDER_SIZE)
+        return NULL;
+    return strcat(path, name);
 }
 
 lobe_result device_options_open(const device_options *options, const lobe_log *log,
                                 lobe_device **device) {
-    char cache[4096];
+    char cache[CACHE_FOLDER_SIZE];
     const char *select = options->select ? options->select : getenv("LOBE_DEVICE");
     if (select && select[0] == '\0')
         select = NULL;
@@ -60,7 +45,7 @@ lobe_result device_options_open(const device_options *options, const lobe_log *l
         &(lobe_device_parameters){
             .select = select,
             .validation = options->validation,
-            .pipeline_cache = find_cache(cache, sizeof cache) ? cache : NULL,
+            .pipeline_cache = find_pipeline_cache(cache),
             .log = log,
         },
         device);
