@@ -140,6 +140,8 @@ static lobe_result convert(gltf_import *import) {
         return result;
     note_extensions(import);
     result = gltf_convert_nodes(import);
+    if (result == LOBE_OK)
+        result = gltf_convert_environment(import);
     if (result != LOBE_OK)
         return result;
     gltf_report_notes(import);

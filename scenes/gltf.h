@@ -106,6 +106,20 @@ lobe_result gltf_convert_material(gltf_import *import, int material, int64_t *co
 /// The index of an image in the scene, decoded where it was not yet, or -1.
 lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted);
 
+/// Decodes an image of colours (RGBA8_SRGB) that is not to be the scene's. Free it with
+/// lobe_image_free. LOBE_ERROR_MALFORMED where there is none of this index.
+lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decoded);
+
+/// Makes the scene's environment of the image-based light that it has, if it has one.
+lobe_result gltf_convert_environment(gltf_import *import);
+
+/// The columns of the rotation that a quaternion (x, y, z, w) of any length stands for. False where
+/// it has no length.
+bool gltf_rotation(const double quaternion[4], double columns[3][3]);
+/// The scene that is opened; -1 where the file has none. LOBE_ERROR_MALFORMED where the file's
+/// default is not there.
+lobe_result gltf_choose_scene(const gltf_import *import, int *scene);
+
 /// Places instances, lights and the camera by walking through the nodes.
 lobe_result gltf_convert_nodes(gltf_import *import);
 /// `world` is column-major.

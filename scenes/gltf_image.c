@@ -102,17 +102,36 @@ static lobe_result decode(gltf_import *import, const image_source *source, scene
                          GLTF_MAXIMUM_TEXELS);
 }
 
+static lobe_result check_index(const gltf_import *import, int image) {
+    if (image >= 0 && (size_t)image < import->document->image_count)
+        return LOBE_OK;
+    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
+                         import->path, image);
+}
+
+lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decoded) {
+    image_source source = {0};
+    *decoded = (lobe_image){0};
+    lobe_result result = check_index(import, image);
+    if (result == LOBE_OK)
+        result = find_bytes(import, image, &source);
+    if (result == LOBE_OK)
+        result = decode(import, &source, SCENE_IMAGE_COLOUR, decoded);
+    free(source.owned);
+    return result;
+}
+
 lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted) {
-    if ((size_t)image >= import->document->image_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
-                             import->path, image);
+    lobe_result result = check_index(import, image);
+    if (result != LOBE_OK)
+        return result;
     scene_image_use use = colour ? SCENE_IMAGE_COLOUR : SCENE_IMAGE_DATA;
     int64_t *known = &import->images[use][image];
     if (*known == GLTF_NOT_CONVERTED) {
         image_source source;
         lobe_image decoded = {0};
         uint32_t index = 0;
-        lobe_result result = find_bytes(import, image, &source);
+        result = find_bytes(import, image, &source);
         if (result == LOBE_OK)
             result = decode(import, &source, use, &decoded);
         if (result == LOBE_OK)

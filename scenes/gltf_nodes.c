@@ -20,9 +20,7 @@ static void multiply(const double a[16], const double b[16], double out[16]) {
     }
 }
 
-// glTF 2.0, section 3.5.3: T R S, R from a quaternion (x, y, z, w).
-static bool compose(const gltf_node *node, double out[16]) {
-    const double *q = node->rotation, *s = node->scale, *t = node->translation;
+bool gltf_rotation(const double q[4], double columns[3][3]) {
     double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 1e-6) || !isfinite(length))
         return false;
@@ -32,6 +30,16 @@ static bool compose(const gltf_node *node, double out[16]) {
         {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
         {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
     };
+    memcpy(columns, rotation, sizeof rotation);
+    return true;
+}
+
+// glTF 2.0, section 3.5.3: T R S.
+static bool compose(const gltf_node *node, double out[16]) {
+    const double *s = node->scale, *t = node->translation;
+    double rotation[3][3];
+    if (!gltf_rotation(node->rotation, rotation))
+        return false;
     for (int column = 0; column < 3; column++) {
         for (int row = 0; row < 3; row++)
             out[4 * column + row] = rotation[column][row] * s[column];
@@ -258,15 +266,24 @@ static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
     return LOBE_OK;
 }
 
-// The default scene, else the first, else all nodes that have no parent.
+// The default scene, else the first.
+lobe_result gltf_choose_scene(const gltf_import *import, int *scene) {
+    const gltf_document *document = import->document;
+    *scene = document->scene >= 0 ? document->scene : document->scene_count > 0 ? 0 : -1;
+    if (document->scene >= 0 && (size_t)*scene >= document->scene_count)
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
+                             import->path, *scene);
+    return LOBE_OK;
+}
+
+// Without a scene all nodes that have no parent.
 static lobe_result walk_scene(gltf_import *import, node_tree *tree) {
     const gltf_document *document = import->document;
-    int scene = document->scene >= 0 ? document->scene : 0;
-    lobe_result result = LOBE_OK;
-    if (document->scene >= 0 && (size_t)scene >= document->scene_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
-                             import->path, scene);
-    if (document->scene_count == 0) {
+    int scene;
+    lobe_result result = gltf_choose_scene(import, &scene);
+    if (result != LOBE_OK)
+        return result;
+    if (scene < 0) {
         for (size_t i = 0; i < document->node_count && result == LOBE_OK; i++) {
             if (tree->parents[i] < 0)
                 result = walk(import, tree, (int)i);

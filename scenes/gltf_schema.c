@@ -34,10 +34,8 @@ static lobe_result visit_required_extension(void *user, const char *text) {
 
 bool gltf_extension_supported(const char *name) {
     static const char *const supported[] = {
-        "KHR_lights_punctual",
-        "KHR_materials_emissive_strength",
-        "KHR_mesh_quantization",
-        "KHR_texture_transform",
+        "EXT_lights_image_based", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
+        "KHR_mesh_quantization",  "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof supported / sizeof *supported; i++) {
         if (strcmp(supported[i], name) == 0)
@@ -123,7 +121,10 @@ OBJECT(node, {"mesh", &integer, false}, {"camera", &integer, false}, {"skin", &i
        {"extensions", &node_extensions, false}, {"name", &text, false});
 ARRAY_OF(nodes, node);
 
-OBJECT(scene, {"nodes", &indices, false}, {"name", &text, false});
+OBJECT(scene_image_light, {"light", &integer, true});
+OBJECT(scene_extensions, {"EXT_lights_image_based", &scene_image_light, false});
+OBJECT(scene, {"nodes", &indices, false}, {"extensions", &scene_extensions, false},
+       {"name", &text, false});
 ARRAY_OF(scenes, scene);
 
 OBJECT(texture_transform, {"offset", &numbers_2, false}, {"rotation", &number, false},
@@ -171,7 +172,19 @@ OBJECT(skin, {"joints", &indices, true}, {"skeleton", &integer, false},
        {"inverseBindMatrices", &integer, false}, {"name", &text, false});
 ARRAY_OF(skins, skin);
 
-OBJECT(root_extensions, {"KHR_lights_punctual", &lights_punctual, false});
+// EXT_lights_image_based. The harmonics of irradiance and the size of the images, which it wants
+// as well, are not read.
+static const json_schema cube_faces = {.kind = JSON_ARRAY, .element = &integer, .length = 6};
+static const json_schema cube_levels = {.kind = JSON_ARRAY, .element = &cube_faces, .filled = true};
+static const json_schema harmonics = {.kind = JSON_ARRAY, .element = &numbers_3, .length = 9};
+OBJECT(image_light, {"rotation", &numbers_4, false}, {"intensity", &number, false},
+       {"irradianceCoefficients", &harmonics, false}, {"specularImages", &cube_levels, true},
+       {"specularImageSize", &integer, false}, {"name", &text, false});
+ARRAY_OF(image_lights, image_light);
+OBJECT(lights_image_based, {"lights", &image_lights, true});
+
+OBJECT(root_extensions, {"KHR_lights_punctual", &lights_punctual, false},
+       {"EXT_lights_image_based", &lights_image_based, false});
 
 OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
        {"extensionsRequired", &texts, false}, {"buffers", &buffers, false},

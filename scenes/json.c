@@ -269,6 +269,8 @@ static bool check_array(json_parser *parser, const json_schema *schema) {
     }
     if (schema->length > 0 && count != schema->length)
         return fail(parser, "%u elements expected, %zu found", schema->length, count);
+    if (schema->filled && count == 0)
+        return fail(parser, "an element expected, none found");
     return true;
 }
 

@@ -34,6 +34,7 @@ struct json_schema {
     const json_member *members; ///< of an object; ends with a NULL name; at most 32
     const json_schema *element; ///< of an array; of an object: all members not listed. NULL: any
     unsigned length;            ///< of an array; 0: any
+    bool filled;                ///< an array must not be empty
     /// Called with each string (cut at 255 bytes), where not NULL; an error, which it has
     /// logged, ends the check.
     lobe_result (*visit)(void *user, const char *text);

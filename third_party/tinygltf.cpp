@@ -31,6 +31,7 @@ struct Document {
     std::vector<gltf_image> images;
     std::vector<gltf_camera> cameras;
     std::vector<gltf_light> lights;
+    std::vector<gltf_image_light> image_lights;
     std::vector<gltf_scene> scenes;
     std::vector<const char *> extensions;
 };
@@ -265,8 +266,34 @@ gltf_sampler convert(const tinygltf::Sampler &from) {
     return {from.magFilter, from.wrapS, from.wrapT};
 }
 
+const char image_lights[] = "EXT_lights_image_based";
+
+gltf_image_light convert(const tinygltf::Value &from) {
+    gltf_image_light to = {{0, 0, 0, 1}, 1, {-1, -1, -1, -1, -1, -1}, false};
+    numbers(from, "rotation", 4, to.rotation);
+    to.intensity = number(from, "intensity", 1);
+    to.has_harmonics = from.Has("irradianceCoefficients");
+    const tinygltf::Value &levels = from.Get("specularImages");
+    for (size_t i = 0; i < 6 && levels.IsArray() && levels.ArrayLen() > 0; i++) {
+        const tinygltf::Value &face = levels.Get(0).Get(i);
+        if (face.IsInt())
+            to.faces[i] = face.Get<int>();
+    }
+    return to;
+}
+
+void convert_image_lights(Document &content, gltf_document &view) {
+    const tinygltf::Value *all = extension(content.model.extensions, image_lights);
+    const size_t count = all && all->Has("lights") ? all->Get("lights").ArrayLen() : 0;
+    for (size_t i = 0; i < count; i++)
+        content.image_lights.push_back(convert(all->Get("lights").Get(int(i))));
+    view.image_lights = content.image_lights.data();
+    view.image_light_count = count;
+}
+
 gltf_scene convert(const tinygltf::Scene &from) {
-    return {from.nodes.data(), from.nodes.size()};
+    const tinygltf::Value *light = extension(from.extensions, image_lights);
+    return {from.nodes.data(), from.nodes.size(), light ? integer(*light, "light", -1) : -1};
 }
 
 template <typename From, typename To>
@@ -303,6 +330,7 @@ void convert_document(Document &content, gltf_document &view) {
     convert_all(model.images, content.images, view.images, view.image_count);
     convert_all(model.cameras, content.cameras, view.cameras, view.camera_count);
     convert_all(model.lights, content.lights, view.lights, view.light_count);
+    convert_image_lights(content, view);
     convert_all(model.scenes, content.scenes, view.scenes, view.scene_count);
     view.scene = model.defaultScene;
     view.animation_count = model.animations.size();

@@ -142,9 +142,18 @@ typedef struct gltf_light {
     double colour[3], intensity, range, inner_cone, outer_cone;
 } gltf_light;
 
+/// EXT_lights_image_based. Of the levels of its cube the first is given.
+typedef struct gltf_image_light {
+    double rotation[4]; ///< a quaternion (x, y, z, w)
+    double intensity;
+    int faces[6];       ///< images: +X -X +Y -Y +Z -Z
+    bool has_harmonics; ///< of the irradiance
+} gltf_image_light;
+
 typedef struct gltf_scene {
     const int *nodes;
     size_t node_count;
+    int image_light; ///< index; -1: none
 } gltf_scene;
 
 typedef struct gltf_document {
@@ -170,6 +179,8 @@ typedef struct gltf_document {
     size_t camera_count;
     const gltf_light *lights;
     size_t light_count;
+    const gltf_image_light *image_lights;
+    size_t image_light_count;
     const gltf_scene *scenes;
     size_t scene_count;
     int scene; ///< the default scene

@@ -38,6 +38,7 @@ static const json_schema number = {.kind = JSON_NUMBER};
 static const json_schema boolean = {.kind = JSON_BOOLEAN};
 static const json_schema text = {.kind = JSON_STRING, .visit = visit};
 static const json_schema pair = {.kind = JSON_ARRAY, .element = &number, .length = 2};
+static const json_schema filled = {.kind = JSON_ARRAY, .element = &number, .filled = true};
 static const json_schema named = {.kind = JSON_OBJECT, .element = &integer};
 static const json_schema item = {
     .kind = JSON_OBJECT,
@@ -49,6 +50,7 @@ static const json_schema root = {.kind = JSON_OBJECT,
                                                                   {"s", &size, false},
                                                                   {"b", &boolean, false},
                                                                   {"p", &pair, false},
+                                                                  {"f", &filled, false},
                                                                   {"t", &text, false},
                                                                   {"named", &named, false},
                                                                   {NULL, NULL, false}}};
@@ -84,7 +86,7 @@ static void valid_text_is_accepted(void **state) {
     assert_accepts("{\"x\":[1,-1,0,-0,1.5,1e9,1E+9,2.5e-3,null,false,\"\",{\"y\":{}}]}");
     assert_accepts("{\"x\":\"\\\"\\\\\\/\\b\\f\\n\\r\\t\\u00e9\\uD83D\"}");
     assert_accepts("{\"items\":[{\"i\":0},{\"i\":2147483646,\"t\":\"a\"}],\"s\":9007199254740992,"
-                   "\"p\":[1,2e0],\"named\":{\"any\":7}}");
+                   "\"p\":[1,2e0],\"f\":[3],\"named\":{\"any\":7}}");
 }
 
 static void wrong_types_are_named_with_their_place(void **state) {
@@ -108,6 +110,7 @@ static void wrong_types_are_named_with_their_place(void **state) {
     assert_refuses("{\"b\":0}", "file: line 1: b: true or false expected");
     assert_refuses("{\"b\":null}", "file: line 1: b: true or false expected");
     assert_refuses("{\"p\":[1]}", "file: line 1: p: 2 elements expected, 1 found");
+    assert_refuses("{\"f\":[]}", "file: line 1: f: an element expected, none found");
     assert_refuses("{\"p\":[1,\"\"]}", "file: line 1: p[1]: a number expected");
     assert_refuses("{\"named\":{\"x\":[]}}", "file: line 1: named.x: an integer expected");
 }
