@@ -19,6 +19,7 @@ TARGET = FOLDER / "installed"
 CPP_PROGRAM = """
 #include <cstdio>
 #include <lobe/lobe.h>
+#include <lobe/vulkan.h>
 int main() {
     lobe_settings settings;
     const lobe_filter *filter = nullptr;
@@ -154,6 +155,15 @@ def test_programs_of_the_document_on_embedding():
              program, *flags(TARGET, "--cflags", "--libs")])
         run([program], cwd=folder, LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
     check(len(list(folder.glob("frame*.exr"))) == 10, "not ten frames of an animation")
+
+
+def test_examples():
+    """What the program itself calls of Vulkan it links itself."""
+    examples = ROOT / "tools" / "examples"
+    for source in sorted(examples.glob("*.c")):
+        run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Werror", source, "-o",
+             FOLDER / source.stem, f"-I{BUILD / 'tools' / 'examples'}",
+             *flags(TARGET, "--cflags", "--libs"), "-lvulkan"])
 
 
 def test_program_in_c_linked_statically():

@@ -1,0 +1,69 @@
+"""Runs the programs of tools/examples, which use the library as others do."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import tap
+from program import FOLDER, check, report, succeeds
+
+EXAMPLES = Path(sys.argv[3]).resolve()
+VALIDATED = {
+    "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+    "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
+    "VK_LOADER_DEBUG": "layer",
+}
+
+
+def example(name, *arguments, **environment):
+    return subprocess.run([EXAMPLES / name, *map(str, arguments)], cwd=FOLDER, text=True,
+                          env={**os.environ, **environment}, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, timeout=120, check=False)
+
+
+def runs(name, *arguments, **environment):
+    result = example(name, *arguments, **environment)
+    check(result.returncode == 0, report(result))
+    return result
+
+
+def difference(one, other):
+    return json.loads(succeeds("compare", one, other, "--json").stdout)
+
+
+def is_silent(result):
+    """The validation layer was there and had nothing to say."""
+    check("VK_LAYER_KHRONOS_validation" in result.stderr, report(result))
+    check("alidation Error" not in result.stdout + result.stderr, report(result))
+
+
+def test_host_device_draws_what_render_draws():
+    for scene in ("checkerboard", "tablecloth"):
+        runs("host_device", scene, "host.exr", 64, 36)
+        succeeds("render", scene, "--size", "64x36", "--depth", "float", "-o", "render.exr")
+        check(difference("host.exr", "render.exr")["rmse"] == 0, scene)
+
+
+def test_host_device_makes_no_mistakes():
+    is_silent(runs("host_device", "checkerboard", "host.exr", 32, 24, **VALIDATED))
+
+
+def test_own_pass_draws_outlines():
+    result = runs("own_pass", "checkerboard", "own.png", 64, 36, **VALIDATED)
+    is_silent(result)
+    check("outline" in result.stdout, report(result))
+    succeeds("render", "checkerboard", "--size", "64x36", "-o", "render.png")
+    check(0.01 < difference("own.png", "render.png")["rmse"] < 0.5, "outlines are few and dark")
+
+
+def test_examples_say_what_is_wrong():
+    for name in ("host_device", "own_pass"):
+        check(example(name).returncode == 2, name)
+        result = example(name, "no-such-scene", "x.exr", 8, 8)
+        check(result.returncode == 1 and "no-such-scene" in result.stderr, report(result))
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))
