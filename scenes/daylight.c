@@ -72,16 +72,19 @@ static double perez(const double c[COEFFICIENTS], double cosine, double angle, d
            (1 + c[2] * exp(c[3] * angle) + c[4] * cosine_sun * cosine_sun);
 }
 
+// Eq. 4: what the zenith is divided by.
+static void normalise(daylight *light, double angle) {
+    for (int k = 0; k < 3; k++)
+        light->zenith[k] /= perez(light->distribution[k], 1, angle, light->sun.y);
+}
+
 void daylight_sky(const daylight *light, vector3 direction, double rgb[3]) {
     const double cosine = fmax(direction.y, 1e-3);
     const double cosine_sun = fmin(fmax(vector3_dot(direction, light->sun), -1), 1);
-    const double zenith_angle = acos(fmin(light->sun.y, 1));
+    const double angle = acos(cosine_sun);
     double colour[3];
-    for (int k = 0; k < 3; k++) {
-        const double *c = light->distribution[k];
-        colour[k] = light->zenith[k] * perez(c, cosine, acos(cosine_sun), cosine_sun) /
-                    perez(c, 1, zenith_angle, light->sun.y);
-    }
+    for (int k = 0; k < 3; k++)
+        colour[k] = light->zenith[k] * perez(light->distribution[k], cosine, angle, cosine_sun);
     rgb_of_yxy(colour, rgb);
 }
 
@@ -109,8 +112,10 @@ static void set_sun(daylight *light, double turbidity) {
 
 daylight daylight_of(vector3 sun, double turbidity) {
     daylight light = {.sun = sun};
+    const double angle = acos(fmin(sun.y, 1));
     set_distribution(&light, turbidity);
-    set_zenith(&light, turbidity, acos(fmin(sun.y, 1)));
+    set_zenith(&light, turbidity, angle);
+    normalise(&light, angle);
     set_sun(&light, turbidity);
     return light;
 }

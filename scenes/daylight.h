@@ -10,7 +10,7 @@
 typedef struct daylight {
     vector3 sun;               ///< towards it, unit length
     double distribution[3][5]; ///< of luminance Y and chromaticities x, y
-    double zenith[3];          ///< the same, straight up
+    double zenith[3];          ///< the same, straight up, divided by the distribution there
     double sun_irradiance[3];  ///< on a surface that faces the sun
 } daylight;
 

@@ -88,22 +88,36 @@ static sky_scale scale_of(const daylight *light) {
     return scale;
 }
 
-// The mean of four points, so that the horizon may cross a texel.
+// Points of a texel along each axis: coarse images, too, are to hold means of the sky.
+static int points_of(const lobe_image *image) {
+    const uint32_t points = 128 / image->height;
+    return points < 1 ? 1 : points > 8 ? 8 : (int)points;
+}
+
+static void add_point_of_sky(const daylight *light, const sky_scale *scale, const double d[3],
+                             double sum[3]) {
+    double sky[3];
+    if (d[1] > 0)
+        daylight_sky(light, (vector3){d[0], d[1], d[2]}, sky);
+    for (int i = 0; i < 3; i++)
+        sum[i] += d[1] > 0 ? scale->factor * sky[i] : scale->ground[i];
+}
+
 static void paint_texel(const lobe_image *image, const daylight *light, const sky_scale *scale,
                         uint32_t x, uint32_t y) {
     float *texel = (float *)image->texels + 4 * ((size_t)y * image->width + x);
+    const int points = points_of(image);
     double sum[3] = {0};
-    for (int point = 0; point < 4; point++) {
-        const double position[2] = {x + 0.25 + 0.5 * (point % 2), y + 0.25 + 0.5 * (point / 2)};
-        double d[3], sky[3];
+    for (int i = 0; i < points * points; i++) {
+        const double position[2] = {x + (i % points + 0.5) / points,
+                                    y + (i / points + 0.5) / points};
+        double d[3];
         environment_direction(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, image->width, image->height,
                               position, d);
-        daylight_sky(light, (vector3){d[0], d[1], d[2]}, sky);
-        for (int i = 0; i < 3; i++)
-            sum[i] += d[1] > 0 ? scale->factor * sky[i] : scale->ground[i];
+        add_point_of_sky(light, scale, d, sum);
     }
     for (int i = 0; i < 3; i++)
-        texel[i] = (float)(sum[i] / 4);
+        texel[i] = (float)(sum[i] / (points * points));
     texel[3] = 1;
 }
 
