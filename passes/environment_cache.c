@@ -10,8 +10,8 @@
 /// then not found any more.
 #define CACHE_VERSION 1
 
-static const char key_attribute[] = "lobe.environment.key";
-static const char checksum_attribute[] = "lobe.environment.checksum";
+static const char key_attribute[] = "environmentHash";
+static const char checksum_attribute[] = "texelChecksum";
 
 // ---------------------------------------------------------------------------------------------
 // Numbers for content

@@ -129,7 +129,21 @@ static void declare_lobes(declaration *d, bool ggx, const environment_maps_progr
         give_filtered(d, LOBE_ENVIRONMENT_GGX, PART_MIXTURE, maps->up_to_date, progress, maps);
 }
 
+static void declare_stored(declaration *d, environment_maps *maps) {
+    static const part_kind kinds[LOBE_ENVIRONMENT_MAP_COUNT] = {
+        [LOBE_ENVIRONMENT_VON_MISES_FISHER] = PART_LOBES, [LOBE_ENVIRONMENT_GGX] = PART_MIXTURE};
+    for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (!d->request->wanted[map])
+            continue;
+        reduced_map cube = declare_filtered(d->graph, kinds[map], d->set, d->request->size);
+        environment_restoring(d->graph, &d->request->stored[map], &cube);
+        give(maps, (lobe_environment_map)map, &cube);
+    }
+}
+
 static uint32_t parts_wanted(const environment_maps_request *request) {
+    if (request->stored)
+        return 0;
     uint32_t parts = parts_of_cube(prefiltered_width(request->size));
     return request->wanted[LOBE_ENVIRONMENT_GGX]                ? 3 * parts
            : request->wanted[LOBE_ENVIRONMENT_VON_MISES_FISHER] ? parts
@@ -155,7 +169,9 @@ environment_maps environment_maps_declare(lobe_graph *graph,
     reduced_map radiance = declare_radiance(graph, request);
     give(&maps, LOBE_ENVIRONMENT_RADIANCE, &radiance);
     declaration d = {.graph = graph, .request = request, .set = progress->set, .keep = goes_on};
-    if (maps.part_count > 0)
+    if (request->stored)
+        declare_stored(&d, &maps);
+    else if (maps.part_count > 0)
         declare_lobes(&d, request->wanted[LOBE_ENVIRONMENT_GGX], progress, &maps);
     if (maps.up_to_date)
         for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)

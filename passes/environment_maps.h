@@ -5,12 +5,16 @@
 #include <lobe/environment_maps.h>
 #include <lobe/graph.h>
 
+#include "passes/environment_restoring.h"
+
 /// What to make of an environment.
 typedef struct environment_maps_request {
     const lobe_environment *environment; ///< only its layout and the image's extent are looked at
     const lobe_texture *texture;         ///< holds its image
     uint32_t size; ///< texels along a face of the radiance: a power of two in [16, 2048]
     bool wanted[LOBE_ENVIRONMENT_MAP_COUNT]; ///< the radiance is always made
+    /// Filtered cubes that were made before, for each that is wanted; NULL: they are made.
+    const stored_cube *stored;
     /// Parts of the work on filtered cubes to add in this frame at most; 0: all.
     uint32_t parts;
 } environment_maps_request;
@@ -42,5 +46,8 @@ environment_maps environment_maps_declare(lobe_graph *graph,
 /// The texture has, or soon gets, another content: filtered cubes are made anew from the next frame
 /// on, part by part, and the former ones are used until then.
 void environment_maps_renew(const environment_maps *last, environment_maps_progress *progress);
+
+/// Begins a frame of the graph that holds the maps of a tool, for passes that read them.
+lobe_graph *environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes);
 
 #endif

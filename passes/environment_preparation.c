@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "passes/environment_cache.h"
 #include "passes/environment_maps.h"
+#include "passes/environment_prefiltering.h"
 #include "passes/pass_times.h"
 
 struct lobe_environment_maps {
@@ -18,26 +20,48 @@ struct lobe_environment_maps {
     void *user;
     lobe_frame times;
     lobe_environment_maps_information information;
+    char *cache;                               ///< NULL: none
+    uint64_t keys[LOBE_ENVIRONMENT_MAP_COUNT]; ///< of this environment's cubes in the cache
+    stored_cube stored[LOBE_ENVIRONMENT_MAP_COUNT];
 };
 
 // ---------------------------------------------------------------------------------------------
 // Making them
 
+static lobe_result out_of_memory(const lobe_log *log) {
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
+}
+
 static lobe_result take_times(lobe_environment_maps *maps) {
     if (pass_times_add(&maps->times, lobe_graph_describe(maps->graph)))
         return LOBE_OK;
-    return lobe_log_fail(&maps->log, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
+    return out_of_memory(&maps->log);
 }
 
 static void inform(lobe_environment_maps *maps, const environment_maps *made) {
     maps->information = (lobe_environment_maps_information){
         .milliseconds = maps->times.milliseconds,
         .submissions = maps->times.submissions,
+        .cached = maps->request.stored != NULL,
         .passes = maps->times.passes,
         .pass_count = maps->times.pass_count,
     };
     memcpy(maps->information.width, made->width, sizeof made->width);
     memcpy(maps->information.levels, made->levels, sizeof made->levels);
+}
+
+/// What is not finished yet is kept as it is.
+static void want(lobe_graph *graph, const environment_maps *made) {
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (made->cubes[map].version != 0)
+            lobe_graph_output(graph, made->cubes[map]);
+    }
+}
+
+lobe_graph *environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
+    lobe_graph_begin(maps->graph);
+    *cubes = environment_maps_declare(maps->graph, &maps->request, &maps->progress);
+    return maps->graph;
 }
 
 /// Submits frame after frame until all is made, or the caller has enough: `*stopped`.
@@ -46,9 +70,8 @@ static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
     lobe_frame_free(&maps->times);
     maps->information = (lobe_environment_maps_information){0};
     for (environment_maps made = {0}; !made.up_to_date && !*stopped;) {
-        lobe_graph_begin(maps->graph);
-        made = environment_maps_declare(maps->graph, &maps->request, &maps->progress);
-        lobe_graph_output(maps->graph, made.cubes[LOBE_ENVIRONMENT_RADIANCE]);
+        environment_maps_begin(maps, &made);
+        want(maps->graph, &made);
         lobe_result result = lobe_graph_execute(maps->graph);
         if (result == LOBE_OK)
             result = take_times(maps);
@@ -60,6 +83,90 @@ static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
     }
     return LOBE_OK;
 }
+
+// ---------------------------------------------------------------------------------------------
+// Keeping them
+
+static bool is_filtered_and_wanted(const lobe_environment_maps *maps, uint32_t map) {
+    return map != LOBE_ENVIRONMENT_RADIANCE && maps->request.wanted[map];
+}
+
+static void forget_stored(lobe_environment_maps *maps) {
+    maps->request.stored = NULL;
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map)
+        stored_cube_free(&maps->stored[map]);
+}
+
+/// False where the cache has no such cube.
+static lobe_result take_stored(lobe_environment_maps *maps, uint32_t map, bool *found) {
+    cube_image cube;
+    *found = environment_cache_load(maps->cache, maps->keys[map],
+                                    prefiltered_width(maps->request.size), &maps->log, &cube);
+    if (!*found)
+        return LOBE_OK;
+    lobe_result result = stored_cube_create(maps->device, &cube, &maps->stored[map]);
+    cube_image_free(&cube);
+    return result;
+}
+
+/// Takes all cubes that are wanted from the cache, or none.
+static lobe_result look_into_cache(lobe_environment_maps *maps,
+                                   const lobe_environment *environment) {
+    bool found = maps->cache != NULL, any = false;
+    lobe_result result = LOBE_OK;
+    forget_stored(maps);
+    for (uint32_t map = 0; maps->cache && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (!is_filtered_and_wanted(maps, map))
+            continue;
+        any = true;
+        maps->keys[map] =
+            environment_cache_key(environment, maps->request.size, (lobe_environment_map)map);
+        if (found && result == LOBE_OK)
+            result = take_stored(maps, map, &found);
+    }
+    if (result == LOBE_OK && found && any)
+        maps->request.stored = maps->stored;
+    else
+        forget_stored(maps);
+    return result;
+}
+
+static lobe_result keep_cube(lobe_environment_maps *maps, uint32_t map) {
+    environment_maps cubes;
+    lobe_graph *graph = environment_maps_begin(maps, &cubes);
+    lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
+    lobe_result result = lobe_graph_execute(graph);
+    if (result != LOBE_OK)
+        return result;
+    // Only looked at.
+    const cube_image cube = {cubes.width[map], cubes.levels[map],
+                             (float *)lobe_graph_data(graph, cubes.cubes[map], NULL)};
+    environment_cache_store(maps->cache, maps->keys[map], &cube, &maps->log);
+    return LOBE_OK;
+}
+
+static lobe_result keep_in_cache(lobe_environment_maps *maps) {
+    lobe_result result = LOBE_OK;
+    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (is_filtered_and_wanted(maps, map))
+            result = keep_cube(maps, map);
+    }
+    return result;
+}
+
+/// Makes the maps, with what the cache can spare.
+static lobe_result prepare(lobe_environment_maps *maps, const lobe_environment *environment,
+                           bool *stopped) {
+    lobe_result result = look_into_cache(maps, environment);
+    if (result == LOBE_OK)
+        result = make(maps, stopped);
+    if (result == LOBE_OK && maps->cache && !maps->request.stored && !*stopped)
+        result = keep_in_cache(maps);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Creating and updating
 
 static lobe_result check(const lobe_environment_maps *maps, const lobe_environment *environment) {
     double position[2];
@@ -106,7 +213,12 @@ static lobe_result fill(lobe_environment_maps *maps, const lobe_environment *env
     if (result == LOBE_OK)
         result = lobe_graph_create(maps->device, &maps->graph);
     maps->request.texture = maps->texture;
-    return result == LOBE_OK ? make(maps, stopped) : result;
+    return result == LOBE_OK ? prepare(maps, environment, stopped) : result;
+}
+
+static bool copy_cache(lobe_environment_maps *maps, const char *cache) {
+    maps->cache = cache ? strdup(cache) : NULL;
+    return !cache || maps->cache;
 }
 
 lobe_result lobe_environment_maps_create(lobe_device *device,
@@ -115,10 +227,12 @@ lobe_result lobe_environment_maps_create(lobe_device *device,
     bool stopped = false;
     *maps = calloc(1, sizeof **maps);
     if (!*maps)
-        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "environment maps: out of memory");
+        return out_of_memory(parameters->log);
     set_up(*maps, device, parameters);
-    lobe_result result = fill(*maps, parameters->environment, &stopped);
+    lobe_result result =
+        copy_cache(*maps, parameters->cache) ? LOBE_OK : out_of_memory(&(*maps)->log);
+    if (result == LOBE_OK)
+        result = fill(*maps, parameters->environment, &stopped);
     if (result != LOBE_OK || stopped)
         lobe_environment_maps_destroy(maps);
     return result;
@@ -128,6 +242,8 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
     if (!maps || !*maps)
         return;
     lobe_graph_destroy(&(*maps)->graph);
+    forget_stored(*maps);
+    free((*maps)->cache);
     lobe_texture_destroy(&(*maps)->texture);
     lobe_frame_free(&(*maps)->times);
     free(*maps);
@@ -150,7 +266,7 @@ lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
     bool stopped;
     lobe_graph_invalidate(maps->graph);
     maps->progress.done = 0;
-    return make(maps, &stopped);
+    return environment ? prepare(maps, environment, &stopped) : make(maps, &stopped);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -169,8 +285,8 @@ lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environ
         return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
                              "environment maps: there is no level %u, face %u of cube %d", level,
                              face, (int)map);
-    lobe_graph_begin(maps->graph);
-    environment_maps made = environment_maps_declare(maps->graph, &maps->request, &maps->progress);
+    environment_maps made;
+    environment_maps_begin(maps, &made);
     lobe_graph_read_back(maps->graph, made.cubes[map], (lobe_range){level, 1, face, 1});
     lobe_result result = lobe_graph_execute(maps->graph);
     uint32_t width = maps->information.width[map] >> level;

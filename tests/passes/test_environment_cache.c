@@ -196,7 +196,7 @@ static void change_a_texel(cube_image *cube) {
     assert_int_equal(lobe_exr_read_contents(kept_file(), NULL, NULL, &contents), LOBE_OK);
     float *texel = cube_image_face(cube, 2, 3), kept = *texel;
     *texel = nextafterf(kept, 9);
-    assert_int_equal(lobe_exr_find_attribute(&contents, "lobe.environment.key", LOBE_EXR_TEXT) -
+    assert_int_equal(lobe_exr_find_attribute(&contents, "environmentHash", LOBE_EXR_TEXT) -
                          contents.attributes,
                      contents.attribute_count - 2);
     assert_int_equal(cube_image_write(kept_file(), cube,
