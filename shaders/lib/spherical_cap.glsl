@@ -42,8 +42,8 @@ vec2 cap_rows(spherical_cap cap) {
                     cap.axis.z * cosine + cap.axis.y * cap.sine);
     vec2 high = vec2(cap.axis.y * cosine + cap.axis.z * cap.sine,
                      cap.axis.z * cosine - cap.axis.y * cap.sine);
-    // An end behind the face's plane is either beyond the face's own end or before all of it.
-    if ((low.y <= 0.0 && low.x > 0.0) || (high.y <= 0.0 && high.x < 0.0))
+    // An end behind the face's plane is beyond the face's own end, or the whole cap is.
+    if ((low.y <= 0.0 && cap.axis.y >= 0.0) || (high.y <= 0.0 && cap.axis.y < 0.0))
         return NOTHING;
     return vec2(low.y > 0.0 ? low.x / low.y : -1.0, high.y > 0.0 ? high.x / high.y : 1.0);
 }
