@@ -86,6 +86,9 @@ lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
 }
 
 lobe_result engine_device_wait_all(lobe_device *device) {
+    // The host may have submitted work of lobe's in command buffers of its own.
+    if (device->imported)
+        return engine_device_wait_queue(device);
     return engine_device_wait(device, device->submitted);
 }
 

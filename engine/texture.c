@@ -70,13 +70,17 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
     return result;
 }
 
+bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
+    return image->format == texture->format && image->width == texture->width &&
+           image->height == texture->height;
+}
+
 lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) {
     const lobe_log *log = &texture->device->log;
     lobe_result result = check_content(log, texture->name, image);
     if (result != LOBE_OK)
         return result;
-    if (image->format != texture->format || image->width != texture->width ||
-        image->height != texture->height)
+    if (!lobe_texture_takes(texture, image))
         return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
                              "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
                              texture->width, texture->height, lobe_format_name(texture->format),

@@ -1,6 +1,6 @@
 #include "passes/base_maps.h"
 
-void base_maps_read(const filter_context *context, const device_material *material,
+void base_maps_read(const filter_context *context, const device_material *material, bool colours,
                     lobe_pass *pass) {
     static const char *const names[] = {[MAP_NORMAL] = "normal_map", [MAP_WIDTH] = "width_map"};
     for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; ++map)
@@ -9,5 +9,6 @@ void base_maps_read(const filter_context *context, const device_material *materi
                                                  context->graph, context->scene, material, map)});
     lobe_pass_read(pass, &(lobe_binding){.name = "material_block",
                                          .resource = lobe_graph_import_buffer(
-                                             context->graph, material->constants)});
+                                             context->graph, colours ? material->constants
+                                                                     : material->map_constants)});
 }

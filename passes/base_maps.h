@@ -4,7 +4,8 @@
 #include "passes/filter.h"
 
 /// Binds what shaders/base_maps.glsl reads: a material's constants, normal and width map.
-void base_maps_read(const filter_context *context, const device_material *material,
+/// `colours`: the shader reads colours and metal of the constants too, and depends on them.
+void base_maps_read(const filter_context *context, const device_material *material, bool colours,
                     lobe_pass *pass);
 
 #endif

@@ -1,4 +1,4 @@
-#include "passes/device_scene.h"
+#include "passes/device_scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ ONE_PLACE(tangent);
 ONE_PLACE(texture_coordinates);
 ONE_PLACE(colour);
 
-static const lobe_texture_use *material_map(const lobe_material *material, uint32_t map) {
+const lobe_texture_use *device_scene_map(const lobe_material *material, uint32_t map) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_texture_use *use = NULL;
     switch (map) {
@@ -139,20 +139,13 @@ static void measure_metallic(const lobe_scene *scene, device_material *material)
         material->metallic_varies = true;
 }
 
-static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
-                                   const lobe_log *log) {
-    device_material *material = &result->materials[index];
-    if (material->constants)
-        return LOBE_OK;
-    material->material = &result->scene->materials[index];
-    lobe_result status = scene_check_material(result->scene, index, log);
-    if (status != LOBE_OK)
-        return status;
+static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
+                             const lobe_log *log) {
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = material_map(material->material, map);
+        const lobe_texture_use *use = device_scene_map(material->material, map);
         if (!use)
             continue;
-        status = upload_image(device, result, use->image, log);
+        lobe_result status = upload_image(device, result, use->image, log);
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
@@ -161,43 +154,92 @@ static lobe_result upload_material(lobe_device *device, device_scene *result, ui
         if (use->texture_coordinates)
             material->second_coordinates |= 1u << map;
     }
-    measure_metallic(result->scene, material);
-    material->widths_differ = lobe_widths_differ(material->material);
-    if (material->maps[MAP_NORMAL].use || material->maps[MAP_WIDTH].use)
-        material->subdivision = subdivision_choose(result->scene, material);
+    return LOBE_OK;
+}
+
+static void forget_colours(struct material_constants *constants) {
+    memset(constants->base_colour, 0, sizeof constants->base_colour);
+    memset(constants->emissive, 0, sizeof constants->emissive);
+    constants->metallic = 0;
+    for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; ++i)
+        memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
+}
+
+static lobe_result store(lobe_device *device, const char *name,
+                         const struct material_constants *constants, lobe_buffer **buffer) {
+    if (*buffer)
+        return lobe_buffer_update(*buffer, constants);
+    return lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){.name = name, .size = sizeof *constants, .data = constants},
+        buffer);
+}
+
+static lobe_result store_constants(lobe_device *device, device_material *material) {
+    const char *name = material->material->name;
     struct material_constants constants;
     fill_constants(material, &constants);
-    return lobe_buffer_create(device,
-                              &(lobe_buffer_parameters){.name = material->material->name,
-                                                        .size = sizeof constants,
-                                                        .data = &constants},
-                              &material->constants);
+    lobe_result status = store(device, name, &constants, &material->constants);
+    forget_colours(&constants);
+    bool same =
+        material->map_constants && memcmp(&constants, &material->map_values, sizeof constants) == 0;
+    material->map_values = constants;
+    return status != LOBE_OK || same ? status
+                                     : store(device, name, &constants, &material->map_constants);
+}
+
+lobe_result device_scene_upload_material(lobe_device *device, device_scene *scene, uint32_t index,
+                                         const lobe_log *log) {
+    device_material *material = &scene->materials[index];
+    // But for its buffers all is made anew.
+    *material = (device_material){.material = &scene->scene->materials[index],
+                                  .constants = material->constants,
+                                  .map_constants = material->map_constants,
+                                  .map_values = material->map_values};
+    lobe_result status = find_maps(device, scene, material, log);
+    if (status != LOBE_OK)
+        return status;
+    measure_metallic(scene->scene, material);
+    material->widths_differ = lobe_widths_differ(material->material);
+    if (material->maps[MAP_NORMAL].use || material->maps[MAP_WIDTH].use)
+        material->subdivision = subdivision_choose(scene->scene, material);
+    return store_constants(device, material);
+}
+
+static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
+                                   const lobe_log *log) {
+    if (result->materials[index].constants)
+        return LOBE_OK;
+    lobe_result status = scene_check_material(result->scene, index, log);
+    return status == LOBE_OK ? device_scene_upload_material(device, result, index, log) : status;
 }
 
 static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32_t index,
                                const lobe_log *log) {
     if (result->vertices[index])
         return LOBE_OK;
-    const lobe_mesh *mesh = &result->scene->meshes[index];
     lobe_result status = scene_check_mesh(result->scene, index, log);
-    if (status != LOBE_OK)
-        return status;
-    status = lobe_buffer_create(
+    return status == LOBE_OK ? device_scene_upload_mesh(device, result, index) : status;
+}
+
+lobe_result device_scene_upload_mesh(lobe_device *device, device_scene *scene, uint32_t index) {
+    const lobe_mesh *mesh = &scene->scene->meshes[index];
+    lobe_result status = lobe_buffer_create(
         device,
         &(lobe_buffer_parameters){.name = mesh->name,
                                   .size = mesh->vertex_count * sizeof *mesh->vertices,
                                   .data = mesh->vertices},
-        &result->vertices[index]);
+        &scene->vertices[index]);
     if (status != LOBE_OK)
         return status;
-    result->densities[index] = mesh_density_measure(mesh);
+    scene->densities[index] = mesh_density_measure(mesh);
     char name[128];
     snprintf(name, sizeof name, "indices of %s", mesh->name);
     return lobe_buffer_create(
         device,
         &(lobe_buffer_parameters){
             .name = name, .size = mesh->index_count * sizeof *mesh->indices, .data = mesh->indices},
-        &result->indices[index]);
+        &scene->indices[index]);
 }
 
 static void transformed_coordinates(const lobe_texture_use *use, const lobe_scene_vertex *vertex,
@@ -252,33 +294,42 @@ static bool keeps_angles(const float transform[16]) {
            fabsf(dot(x, y)) <= slack && fabsf(dot(y, z)) <= slack && fabsf(dot(z, x)) <= slack;
 }
 
-static lobe_result upload_instance(lobe_device *device, device_scene *result, size_t index,
-                                   const lobe_log *log) {
-    const lobe_scene *scene = result->scene;
-    const lobe_instance *source = &scene->instances[index];
-    if (source->mesh >= scene->mesh_count || source->material >= scene->material_count) {
-        lobe_log_print(log, LOBE_LOG_ERROR,
-                       "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
-                       index, source->mesh, scene->mesh_count, source->material,
-                       scene->material_count);
-        return LOBE_ERROR_MALFORMED;
-    }
-    lobe_result status = upload_mesh(device, result, source->mesh, log);
-    if (status == LOBE_OK)
-        status = upload_material(device, result, source->material, log);
-    if (status != LOBE_OK)
-        return status;
-    const device_material *material = &result->materials[source->material];
+lobe_result device_scene_check_instance(const lobe_scene *scene, size_t index,
+                                        const lobe_log *log) {
+    const lobe_instance *instance = &scene->instances[index];
+    if (instance->mesh < scene->mesh_count && instance->material < scene->material_count)
+        return LOBE_OK;
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED,
+                         "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
+                         index, instance->mesh, scene->mesh_count, instance->material,
+                         scene->material_count);
+}
+
+void device_scene_measure_instance(device_scene *scene, size_t index) {
+    const lobe_instance *source = &scene->scene->instances[index];
+    const device_material *material = &scene->materials[source->material];
     const lobe_texture_use *use = material->maps[MAP_NORMAL].use ? material->maps[MAP_NORMAL].use
                                                                  : material->maps[MAP_WIDTH].use;
-    result->instances[index] = (device_instance){
+    scene->instances[index] = (device_instance){
         .mesh = source->mesh,
         .material = source->material,
         .mirrored = mirrors(source->transform),
         .keeps_angles = keeps_angles(source->transform),
-        .is_atlas = use && is_atlas(&scene->meshes[source->mesh], use),
+        .is_atlas = use && is_atlas(&scene->scene->meshes[source->mesh], use),
     };
-    return LOBE_OK;
+}
+
+lobe_result device_scene_upload_instance(lobe_device *device, device_scene *scene, size_t index,
+                                         const lobe_log *log) {
+    const lobe_instance *source = &scene->scene->instances[index];
+    lobe_result status = device_scene_check_instance(scene->scene, index, log);
+    if (status == LOBE_OK)
+        status = upload_mesh(device, scene, source->mesh, log);
+    if (status == LOBE_OK)
+        status = upload_material(device, scene, source->material, log);
+    if (status == LOBE_OK)
+        device_scene_measure_instance(scene, index);
+    return status;
 }
 
 static lobe_result upload_white(lobe_device *device, device_scene *result) {
@@ -317,7 +368,7 @@ lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, co
     }
     status = upload_white(device, *result);
     for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; ++i)
-        status = upload_instance(device, *result, i, log);
+        status = device_scene_upload_instance(device, *result, i, log);
     if (status == LOBE_OK)
         return LOBE_OK;
 fail:
@@ -331,8 +382,10 @@ void device_scene_destroy(device_scene **scene) {
         return;
     for (size_t i = 0; s->images && i < s->scene->image_count; ++i)
         lobe_texture_destroy(&s->images[i]);
-    for (size_t i = 0; s->materials && i < s->scene->material_count; ++i)
+    for (size_t i = 0; s->materials && i < s->scene->material_count; ++i) {
         lobe_buffer_destroy(&s->materials[i].constants);
+        lobe_buffer_destroy(&s->materials[i].map_constants);
+    }
     for (size_t i = 0; s->vertices && s->indices && i < s->scene->mesh_count; ++i) {
         lobe_buffer_destroy(&s->vertices[i]);
         lobe_buffer_destroy(&s->indices[i]);

@@ -3,6 +3,7 @@
 
 #include <lobe/device.h>
 #include <lobe/graph.h>
+#include <lobe/renderer.h>
 #include <lobe/scene.h>
 
 #include "passes/mesh_density.h"
@@ -18,6 +19,10 @@ typedef struct device_map {
 typedef struct device_material {
     const lobe_material *material;
     lobe_buffer *constants;
+    /// The same without colours and metal, on which maps of directions and widths do not depend: a
+    /// change of those alone leaves them be.
+    lobe_buffer *map_constants;
+    struct material_constants map_values; ///< what `map_constants` holds
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: there is one
     uint32_t second_coordinates; ///< bit MAP_...: it uses the second set
@@ -53,6 +58,11 @@ typedef struct device_scene {
 /// Uploads. `scene` must live as long as the copy. Errors: as lobe_renderer_set_scene.
 lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
                                 device_scene **result);
+/// Takes over what changed of the scene. Errors: as lobe_renderer_update_scene;
+/// LOBE_ERROR_MALFORMED and _INVALID_ARGUMENT are found before anything is changed, after others
+/// the copy is no more than good for being destroyed.
+lobe_result device_scene_update(lobe_device *device, device_scene *scene,
+                                const lobe_scene_changes *changes, const lobe_log *log);
 /// Clears the pointer; NULL is fine.
 void device_scene_destroy(device_scene **scene);
 

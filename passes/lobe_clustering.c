@@ -79,7 +79,7 @@ mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe
     if (space != LOBE_SPACE_TANGENT)
         atlas = surface_atlas_draw(context, instance, width, height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
-    base_maps_read(context, material, pass);
+    base_maps_read(context, material, false, pass);
     mixture.map.resource =
         lobe_pass_write(pass, &(lobe_binding){"mixture_map", mixture.map.resource,
                                               .range = {0, 1, 0, mixture.map.layers}});

@@ -47,7 +47,7 @@ moment_map moment_binning(const filter_context *context, uint32_t index,
     lobe_resource bins =
         lobe_graph_upload(context->graph, name, &partition->constants, sizeof partition->constants);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
-    base_maps_read(context, material, pass);
+    base_maps_read(context, material, colour, pass);
     read_colours(context, material, pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
     result.map.resource = lobe_pass_write(

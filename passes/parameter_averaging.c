@@ -17,7 +17,7 @@ reduced_map parameter_averaging(const filter_context *context, uint32_t index) {
     reduced_map map =
         reduced_map_declare(context->graph, name, filtered_map_format(context), width, height, 1);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "parameter_averaging");
-    base_maps_read(context, material, pass);
+    base_maps_read(context, material, false, pass);
     map.resource = lobe_pass_write(
         pass, &(lobe_binding){"parameter_map", map.resource, .range = {0, 1, 0, 1}});
     specialisation_list list = {0};

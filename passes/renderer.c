@@ -90,6 +90,20 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     return LOBE_ERROR_OUT_OF_MEMORY;
 }
 
+lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes) {
+    if (!renderer->scene)
+        return lobe_log_fail(&renderer->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "update: no scene is set");
+    lobe_result result =
+        device_scene_update(renderer->device, renderer->scene, changes, &renderer->log);
+    if (result == LOBE_OK && changes->material_count > 0)
+        renderer->warned = NULL;
+    if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
+        result != LOBE_ERROR_MALFORMED)
+        forget_scene(renderer);
+    return result;
+}
+
 lobe_graph *lobe_renderer_graph(lobe_renderer *renderer) {
     return renderer->graph;
 }

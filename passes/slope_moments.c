@@ -16,7 +16,7 @@ reduced_map slope_moments(const filter_context *context, uint32_t index) {
     reduced_map map = reduced_map_declare(context->graph, name, filtered_map_format(context), width,
                                           height, SLOPE_LAYERS);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "slope_moments");
-    base_maps_read(context, material, pass);
+    base_maps_read(context, material, false, pass);
     map.resource = lobe_pass_write(
         pass, &(lobe_binding){"moment_map", map.resource, .range = {0, 1, 0, SLOPE_LAYERS}});
     specialisation_list list = {0};

@@ -115,6 +115,8 @@ typedef struct lobe_texture_parameters {
 /// LOBE_ERROR_UNSUPPORTED (the device cannot sample the format).
 lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
                                 lobe_texture **texture);
+/// Whether an image has the format and extent that lobe_texture_update asks for.
+bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image);
 /// Replaces the content: same format and extent. Graph passes that read the texture run again.
 lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image);
 /// Waits until the device has finished with it. Clears the pointer; NULL is fine.

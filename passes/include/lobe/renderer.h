@@ -30,6 +30,28 @@ void lobe_renderer_destroy(lobe_renderer **renderer);
 /// (no triangles, an index out of range, a vertex or texel that is not finite).
 lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
 
+/// What of a scene has changed, by indices into its arrays; each array may be NULL where its count
+/// is 0, and name what no instance uses.
+typedef struct lobe_scene_changes {
+    const uint32_t *images; ///< texels; also extent or format
+    size_t image_count;
+    const uint32_t *materials; ///< anything of them
+    size_t material_count;
+    const uint32_t *meshes; ///< vertices and indices; also their numbers
+    size_t mesh_count;
+    const uint32_t *instances; ///< transform, mesh or material
+    size_t instance_count;
+} lobe_scene_changes;
+
+/// Takes over what the host changed in the scene that is set; uploads no more than that, and in the
+/// next frame maps are built again only where they depend on it. The scene's arrays must have as
+/// many elements as before. Lights, their number, the scene's camera, background and bounds are
+/// read in each frame: they may change without a word, as may instances that only move.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range),
+/// LOBE_ERROR_MALFORMED, as for lobe_renderer_set_scene: all is then as before. After others, such
+/// as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, no scene is set any more.
+lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes);
+
 /// Largest number of samples a pixel of the reference.
 #define LOBE_MAXIMUM_SAMPLES 4096
 
