@@ -113,25 +113,35 @@ static void give_filtered(declaration *d, lobe_environment_map map, part_kind ki
     }
 }
 
-static void declare_lobes(declaration *d, bool ggx, const environment_maps_progress *progress,
+/// How many kinds of parts there are, in their order: each needs those before it.
+static uint32_t kinds_wanted(const environment_maps_request *request) {
+    return request->wanted[LOBE_ENVIRONMENT_GGX]                ? 3
+           : request->wanted[LOBE_ENVIRONMENT_BETWEEN]          ? 2
+           : request->wanted[LOBE_ENVIRONMENT_VON_MISES_FISHER] ? 1
+                                                                : 0;
+}
+
+static void declare_lobes(declaration *d, const environment_maps_progress *progress,
                           environment_maps *maps) {
-    uint32_t last = ggx ? PART_MIXTURE : PART_LOBES, left = maps->parts_done;
+    static const lobe_environment_map made[] = {LOBE_ENVIRONMENT_VON_MISES_FISHER,
+                                                LOBE_ENVIRONMENT_BETWEEN, LOBE_ENVIRONMENT_GGX};
+    uint32_t parts = parts_of_cube(prefiltered_width(d->request->size)), left = maps->parts_done;
     d->sources =
         environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE], d->request->size);
-    for (uint32_t kind = PART_LOBES; kind <= last; ++kind) {
+    for (uint32_t kind = 0; kind < kinds_wanted(d->request); ++kind) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
         do_cube(d, kind, &left);
+        if (d->request->wanted[made[kind]])
+            give_filtered(d, made[kind], kind, maps->parts_done >= (kind + 1) * parts, progress,
+                          maps);
     }
-    uint32_t parts = parts_of_cube(prefiltered_width(d->request->size));
-    give_filtered(d, LOBE_ENVIRONMENT_VON_MISES_FISHER, PART_LOBES, maps->parts_done >= parts,
-                  progress, maps);
-    if (ggx)
-        give_filtered(d, LOBE_ENVIRONMENT_GGX, PART_MIXTURE, maps->up_to_date, progress, maps);
 }
 
 static void declare_stored(declaration *d, environment_maps *maps) {
     static const part_kind kinds[LOBE_ENVIRONMENT_MAP_COUNT] = {
-        [LOBE_ENVIRONMENT_VON_MISES_FISHER] = PART_LOBES, [LOBE_ENVIRONMENT_GGX] = PART_MIXTURE};
+        [LOBE_ENVIRONMENT_VON_MISES_FISHER] = PART_LOBES,
+        [LOBE_ENVIRONMENT_BETWEEN] = PART_BETWEEN,
+        [LOBE_ENVIRONMENT_GGX] = PART_MIXTURE};
     for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
         if (!d->request->wanted[map])
             continue;
@@ -142,12 +152,9 @@ static void declare_stored(declaration *d, environment_maps *maps) {
 }
 
 static uint32_t parts_wanted(const environment_maps_request *request) {
-    if (request->stored)
-        return 0;
-    uint32_t parts = parts_of_cube(prefiltered_width(request->size));
-    return request->wanted[LOBE_ENVIRONMENT_GGX]                ? 3 * parts
-           : request->wanted[LOBE_ENVIRONMENT_VON_MISES_FISHER] ? parts
-                                                                : 0;
+    return request->stored
+               ? 0
+               : kinds_wanted(request) * parts_of_cube(prefiltered_width(request->size));
 }
 
 static uint32_t advance(const environment_maps_request *request, uint32_t part_count,
@@ -172,7 +179,7 @@ environment_maps environment_maps_declare(lobe_graph *graph,
     if (request->stored)
         declare_stored(&d, &maps);
     else if (maps.part_count > 0)
-        declare_lobes(&d, request->wanted[LOBE_ENVIRONMENT_GGX], progress, &maps);
+        declare_lobes(&d, progress, &maps);
     if (maps.up_to_date)
         for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)
             progress->former[i] = false;

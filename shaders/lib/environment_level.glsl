@@ -57,6 +57,24 @@ float prefiltered_level(float width, float concentration) {
                          prefiltered_concentration(width, finer + 1.0), concentration);
 }
 
+// A lobe of any concentration as a blend of one level of the cube and one of the cube in between
+// (twice the concentrations): at most 3.5 % off, for two reads of one level instead of one read of
+// two. Up to twice the concentration of level 0.
+struct prefiltered_blend {
+    float level, level_between;
+    float share; // of the first
+};
+
+prefiltered_blend blend_of_lobe(float width, float concentration) {
+    float last = log2(width), exact = last - 2.0 - 0.5 * log2(max(concentration, 1e-6));
+    float level = clamp(round(exact), 0.0, last - 1.0);
+    float level_between = exact >= level ? level + 1.0 : level;
+    float here = prefiltered_concentration(width, level);
+    float between = 2.0 * prefiltered_concentration(width, level_between);
+    float share = sharper_share(max(here, between), min(here, between), concentration);
+    return prefiltered_blend(level, level_between, here > between ? share : 1.0 - share);
+}
+
 // Lobes more concentrated than level 0 of the filtered cube: the share of the radiance itself, read
 // at level 0, where faces of it are `size` texels wide; the rest is the filtered cube's level 0.
 // Linear interpolation between texels t apart is a lobe of variance t^2/6, here with the mean texel.

@@ -10,6 +10,10 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         return vec4(mip_level(a.x, a.y), solid_angle_level(a.x, a.y), 0.0, 0.0);
     case 1:
         return vec4(sharper_share(a.x, a.y, a.z), 0.0, 0.0, 0.0);
+    case 2: {
+        prefiltered_blend blend = blend_of_lobe(a.x, a.y);
+        return vec4(blend.level, blend.level_between, blend.share, 0.0);
+    }
     default:
         return vec4(prefiltered_level(a.x, a.y), prefiltered_concentration(a.x, a.z),
                     radiance_share(a.x, a.w, a.y), 0.0);

@@ -10,7 +10,7 @@
 #include "tests/shaders/samples.h"
 
 static const char shader[] = "environment_level.comp";
-enum { LEVELS, SHARE, PREFILTERED };
+enum { LEVELS, SHARE, BLEND, PREFILTERED };
 
 enum { COUNT = 600 };
 static harness_arguments arguments[COUNT];
@@ -125,6 +125,45 @@ static void test_prefiltered_level(void **state) {
     }
 }
 
+static double concentration_of(double width, double level) {
+    double texels = width / exp2(level);
+    return texels > 1.5 ? texels * texels / 16 : 0;
+}
+
+/// Relative L2 distance of a blend from the lobe that it stands for.
+static double relative_error(double share, double first, double second, double lobe) {
+    const float lobes[3] = {(float)first, (float)second, (float)lobe};
+    const float nothing[3] = {0, 0, (float)lobe};
+    double uniform = 1 / (4 * M_PI);
+    // |lobe|^2 = |lobe - uniform|^2 + |uniform|^2, since both have the same integral.
+    return sqrt(blend_error(share, lobes) / (blend_error(0, nothing) + uniform));
+}
+
+/// Trilinear interpolation is at most 13.2 % off a lobe, with the cube in between 3.6 %.
+static void test_blends_are_near(void **state) {
+    const double width = 256;
+    double worst[2] = {0};
+    for (size_t i = 0; i < COUNT; i++)
+        arguments[i] = (harness_arguments){
+            {(float)width, (float)geometric(1e-3, 4096, i, COUNT), 0, 256}, {0}, {0}};
+    harness_evaluate(state, shader, PREFILTERED, arguments, COUNT, results);
+    for (size_t i = 0; i < COUNT; i++) {
+        double level = fmin(floor(results[i].value[0]), 7);
+        worst[0] =
+            fmax(worst[0],
+                 relative_error(level + 1 - results[i].value[0], concentration_of(width, level),
+                                concentration_of(width, level + 1), arguments[i].a[1]));
+    }
+    harness_evaluate(state, shader, BLEND, arguments, COUNT, results);
+    for (size_t i = 0; i < COUNT; i++)
+        worst[1] = fmax(worst[1], relative_error(results[i].value[2],
+                                                 concentration_of(width, results[i].value[0]),
+                                                 2 * concentration_of(width, results[i].value[1]),
+                                                 arguments[i].a[1]));
+    assert_true(worst[0] < 0.132 && worst[0] > 0.12);
+    assert_true(worst[1] < 0.036 && worst[1] > 0.03);
+}
+
 /// Beyond the finest level the radiance takes over, up to all of it.
 static void test_radiance_takes_over(void **state) {
     for (size_t i = 0; i < COUNT; i++)
@@ -142,9 +181,9 @@ static void test_radiance_takes_over(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_solid_angle),         cmocka_unit_test(test_mip_level),
-        cmocka_unit_test(test_best_blend),          cmocka_unit_test(test_prefiltered_level),
-        cmocka_unit_test(test_radiance_takes_over),
+        cmocka_unit_test(test_solid_angle),     cmocka_unit_test(test_mip_level),
+        cmocka_unit_test(test_best_blend),      cmocka_unit_test(test_prefiltered_level),
+        cmocka_unit_test(test_blends_are_near), cmocka_unit_test(test_radiance_takes_over),
     };
     return cmocka_run_group_tests(tests, harness_set_up, harness_tear_down);
 }

@@ -36,6 +36,10 @@ typedef enum lobe_environment_map {
     /// The same levels with GGX lobes, proportional to D(theta/2) of alpha^2 = 1/(2 kappa), where
     /// theta is the angle to the direction and kappa the level's concentration; alpha is at most 1.
     LOBE_ENVIRONMENT_GGX,
+    /// The same levels with von Mises-Fisher lobes of twice the concentration: half way between
+    /// those of LOBE_ENVIRONMENT_VON_MISES_FISHER, so that a blend of two is nearer to the lobe
+    /// that is wanted.
+    LOBE_ENVIRONMENT_BETWEEN,
     LOBE_ENVIRONMENT_MAP_COUNT
 } lobe_environment_map;
 
@@ -91,8 +95,8 @@ const lobe_environment_maps_information *
 lobe_environment_maps_describe(const lobe_environment_maps *maps);
 
 /// The concentration kappa of the lobe that a level of a filtered cube stands for, where level 0
-/// has `width` texels along a face. Lobes in between lie between levels: prefiltered_level() in
-/// shaders/lib/environment_level.glsl.
+/// has `width` texels along a face; LOBE_ENVIRONMENT_BETWEEN has twice as much. Lobes in between
+/// lie between levels, or between the two cubes: shaders/lib/environment_level.glsl.
 double lobe_environment_level_concentration(uint32_t width, uint32_t level);
 
 /// Copies one face of one level to host memory: RGBA32_FLOAT, rows from top to bottom as Vulkan
