@@ -116,11 +116,27 @@ static lobe_result open_vulkan(lobe_device *device, const lobe_device_parameters
     return result == LOBE_OK ? open_device(device) : result;
 }
 
+static void create_mutexes(lobe_device *device) {
+    pthread_mutexattr_t recursive;
+    pthread_mutexattr_init(&recursive);
+    pthread_mutexattr_settype(&recursive, PTHREAD_MUTEX_RECURSIVE);
+    pthread_mutex_init(&device->found_mutex, &recursive);
+    pthread_mutexattr_destroy(&recursive);
+    pthread_mutex_init(&device->queue_mutex, NULL);
+    pthread_mutex_init(&device->commands_mutex, NULL);
+}
+
+static void destroy_mutexes(lobe_device *device) {
+    pthread_mutex_destroy(&device->found_mutex);
+    pthread_mutex_destroy(&device->queue_mutex);
+    pthread_mutex_destroy(&device->commands_mutex);
+}
+
 lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device) {
     *device = calloc(1, sizeof **device);
     if (!*device)
         return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
-    pthread_mutex_init(&(*device)->queue_mutex, NULL);
+    create_mutexes(*device);
     if (parameters->log)
         (*device)->log = *parameters->log;
     return LOBE_OK;
@@ -181,7 +197,7 @@ void lobe_device_destroy(lobe_device **device) {
         destroy_vulkan(*device);
     if (!(*device)->imported)
         engine_instance_destroy(&(*device)->instance);
-    pthread_mutex_destroy(&(*device)->queue_mutex);
+    destroy_mutexes(*device);
     free((void *)(*device)->information.features);
     free(*device);
     *device = NULL;

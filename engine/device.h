@@ -27,11 +27,15 @@ struct lobe_device {
     uint32_t queue_family;
     uint32_t timestamp_bits; ///< valid bits of a timestamp; 0: the queue has none
     VkPhysicalDeviceLimits limits;
-    lobe_vulkan_features features; ///< what was enabled
-    VkSemaphore timeline;          ///< reaches n when the n-th submission is done
-    _Atomic uint64_t submitted;    ///< submissions so far; grows under the lock of the queue
-    VkCommandPool commands;        ///< of single-use command buffers
+    lobe_vulkan_features features;  ///< what was enabled
+    VkSemaphore timeline;           ///< reaches n when the n-th submission is done
+    _Atomic uint64_t submitted;     ///< submissions so far; grows under the lock of the queue
+    pthread_mutex_t commands_mutex; ///< from the begin to the finish of single-use commands
+    VkCommandPool commands;         ///< of single-use command buffers
     engine_memory *memory;
+    /// Around the shaders, pipelines and samplers made so far; recursive, for pipelines look for
+    /// shaders. What is found lives as long as the device.
+    pthread_mutex_t found_mutex;
     struct engine_shaders *shaders;     ///< see engine/shader.h
     struct engine_pipelines *pipelines; ///< see engine/pipeline.h
     _Atomic uint64_t last_stamp;        ///< see engine_device_stamp
@@ -68,7 +72,8 @@ lobe_result engine_device_wait_all(lobe_device *device);
 /// Waits for all that was submitted to the queue, by the host too.
 lobe_result engine_device_wait_queue(lobe_device *device);
 
-/// A command buffer in recording state, for single use. `purpose` is for the error line.
+/// A command buffer in recording state, for single use. `purpose` is for the error line. Until it
+/// is finished other threads wait for theirs.
 lobe_result engine_device_begin_commands(lobe_device *device, const char *purpose,
                                          VkCommandBuffer *commands);
 /// Ends, submits, waits and frees what engine_device_begin_commands gave, failure or not.

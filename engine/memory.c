@@ -1,5 +1,6 @@
 #include "engine/memory.h"
 
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "engine/range_allocator.h"
@@ -19,6 +20,7 @@ struct engine_memory_block {
 };
 
 struct engine_memory {
+    pthread_mutex_t mutex; ///< around all that follows the parameters
     engine_memory_parameters parameters;
     VkPhysicalDeviceMemoryProperties properties;
     VkDeviceSize granularity;        ///< bufferImageGranularity
@@ -35,6 +37,7 @@ lobe_result engine_memory_create(const engine_memory_parameters *parameters,
         return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "device memory: no host memory to manage it");
     (*memory)->parameters = *parameters;
+    pthread_mutex_init(&(*memory)->mutex, NULL);
     VkPhysicalDeviceVulkan11Properties maintenance = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
     };
@@ -66,6 +69,7 @@ void engine_memory_destroy(engine_memory **memory) {
         (*memory)->blocks = block->next;
         release_block(*memory, block);
     }
+    pthread_mutex_destroy(&(*memory)->mutex);
     free(*memory);
     *memory = NULL;
 }
@@ -239,9 +243,8 @@ static bool block_serves(const engine_memory_block *block, uint32_t type, bool l
            (block->mapped != NULL) == (place != ENGINE_MEMORY_DEVICE);
 }
 
-lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_request *request,
-                                   engine_allocation *allocation) {
-    *allocation = (engine_allocation){0};
+static lobe_result allocate(engine_memory *memory, const engine_memory_request *request,
+                            engine_allocation *allocation) {
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
         return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
@@ -262,10 +265,17 @@ lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_re
                          "'%s': no host memory to manage device memory", request->name);
 }
 
-void engine_memory_free(engine_memory *memory, engine_allocation *allocation) {
+lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_request *request,
+                                   engine_allocation *allocation) {
+    *allocation = (engine_allocation){0};
+    pthread_mutex_lock(&memory->mutex);
+    const lobe_result result = allocate(memory, request, allocation);
+    pthread_mutex_unlock(&memory->mutex);
+    return result;
+}
+
+static void give_back(engine_memory *memory, engine_allocation *allocation) {
     engine_memory_block *block = allocation->block;
-    if (!block)
-        return;
     engine_range_free(&block->ranges, allocation->offset, allocation->size);
     memory->used -= allocation->size;
     *allocation = (engine_allocation){0};
@@ -276,6 +286,14 @@ void engine_memory_free(engine_memory *memory, engine_allocation *allocation) {
         link = &(*link)->next;
     *link = block->next;
     release_block(memory, block);
+}
+
+void engine_memory_free(engine_memory *memory, engine_allocation *allocation) {
+    if (!allocation->block)
+        return;
+    pthread_mutex_lock(&memory->mutex);
+    give_back(memory, allocation);
+    pthread_mutex_unlock(&memory->mutex);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -289,15 +307,19 @@ static uint64_t device_heap_room(const engine_memory *memory) {
     return room;
 }
 
-void engine_memory_query(const engine_memory *memory, lobe_device_memory *information) {
+void engine_memory_query(engine_memory *memory, lobe_device_memory *information) {
+    pthread_mutex_lock(&memory->mutex);
     *information = (lobe_device_memory){
         .allocated_bytes = memory->allocated,
         .used_bytes = memory->used,
         .peak_used_bytes = memory->peak,
         .budget_bytes = memory->allocated + minimum(device_heap_room(memory), limit_room(memory)),
     };
+    pthread_mutex_unlock(&memory->mutex);
 }
 
 void engine_memory_reset_peak(engine_memory *memory) {
+    pthread_mutex_lock(&memory->mutex);
     memory->peak = memory->used;
+    pthread_mutex_unlock(&memory->mutex);
 }

@@ -8,7 +8,8 @@
 
 #include <lobe/device.h>
 
-/// Device memory, taken from Vulkan in blocks and handed out in pieces of them.
+/// Device memory, taken from Vulkan in blocks and handed out in pieces of them. Any thread may do
+/// so at any time.
 typedef struct engine_memory engine_memory;
 typedef struct engine_memory_block engine_memory_block;
 
@@ -56,7 +57,7 @@ lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_re
 /// Zeroes the allocation; one that is all zero is fine.
 void engine_memory_free(engine_memory *memory, engine_allocation *allocation);
 
-void engine_memory_query(const engine_memory *memory, lobe_device_memory *information);
+void engine_memory_query(engine_memory *memory, lobe_device_memory *information);
 void engine_memory_reset_peak(engine_memory *memory);
 
 #endif

@@ -279,9 +279,8 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
     *pipelines = NULL;
 }
 
-lobe_result engine_pipeline_compute(lobe_device *device,
-                                    const engine_compute_parameters *parameters,
-                                    const engine_pipeline **pipeline) {
+static lobe_result find_compute(lobe_device *device, const engine_compute_parameters *parameters,
+                                const engine_pipeline **pipeline) {
     pipeline_key key = {0};
     *pipeline = NULL;
     lobe_result result =
@@ -292,8 +291,17 @@ lobe_result engine_pipeline_compute(lobe_device *device,
     return result == LOBE_OK ? find_or_add(device, NULL, &key, pipeline) : result;
 }
 
-lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
-                                   const engine_pipeline **pipeline) {
+lobe_result engine_pipeline_compute(lobe_device *device,
+                                    const engine_compute_parameters *parameters,
+                                    const engine_pipeline **pipeline) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = find_compute(device, parameters, pipeline);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}
+
+static lobe_result find_raster(lobe_device *device, const engine_raster_parameters *parameters,
+                               const engine_pipeline **pipeline) {
     pipeline_key key = {0};
     *pipeline = NULL;
     lobe_result result =
@@ -308,6 +316,14 @@ lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_para
     return result == LOBE_OK ? find_or_add(device, parameters, &key, pipeline) : result;
 }
 
+lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
+                                   const engine_pipeline **pipeline) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = find_raster(device, parameters, pipeline);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}
+
 const engine_shader_binding *engine_pipeline_binding(const engine_pipeline *pipeline,
                                                      const char *name) {
     for (size_t i = 0; i < pipeline->binding_count; i++)
@@ -317,5 +333,9 @@ const engine_shader_binding *engine_pipeline_binding(const engine_pipeline *pipe
 }
 
 lobe_result engine_sampler(lobe_device *device, const lobe_sampler *settings, VkSampler *sampler) {
-    return engine_sampler_cache_get(device, &device->pipelines->samplers, settings, sampler);
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result =
+        engine_sampler_cache_get(device, &device->pipelines->samplers, settings, sampler);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
 }

@@ -207,7 +207,10 @@ void engine_shaders_destroy(engine_shaders **shaders) {
 
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder) {
-    return add_table(device->shaders, codes, count, folder);
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = add_table(device->shaders, codes, count, folder);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
 }
 
 /// Name and words lie behind the code, in one piece of memory.
@@ -231,16 +234,9 @@ static void remove_last_table(engine_shaders *shaders) {
     free(gone);
 }
 
-lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader) {
+/// Takes the code over, in failure too.
+static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
     engine_shaders *shaders = device->shaders;
-    if (!shader->name || !shader->words || shader->size == 0 || shader->size % 4 != 0)
-        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "shader '%s': a name and whole words of SPIR-V are needed",
-                             shader->name ? shader->name : "");
-    engine_shader_code *code = copy_code(shader);
-    if (!code)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                             shader->name);
     lobe_result result = add_table(shaders, code, 1, NULL);
     if (result != LOBE_OK) {
         free(code);
@@ -249,13 +245,28 @@ lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shade
     shaders->tables->owned = code;
     // What is wrong with it is told here, not by the first pass that uses it.
     const engine_shader *found;
-    result = engine_shader_find(device, shader->name, &found);
+    result = engine_shader_find(device, code->name, &found);
     if (result != LOBE_OK)
         remove_last_table(shaders);
     return result;
 }
 
-lobe_result engine_shader_find(lobe_device *device, const char *name,
+lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader) {
+    if (!shader->name || !shader->words || shader->size == 0 || shader->size % 4 != 0)
+        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "shader '%s': a name and whole words of SPIR-V are needed",
+                             shader->name ? shader->name : "");
+    engine_shader_code *code = copy_code(shader);
+    if (!code)
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                             shader->name);
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = add_code(device, code);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}
+
+static lobe_result find_shader(lobe_device *device, const char *name,
                                const engine_shader **shader) {
     engine_shaders *shaders = device->shaders;
     const shader_table *table = NULL;
@@ -272,5 +283,13 @@ lobe_result engine_shader_find(lobe_device *device, const char *name,
         result = load_again(shaders, code, &folders, &loaded);
     if (result == LOBE_OK)
         *shader = &loaded->shader;
+    return result;
+}
+
+lobe_result engine_shader_find(lobe_device *device, const char *name,
+                               const engine_shader **shader) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = find_shader(device, name, shader);
+    pthread_mutex_unlock(&device->found_mutex);
     return result;
 }

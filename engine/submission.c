@@ -101,10 +101,13 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1,
     };
+    pthread_mutex_lock(&device->commands_mutex);
     lobe_result result = VULKAN_CHECK(
         &device->log, vkAllocateCommandBuffers(device->vulkan, &allocate, commands), "%s", purpose);
-    if (result != LOBE_OK)
+    if (result != LOBE_OK) {
+        pthread_mutex_unlock(&device->commands_mutex);
         return result;
+    }
     const VkCommandBufferBeginInfo begin = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
@@ -113,6 +116,7 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
     if (result != LOBE_OK) {
         vkFreeCommandBuffers(device->vulkan, device->commands, 1, commands);
         *commands = VK_NULL_HANDLE;
+        pthread_mutex_unlock(&device->commands_mutex);
     }
     return result;
 }
@@ -126,5 +130,6 @@ lobe_result engine_device_finish_commands(lobe_device *device, const char *purpo
     if (result == LOBE_OK)
         result = engine_device_wait(device, value);
     vkFreeCommandBuffers(device->vulkan, device->commands, 1, &commands);
+    pthread_mutex_unlock(&device->commands_mutex);
     return result;
 }

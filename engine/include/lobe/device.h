@@ -14,7 +14,8 @@ extern "C" {
 #endif
 
 /// A GPU (or a software Vulkan driver) made ready for lobe: its queue, its memory, its shaders
-/// and pipelines. One device may be used from one thread at a time.
+/// and pipelines. Several threads may use one device at once, each with objects of its own
+/// (renderers, graphs, textures, buffers): lobe locks what they share. One of them destroys it.
 typedef struct lobe_device lobe_device;
 
 typedef enum lobe_device_type {
