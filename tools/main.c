@@ -13,7 +13,7 @@ static void print_help(FILE *stream) {
           "are filtered into mixtures of lobes.\n\nSubcommands:\n",
           stream);
     for (size_t i = 0; subcommands[i]; ++i)
-        fprintf(stream, "  %-10s %s\n", subcommands[i]->name, subcommands[i]->summary);
+        fprintf(stream, "  %-11s %s\n", subcommands[i]->name, subcommands[i]->summary);
     fputs("\n'lobe help SUBCOMMAND' or 'lobe SUBCOMMAND --help' tells more.\n"
           "'lobe --version' prints the version.\n"
           "Exit status: 0 done, 1 failed, 2 wrong usage.\n",
