@@ -4,11 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <lobe/file.h>
-
 #include "scenes/gltf_container.h"
 #include "scenes/gltf_schema.h"
 #include "scenes/scene.h"
+#include "scenes/scene_file.h"
 
 // ---------------------------------------------------------------------------------------------
 // From the file to the document
@@ -17,6 +16,7 @@
 // waits until parsing has failed: of an image, which tinygltf may take for one, it does not fail.
 typedef struct buffer_reader {
     const char *path;
+    const lobe_file_source *files;
     lobe_result result;
     char line[1024];
 } buffer_reader;
@@ -31,18 +31,19 @@ static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
     lobe_log log = {keep_line, reader};
     uint8_t *bytes = NULL;
-    reader->result = lobe_file_read(path, reader->path, &log, &bytes, size);
+    reader->result = scene_file_read(reader->files, path, reader->path, &log, &bytes, size);
     return bytes;
 }
 
-static lobe_result parse(const gltf_container *container, const char *path, const lobe_log *log,
+static lobe_result parse(const gltf_container *container, const char *path,
+                         const lobe_file_source *files, const lobe_log *log,
                          const gltf_document **document) {
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("");
     if (!folder)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     char message[256];
-    buffer_reader reader = {.path = path};
+    buffer_reader reader = {.path = path, .files = files};
     gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
                           .size = container->binary ? container->size : container->json_size,
                           .binary = container->binary,
@@ -60,18 +61,28 @@ static lobe_result parse(const gltf_container *container, const char *path, cons
                          path, malformed ? message : "out of memory");
 }
 
-static lobe_result read_document(const char *path, const lobe_log *log,
+// Reading mends the bytes: those of a host are copied.
+static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                              uint8_t **bytes, size_t *size) {
+    const char *path = parameters->scene;
+    return parameters->data
+               ? scene_file_copy(path, parameters->data, parameters->size, log, bytes, size)
+               : scene_file_read(parameters->files, path, NULL, log, bytes, size);
+}
+
+static lobe_result read_document(const lobe_scene_open_parameters *parameters, const lobe_log *log,
                                  const gltf_document **document) {
+    const char *path = parameters->scene;
     gltf_container container = {0};
     uint8_t *bytes = NULL;
-    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &container.size);
+    lobe_result result = read_bytes(parameters, log, &bytes, &container.size);
     container.bytes = (char *)bytes;
     if (result == LOBE_OK)
         result = gltf_container_open(&container, path, log);
     if (result == LOBE_OK)
         result = gltf_schema_check(path, container.json, container.json_size, log);
     if (result == LOBE_OK)
-        result = parse(&container, path, log, document);
+        result = parse(&container, path, parameters->files, log, document);
     free(bytes);
     return result;
 }
@@ -151,12 +162,13 @@ static lobe_result convert(gltf_import *import) {
     return result;
 }
 
-lobe_result gltf_open(const char *path, const lobe_log *log, lobe_scene **scene) {
-    gltf_import import = {.path = path, .log = log};
+lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                      lobe_scene **scene) {
+    gltf_import import = {.path = parameters->scene, .log = log, .files = parameters->files};
     *scene = NULL;
-    lobe_result result = read_document(path, log, &import.document);
+    lobe_result result = read_document(parameters, log, &import.document);
     if (result == LOBE_OK)
-        result = scene_allocate(path, log, &import.scene);
+        result = scene_allocate(parameters->scene, log, &import.scene);
     if (result == LOBE_OK)
         result = convert(&import);
     if (result == LOBE_OK)

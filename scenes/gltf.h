@@ -14,8 +14,10 @@
 /// Import of a glTF 2.0 file into a scene. Only what the scene's nodes reach is imported: meshes,
 /// materials and images are converted when they are first met.
 
-/// Opens a .gltf or .glb file; told apart by content. See lobe_scene_open.
-lobe_result gltf_open(const char *path, const lobe_log *log, lobe_scene **scene);
+/// Opens a .gltf or .glb file; told apart by content. Of the parameters all but `assets` is used:
+/// see lobe_scene_open_parameters.
+lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                      lobe_scene **scene);
 
 // ---------------------------------------------------------------------------------------------
 // Between the files of the import
@@ -46,6 +48,7 @@ typedef struct gltf_primitive_state {
 typedef struct gltf_import {
     const char *path;
     const lobe_log *log;
+    const lobe_file_source *files; ///< NULL: the file system
     const gltf_document *document;
     lobe_scene *scene;
     bool quantised;                   ///< KHR_mesh_quantization is in use

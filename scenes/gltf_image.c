@@ -2,11 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <lobe/file.h>
-
 #include "scenes/gltf.h"
 #include "scenes/image_file.h"
 #include "scenes/scene.h"
+#include "scenes/scene_file.h"
 
 static int hexadecimal(char c) {
     if (c >= '0' && c <= '9')
@@ -59,8 +58,8 @@ static lobe_result read_external(const gltf_import *import, const char *uri, ima
     if (!path)
         return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                              import->path);
-    lobe_result result =
-        lobe_file_read(path, import->path, import->log, &source->owned, &source->size);
+    lobe_result result = scene_file_read(import->files, path, import->path, import->log,
+                                         &source->owned, &source->size);
     source->bytes = source->owned;
     free(path);
     return result;

@@ -25,6 +25,17 @@ extern "C" {
 lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *log, uint8_t **data,
                            size_t *size);
 
+/// Where a host keeps files that are not in the file system: in memory, or in an archive.
+typedef struct lobe_file_source {
+    /// Gives the whole content of a file, which must stay until `release`. `path` is as the file
+    /// that refers to it says, put behind that one's folder; "a/../b" stays as it is. On failure
+    /// the code says why, usually LOBE_ERROR_NOT_FOUND or _READ; lobe logs it.
+    lobe_result (*read)(void *user, const char *path, const void **data, size_t *size);
+    /// The content is not needed any more; once for each that was given. NULL: nothing is to do.
+    void (*release)(void *user, const void *data, size_t size);
+    void *user; ///< handed to both
+} lobe_file_source;
+
 /// Writes a file under a temporary name in the same folder, then gives it its name, replacing an
 /// old one. What is not a regular file (a device, a pipe) is written to directly.
 /// Errors: LOBE_ERROR_WRITE; nothing new is left behind.

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <lobe/environment.h>
+#include <lobe/file.h>
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/result.h>
@@ -235,6 +236,14 @@ typedef struct lobe_scene_open_parameters {
     /// A folder that holds models/npm_bunny.js and models/npm_dragon_vrip_res3.ply.gz, the meshes
     /// of the built-in scenes that need assets. NULL: none; those scenes are then NOT_FOUND.
     const char *assets;
+    /// A whole .gltf or .glb file in memory, which `scene` then only names: in messages, and the
+    /// files that it refers to lie in the folder of that name. Needed during the call only. NULL:
+    /// none.
+    const void *data;
+    size_t size; ///< bytes of `data`
+    /// Where to read a .gltf or .glb file and those it refers to; not those of `assets`. NULL: in
+    /// the file system. Needed during the call only.
+    const lobe_file_source *files;
 } lobe_scene_open_parameters;
 
 /// Opens a scene.
