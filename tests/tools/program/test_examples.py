@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -58,10 +59,23 @@ def test_own_pass_draws_outlines():
     check(0.01 < difference("own.png", "render.png")["rmse"] < 0.5, "outlines are few and dark")
 
 
+def test_offscreen_animation_writes_frames():
+    result = runs("offscreen_animation", "checkerboard", ".", 3, 48, 32, **VALIDATED)
+    is_silent(result)
+    passes = [int(number) for number in re.findall(r"(\d+) passes", result.stdout)]
+    # The roughness of the one material is in its maps of lobes; maps of colours stay as they are.
+    check(len(passes) == 3 and passes[1] == passes[2] <= passes[0], report(result))
+    succeeds("render", "checkerboard", "--size", "48x32", "-o", "render.exr")
+    check(difference("frame0000.exr", "render.exr")["rmse"] == 0, "the first frame is the scene")
+    for one, other in (("frame0000.exr", "frame0001.exr"), ("frame0001.exr", "frame0002.exr")):
+        check(difference(one, other)["rmse"] > 0, f"{one} and {other} are the same")
+
+
 def test_examples_say_what_is_wrong():
-    for name in ("host_device", "own_pass"):
+    for name, *rest in (("host_device", 8, 8), ("own_pass", 8, 8),
+                        ("offscreen_animation", 1, 8, 8)):
         check(example(name).returncode == 2, name)
-        result = example(name, "no-such-scene", "x.exr", 8, 8)
+        result = example(name, "no-such-scene", "x.exr", *rest)
         check(result.returncode == 1 and "no-such-scene" in result.stderr, report(result))
 
 

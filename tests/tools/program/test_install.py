@@ -163,7 +163,7 @@ def test_examples():
     for source in sorted(examples.glob("*.c")):
         run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Werror", source, "-o",
              FOLDER / source.stem, f"-I{BUILD / 'tools' / 'examples'}",
-             *flags(TARGET, "--cflags", "--libs"), "-lvulkan"])
+             *flags(TARGET, "--cflags", "--libs"), "-lvulkan", "-lm"])
 
 
 def test_program_in_c_linked_statically():
