@@ -23,7 +23,8 @@ ONE_PLACE(tangent);
 ONE_PLACE(texture_coordinates);
 ONE_PLACE(colour);
 
-const lobe_texture_use *device_scene_map(const lobe_material *material, uint32_t map) {
+const lobe_texture_use *device_scene_map(const lobe_scene *scene, const lobe_material *material,
+                                         uint32_t map) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_texture_use *use = NULL;
     switch (map) {
@@ -41,6 +42,10 @@ const lobe_texture_use *device_scene_map(const lobe_material *material, uint32_t
         break;
     case MAP_EMISSIVE:
         use = &material->emissive_map;
+        break;
+    case MAP_OCCLUSION:
+        use = scene->environment && material->occlusion_strength > 0 ? &material->occlusion_map
+                                                                     : NULL;
         break;
     }
     return use && use->image >= 0 ? use : NULL;
@@ -78,6 +83,7 @@ static void fill_constants(const device_material *material, struct material_cons
     constants->roughness = source->roughness;
     constants->normal_scale = source->normal_scale;
     constants->normal_concentration = source->normal_concentration;
+    constants->occlusion_strength = source->occlusion_strength;
     if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         fill_lobes(source, constants);
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
@@ -142,7 +148,7 @@ static void measure_metallic(const lobe_scene *scene, device_material *material)
 static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
                              const lobe_log *log) {
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = device_scene_map(material->material, map);
+        const lobe_texture_use *use = device_scene_map(result->scene, material->material, map);
         if (!use)
             continue;
         lobe_result status = upload_image(device, result, use->image, log);
@@ -339,6 +345,15 @@ static lobe_result upload_white(lobe_device *device, device_scene *result) {
                                &result->white);
 }
 
+lobe_result device_scene_upload_environment(lobe_device *device, device_scene *result) {
+    const lobe_environment *environment = result->scene->environment;
+    if (!environment)
+        return LOBE_OK;
+    return lobe_texture_create(
+        device, &(lobe_texture_parameters){.name = environment->name, .image = &environment->image},
+        &result->environment);
+}
+
 static bool allocate_tables(device_scene *result) {
     const lobe_scene *scene = result->scene;
     result->images = calloc(scene->image_count + 1, sizeof *result->images);
@@ -367,6 +382,10 @@ lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, co
         goto fail;
     }
     status = upload_white(device, *result);
+    if (status == LOBE_OK)
+        status = scene_check_environment(scene, log);
+    if (status == LOBE_OK)
+        status = device_scene_upload_environment(device, *result);
     for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; ++i)
         status = device_scene_upload_instance(device, *result, i, log);
     if (status == LOBE_OK)
@@ -391,6 +410,7 @@ void device_scene_destroy(device_scene **scene) {
         lobe_buffer_destroy(&s->indices[i]);
     }
     lobe_texture_destroy(&s->white);
+    lobe_texture_destroy(&s->environment);
     free(s->images);
     free(s->materials);
     free(s->vertices);

@@ -6,8 +6,9 @@
 /// The steps of a device scene's creation that its update takes again, one for each part. What a
 /// part needs and the device lacks is uploaded, too.
 
-/// How a material uses a map (MAP_...); NULL: it has none.
-const lobe_texture_use *device_scene_map(const lobe_material *material, uint32_t map);
+/// How a material uses a map (MAP_...); NULL: it has none, or the scene does not need it.
+const lobe_texture_use *device_scene_map(const lobe_scene *scene, const lobe_material *material,
+                                         uint32_t map);
 
 /// Describes a material from the scene and its maps, and stores its constants: in new buffers, or
 /// those it has. The material must have been checked.
@@ -16,6 +17,9 @@ lobe_result device_scene_upload_material(lobe_device *device, device_scene *scen
 
 /// Buffers of a mesh, which has none. It must have been checked.
 lobe_result device_scene_upload_mesh(lobe_device *device, device_scene *scene, uint32_t index);
+
+/// The texture of the scene's environment, if it has one and there is none yet.
+lobe_result device_scene_upload_environment(lobe_device *device, device_scene *scene);
 
 /// LOBE_ERROR_MALFORMED: its mesh or its material does not exist.
 lobe_result device_scene_check_instance(const lobe_scene *scene, size_t index, const lobe_log *log);

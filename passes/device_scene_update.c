@@ -49,7 +49,7 @@ static lobe_result check_material(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = scene_check_material(scene, index, update->log);
     for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = device_scene_map(&scene->materials[index], map);
+        const lobe_texture_use *use = device_scene_map(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
             result = scene_check_image(scene, (size_t)use->image, update->log);
     }
@@ -85,6 +85,8 @@ static lobe_result check_content(const scene_update *update) {
             result = scene_check_mesh(scene->scene, changes->meshes[i], update->log);
     for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; ++i)
         result = check_instance(update, changes->instances[i]);
+    if (result == LOBE_OK && changes->environment)
+        result = scene_check_environment(scene->scene, update->log);
     return result;
 }
 
@@ -101,6 +103,10 @@ static bool uses_image(const device_material *material, uint32_t image) {
 static void mark_materials(scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     device_scene *scene = update->scene;
+    // Where light from all around comes or goes, so do the maps that it needs.
+    bool other_maps = changes->environment && !scene->environment != !scene->scene->environment;
+    for (size_t m = 0; other_maps && m < scene->scene->material_count; ++m)
+        update->materials[m] = scene->materials[m].constants != NULL;
     for (size_t m = 0; m < scene->scene->material_count; ++m)
         for (size_t i = 0; i < changes->image_count; ++i)
             update->materials[m] |= uses_image(&scene->materials[m], changes->images[i]);
@@ -148,6 +154,16 @@ static lobe_result update_mesh(const scene_update *update, uint32_t index) {
     return device_scene_upload_mesh(update->device, scene, index);
 }
 
+static lobe_result update_environment(const scene_update *update) {
+    device_scene *scene = update->scene;
+    const lobe_environment *environment = scene->scene->environment;
+    if (environment && scene->environment &&
+        lobe_texture_takes(scene->environment, &environment->image))
+        return lobe_texture_update(scene->environment, &environment->image);
+    lobe_texture_destroy(&scene->environment);
+    return device_scene_upload_environment(update->device, scene);
+}
+
 static lobe_result apply(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     const lobe_scene *scene = update->scene->scene;
@@ -163,6 +179,8 @@ static lobe_result apply(const scene_update *update) {
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; ++i)
         if (update->instances[i])
             result = device_scene_upload_instance(update->device, update->scene, i, update->log);
+    if (result == LOBE_OK && changes->environment)
+        result = update_environment(update);
     return result;
 }
 

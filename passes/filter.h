@@ -6,6 +6,7 @@
 #include <lobe/scene.h>
 
 #include "passes/device_scene.h"
+#include "passes/environment_maps.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
 #define FILTER_MAXIMUM_SPECIALISATIONS 40
@@ -26,6 +27,12 @@ typedef struct filtered_images {
     uint64_t bytes;
 } filtered_images;
 
+/// What a renderer remembers of an environment's maps from frame to frame; all zero: nothing.
+typedef struct environment_state {
+    environment_maps_progress progress;
+    environment_maps last; ///< of the last frame
+} environment_state;
+
 /// What a filter may use to build its maps.
 typedef struct filter_context {
     lobe_graph *graph;
@@ -35,6 +42,8 @@ typedef struct filter_context {
     const lobe_camera *camera;
     uint32_t width, height; ///< of the picture, pixels
     filtered_images *images;
+    environment_state *environment;
+    uint32_t environment_parts; ///< of the work on its maps to do in this frame at most; 0: all
     const lobe_log *log;
 } filter_context;
 

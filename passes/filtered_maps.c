@@ -43,10 +43,9 @@ const lobe_knob knob_storage = {
 };
 
 static const char *const filtered_names[MAP_COUNT] = {
-    [MAP_BASE_COLOUR] = "base_colour_filtered",
-    [MAP_WIDTH] = "width_filtered",
-    [MAP_SPECULAR] = "specular_filtered",
-    [MAP_EMISSIVE] = "emissive_filtered",
+    [MAP_BASE_COLOUR] = "base_colour_filtered", [MAP_WIDTH] = "width_filtered",
+    [MAP_SPECULAR] = "specular_filtered",       [MAP_EMISSIVE] = "emissive_filtered",
+    [MAP_OCCLUSION] = "occlusion_filtered",
 };
 
 lobe_format filtered_map_format(const filter_context *context) {

@@ -24,6 +24,7 @@ struct lobe_renderer {
     // One an instance, and one an image, of the scene.
     filtered_appearance *appearances;
     lobe_resource *filtered_images;
+    environment_state environment;
 };
 
 /// All that one call of lobe_renderer_render needs.
@@ -60,6 +61,7 @@ static void forget_scene(lobe_renderer *renderer) {
     renderer->appearances = NULL;
     renderer->filtered_images = NULL;
     renderer->warned = NULL;
+    renderer->environment = (environment_state){0};
 }
 
 void lobe_renderer_destroy(lobe_renderer **renderer) {
@@ -98,6 +100,8 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
         device_scene_update(renderer->device, renderer->scene, changes, &renderer->log);
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->warned = NULL;
+    if (result == LOBE_OK && changes->environment)
+        environment_maps_renew(&renderer->environment.last, &renderer->environment.progress);
     if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
         result != LOBE_ERROR_MALFORMED)
         forget_scene(renderer);
@@ -226,13 +230,13 @@ static lobe_result import_target(rendering *r, shading_targets *imported) {
 
 static void draw_once(rendering *r, bool outputs, const shading_targets *imported,
                       shading_targets *targets) {
-    static const float centre[2] = {0.5f, 0.5f};
+    static const shading_sample centre = {.position = {0.5f, 0.5f}};
     lobe_graph *graph = r->renderer->graph;
     *targets = shading_targets_declare(graph, r->width, r->height, outputs);
     host_frame_replace(imported, targets);
     host_frame_before(graph, r->parameters, targets);
-    shading(&r->context, r->renderer->appearances, shading_upload_lights(&r->context), centre,
-            targets);
+    shading_light light = shading_light_prepare(&r->context);
+    shading(&r->context, r->renderer->appearances, &light, &centre, targets);
     host_frame_after(graph, r->parameters, targets);
 }
 
@@ -279,7 +283,7 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     lobe_graph_begin(graph);
     build_maps(r, frame);
     shading_targets targets = shading_targets_declare(graph, r->width, r->height, false);
-    lobe_resource lights = shading_upload_lights(&r->context);
+    shading_light light = shading_light_prepare(&r->context);
     lobe_resource sum =
         lobe_graph_image(graph, &(lobe_image_description){.name = "sum of samples",
                                                           .format = LOBE_FORMAT_RGBA32_FLOAT,
@@ -288,10 +292,10 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     lobe_pass *clear = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
     sum = lobe_pass_fill(clear, sum, (lobe_range){0}, (float[4]){0});
     for (uint32_t i = 0; i < count; ++i) {
-        float sample[2];
-        sample_position(first + i, r->samples, sample);
-        sample_position_in_pattern(r->pattern, sample);
-        shading(&r->context, r->renderer->appearances, lights, sample, &targets);
+        shading_sample sample = {.number = first + i, .pattern = r->pattern};
+        sample_position(sample.number, r->samples, sample.position);
+        sample_position_in_pattern(r->pattern, sample.position);
+        shading(&r->context, r->renderer->appearances, &light, &sample, &targets);
         sum = accumulation(graph, targets.radiance, sum, r->width, r->height);
     }
     want(r, sum);
@@ -405,6 +409,8 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .width = r->width,
         .height = r->height,
         .images = &r->images,
+        .environment = &renderer->environment,
+        .environment_parts = parameters->environment_parts,
         .log = &renderer->log,
     };
     return LOBE_OK;

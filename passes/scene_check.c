@@ -112,3 +112,35 @@ lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lo
                    scene->name, material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
     return LOBE_ERROR_MALFORMED;
 }
+
+/// NULL where all is well, else what is wrong.
+static const char *fault_of_environment(const lobe_environment *environment) {
+    const lobe_image *image = &environment->image;
+    if (!image->texels || image->format != LOBE_FORMAT_RGBA32_FLOAT)
+        return "is no image of four 32-bit floats";
+    if (!(environment->intensity >= 0) || !isfinite(environment->intensity))
+        return "has an intensity that is negative or not finite";
+    for (int i = 0; i < 3; ++i) {
+        const float *a = environment->world_from_environment[i];
+        const float *b = environment->world_from_environment[(i + 1) % 3];
+        float square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+        float product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        if (!(fabsf(square - 1) < 1e-3f) || !(fabsf(product) < 1e-3f))
+            return "has a matrix that is no rotation";
+    }
+    const float *texels = image->texels;
+    for (size_t i = 0; i < (size_t)image->width * image->height * 4; ++i) {
+        if (i % 4 != 3 && (!(texels[i] >= 0) || !isfinite(texels[i])))
+            return "has a texel that is negative or not finite";
+    }
+    return NULL;
+}
+
+lobe_result scene_check_environment(const lobe_scene *scene, const lobe_log *log) {
+    const char *fault = scene->environment ? fault_of_environment(scene->environment) : NULL;
+    if (!fault)
+        return LOBE_OK;
+    lobe_log_print(log, LOBE_LOG_ERROR, "%s: environment '%s' %s", scene->name,
+                   scene->environment->name, fault);
+    return LOBE_ERROR_MALFORMED;
+}

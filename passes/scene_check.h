@@ -12,5 +12,7 @@ lobe_result scene_check_image(const lobe_scene *scene, size_t index, const lobe_
 lobe_result scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_log *log);
 /// Counts and indices are in range.
 lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lobe_log *log);
+/// Where there is one: texels are RGBA32_FLOAT, finite and not negative; its rotation is one.
+lobe_result scene_check_environment(const lobe_scene *scene, const lobe_log *log);
 
 #endif

@@ -10,6 +10,15 @@
 static const char *const views[] = {"radiance", "lobes", "level", NULL};
 static const char *const bases[] = {"exact", "lobe", NULL};
 
+static const char *const methods[] = {"exact", "mip", "prefiltered", "sampled", NULL};
+static const char *const sizes[] = {"16", "32", "64", "128", "256", "512", "1024", "2048", NULL};
+static const char *const horizons[] = {"ignored", "clipped", "faded", NULL};
+static const char *const scatterings[] = {"single", "multiple", NULL};
+
+static const char environment_summary[] =
+    "how light from an environment is integrated: over all its texels; in one fetch of its MIP "
+    "chain; in a few of levels filtered with lobes; or with a grid of samples";
+
 // Knobs of every filter, after its own.
 static const lobe_knob shared_knobs[] = {
     {
@@ -26,8 +35,75 @@ static const lobe_knob shared_knobs[] = {
         .maximum = 1,
         .choices = bases,
     },
+    {
+        .name = "env",
+        .summary = environment_summary,
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 3,
+        .initial = 2,
+        .choices = methods,
+    },
+    {
+        .name = "env_size",
+        .summary = "texels along a face of the cube that the environment is brought to",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 7,
+        .initial = 4,
+        .choices = sizes,
+    },
+    {
+        .name = "env_probes",
+        .summary = "prefiltered: round lobes that a long one is made of at most",
+        .kind = LOBE_KNOB_INTEGER,
+        .minimum = 1,
+        .maximum = 8,
+        .initial = 4,
+    },
+    {
+        .name = "env_grid",
+        .summary = "sampled: samples along each side of the grid",
+        .kind = LOBE_KNOB_INTEGER,
+        .minimum = 2,
+        .maximum = 8,
+        .initial = 5,
+    },
+    {
+        .name = "env_window",
+        .summary = "how strongly the nine harmonics of diffuse light are kept from ringing; 0: not",
+        .maximum = 0.95,
+    },
+    {
+        .name = "horizon",
+        .summary = "what lobes see of the environment below the surface: is seen, is cut off, or "
+                   "fades what is seen above",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 2,
+        .initial = 1,
+        .choices = horizons,
+    },
+    {
+        .name = "scattering",
+        .summary = "microfacets reflect light once, or lose none to what they reflect again",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 1,
+        .choices = scatterings,
+    },
 };
 static const size_t shared_knob_count = sizeof shared_knobs / sizeof *shared_knobs;
+
+// The reference's own default is the truth: each of its samples takes a sample of the environment.
+static const lobe_knob exact_environment_knob = {
+    .name = "env",
+    .summary = environment_summary,
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 3,
+    .choices = methods,
+};
+
+static const lobe_knob *shared_knob(const lobe_filter *filter, size_t index) {
+    const lobe_knob *knob = &shared_knobs[index];
+    return filter->supersamples && strcmp(knob->name, "env") == 0 ? &exact_environment_knob : knob;
+}
 
 size_t lobe_filter_count(void) {
     size_t count = 0;
@@ -90,7 +166,7 @@ const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index) {
     size_t own = own_knob_count(filter);
     if (index < own)
         return filter->knobs[index];
-    return index - own < shared_knob_count ? &shared_knobs[index - own] : NULL;
+    return index - own < shared_knob_count ? shared_knob(filter, index - own) : NULL;
 }
 
 void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "passes/background.h"
 #include "passes/camera.h"
 #include "passes/material_specialisation.h"
 #include "shaders/interface/frame.h"
@@ -18,6 +19,7 @@ static const char *const map_names[MAP_COUNT] = {
     [MAP_WIDTH] = "width_map",
     [MAP_SPECULAR] = "specular_map",
     [MAP_EMISSIVE] = "emissive_map",
+    [MAP_OCCLUSION] = "occlusion_map",
 };
 
 static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_format format,
@@ -65,7 +67,7 @@ static void fill_light(const lobe_light *source, struct light *light) {
     light->cone[1] = -outer * light->cone[0];
 }
 
-lobe_resource shading_upload_lights(const filter_context *context) {
+static lobe_resource upload_lights(const filter_context *context) {
     static const lobe_light_type order[] = {LOBE_LIGHT_DIRECTIONAL, LOBE_LIGHT_POINT,
                                             LOBE_LIGHT_SPOT};
     const lobe_scene *scene = context->scene->scene;
@@ -83,6 +85,11 @@ lobe_resource shading_upload_lights(const filter_context *context) {
     lobe_resource resource = lobe_graph_upload(context->graph, "lights", lights, size);
     free(lights);
     return resource;
+}
+
+shading_light shading_light_prepare(const filter_context *context) {
+    return (shading_light){.punctual = upload_lights(context),
+                           .environment = environment_light_build(context)};
 }
 
 static lobe_resource upload_frame(const filter_context *context, const float sample[2],
@@ -110,6 +117,10 @@ static lobe_resource upload_frame(const filter_context *context, const float sam
     return lobe_graph_upload(context->graph, "frame", &frame, sizeof frame);
 }
 
+static bool draws_background(const filter_context *context, const environment_light *light) {
+    return light->present && context->scene->scene->environment_visible;
+}
+
 static void attach(lobe_pass *pass, const filter_context *context, shading_targets *targets) {
     lobe_attachment radiance = {.resource = targets->radiance,
                                 .load = targets->keep_radiance ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR};
@@ -127,8 +138,9 @@ static void attach(lobe_pass *pass, const filter_context *context, shading_targe
 }
 
 /// The features of a draw: of its material, its mesh, the lights and the user, then the filter's.
-static void specialise_draw(const filter_context *context, size_t instance,
-                            const filtered_appearance *appearance, specialisation_list *list) {
+static void specialise_draw(const filter_context *context, const environment_light *light,
+                            size_t instance, const filtered_appearance *appearance,
+                            specialisation_list *list) {
     const lobe_scene *scene = context->scene->scene;
     const device_instance *drawn = &context->scene->instances[instance];
     material_specialise(&context->scene->materials[drawn->material], list);
@@ -139,15 +151,17 @@ static void specialise_draw(const filter_context *context, size_t instance,
     specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
     specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
     uint32_t lights = (uint32_t)scene->light_count;
-    specialise(list, SPECIALISE_LIGHTS_AT_ONCE, lights < 1 ? 1 : lights < 4 ? lights : 4);
+    specialise(list, SPECIALISE_LIGHTS_AT_ONCE, environment_light_lights_at_once(light, lights));
+    environment_light_specialise(light, context, list);
     specialise(list, SPECIALISE_VIEW, (uint32_t)filter_setting(context, "view"));
     specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
     for (size_t i = 0; i < appearance->specialisation_count; ++i)
         specialise(list, appearance->specialisation[i].id, appearance->specialisation[i].bits);
 }
 
-static size_t bind_draw(const filter_context *context, size_t instance,
-                        const filtered_appearance *appearance, lobe_binding *bindings) {
+static size_t bind_draw(const filter_context *context, const environment_light *light,
+                        size_t instance, const filtered_appearance *appearance,
+                        lobe_binding *bindings) {
     lobe_graph *graph = context->graph;
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
@@ -162,14 +176,15 @@ static size_t bind_draw(const filter_context *context, size_t instance,
             (lobe_binding){.name = map_names[map],
                            .resource = device_map_import(graph, context->scene, material, map),
                            .sampler = device_map_sampler(material, map)};
+    bindings[count++] = environment_light_albedo(light, context, material->material);
     for (size_t i = 0; i < appearance->binding_count; ++i)
         bindings[count++] = appearance->bindings[i];
     return count;
 }
 
-static void draw_instance(const filter_context *context, size_t instance,
-                          const filtered_appearance *appearance, const char *fragment_shader,
-                          lobe_pass *pass) {
+static void draw_instance(const filter_context *context, const environment_light *light,
+                          size_t instance, const filtered_appearance *appearance,
+                          const char *fragment_shader, lobe_pass *pass) {
     const device_instance *drawn = &context->scene->instances[instance];
     const lobe_material *material = context->scene->materials[drawn->material].material;
     const float *transform = context->scene->scene->instances[instance].transform;
@@ -178,10 +193,10 @@ static void draw_instance(const filter_context *context, size_t instance,
         for (int column = 0; column < 4; ++column)
             constants.rows[row][column] = transform[4 * column + row];
     }
-    lobe_binding bindings[2 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
-    size_t binding_count = bind_draw(context, instance, appearance, bindings);
+    lobe_binding bindings[3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
+    size_t binding_count = bind_draw(context, light, instance, appearance, bindings);
     specialisation_list list = {0};
-    specialise_draw(context, instance, appearance, &list);
+    specialise_draw(context, light, instance, appearance, &list);
     lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_pass_draw(
         pass, &(lobe_draw){
@@ -203,16 +218,20 @@ static void draw_instance(const filter_context *context, size_t instance,
 }
 
 void shading(const filter_context *context, const filtered_appearance *appearances,
-             lobe_resource lights, const float sample[2], shading_targets *targets) {
+             const shading_light *light, const shading_sample *sample, shading_targets *targets) {
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "shading");
-    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block",
-                                         .resource = upload_frame(context, sample, targets)});
-    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = lights});
+    lobe_resource frame = upload_frame(context, sample->position, targets);
+    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
+    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    environment_light_read(&light->environment, context, pass, sample);
     bool outputs = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
+    if (draws_background(context, &light->environment))
+        background(pass, context, light->environment.cube, sample->position, outputs);
     char fragment_shader[64];
-    snprintf(fragment_shader, sizeof fragment_shader, "shading_%s%s.frag", context->filter->shading,
+    snprintf(fragment_shader, sizeof fragment_shader, "shading_%s%s%s.frag",
+             context->filter->shading, light->environment.present ? "_environment" : "",
              outputs ? "_aov" : "");
     for (size_t i = 0; i < context->scene->scene->instance_count; ++i)
-        draw_instance(context, i, &appearances[i], fragment_shader, pass);
+        draw_instance(context, &light->environment, i, &appearances[i], fragment_shader, pass);
 }

@@ -1,6 +1,7 @@
 #ifndef PASSES_SHADING_H
 #define PASSES_SHADING_H
 
+#include "passes/environment_light.h"
 #include "passes/filter.h"
 
 /// What the shading pass draws into. Images are declared by shading_targets_declare; each shading
@@ -18,12 +19,16 @@ typedef struct shading_targets {
 shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
                                         bool arbitrary_output_variables);
 
-/// Uploads the scene's lights, sorted by type, once for all shading passes of a frame.
-lobe_resource shading_upload_lights(const filter_context *context);
+/// All that lights the scene, once for all shading passes of a frame.
+typedef struct shading_light {
+    lobe_resource punctual; ///< lights, sorted by type
+    environment_light environment;
+} shading_light;
+
+shading_light shading_light_prepare(const filter_context *context);
 
 /// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
-/// `sample`: where in each pixel, [0, 1] each.
 void shading(const filter_context *context, const filtered_appearance *appearances,
-             lobe_resource lights, const float sample[2], shading_targets *targets);
+             const shading_light *light, const shading_sample *sample, shading_targets *targets);
 
 #endif

@@ -7,6 +7,10 @@
 #include "filtered_maps.glsl"
 #include "lib/characteristic_vector.glsl"
 
+#ifdef ENVIRONMENT
+#include "environment_lobes.glsl"
+#endif
+
 layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;
 
 // xyz: mean normal; w: mean of the concentration of microfacets, or of the factor of the lobes'

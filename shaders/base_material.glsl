@@ -4,6 +4,7 @@
 // A material at one point of its maps, and its reflectance: what `direct` and the reference
 // evaluate, and what all filters are to average.
 
+#include "albedo_table.glsl"
 #include "lib/angle.glsl"
 #include "lib/base_lobe.glsl"
 #include "lib/half_vector_lobe.glsl"
@@ -89,7 +90,8 @@ vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distributi
         return vec3(0.0);
     vec3 fresnel = fresnel_schlick(base.specular, vec3(1.0), dot(incoming, half_vector));
     float shadowing = masking_shadowing(DISTRIBUTION, incoming_cosine, outgoing_cosine, base.width);
-    return microfacet_specular(fresnel, distribution, shadowing, outgoing_cosine) +
+    return microfacet_specular(fresnel, distribution, shadowing, outgoing_cosine) *
+               scattering_scale(base.specular, outgoing_cosine, base.width) +
            microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
 }
 

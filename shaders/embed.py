@@ -2,9 +2,11 @@
 """Compiles the GLSL passes of a folder to SPIR-V and writes them as one C table.
 
 Each *.vert, *.frag and *.comp directly in the folder is a pass. One that includes "filter.glsl"
-is compiled for each file of filters/ in its stead, without and with the macro AOV: shading.frag
-and filters/lobes.glsl give shading_lobes.frag and shading_lobes_aov.frag. The table says what each
-entry was made from, so that the library can compile it again at run time.
+is compiled for each file of filters/ in its stead. Macros that a pass asks about, of ENVIRONMENT
+and AOV, make variants of it, without and with each: shading.frag and filters/lobes.glsl give
+shading_lobes.frag, shading_lobes_environment.frag, shading_lobes_aov.frag and
+shading_lobes_environment_aov.frag. The table says what each entry was made from, so that the library
+can compile it again at run time.
 """
 
 import argparse
@@ -20,6 +22,7 @@ from pathlib import Path
 
 STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
+MACROS = ("ENVIRONMENT", "AOV")
 
 
 @dataclass(frozen=True)
@@ -32,13 +35,20 @@ class Shader:
 
 def variants(folder, path):
     """The shaders that one source file stands for."""
-    if not FILTER_INCLUDE.search(path.read_text()):
-        return [Shader(path.name, path.name)]
+    text = path.read_text()
+    filters = [""]
+    if FILTER_INCLUDE.search(text):
+        filters = [file.stem for file in sorted((folder / "filters").glob("*.glsl"))]
+    sets = [()]
+    for macro in MACROS:
+        if re.search(rf"^\s*#\s*ifdef\s+{macro}\b", text, re.MULTILINE):
+            sets += [(*others, macro) for others in sets]
     found = []
-    for filter_file in sorted((folder / "filters").glob("*.glsl")):
-        for suffix, definitions in (("", ()), ("_aov", ("AOV",))):
-            name = f"{path.stem}_{filter_file.stem}{suffix}{path.suffix}"
-            found.append(Shader(name, path.name, definitions, f"filters/{filter_file.name}"))
+    for name in filters:
+        for definitions in sets:
+            words = [path.stem, *([name] if name else []), *(word.lower() for word in definitions)]
+            found.append(Shader("_".join(words) + path.suffix, path.name, definitions,
+                                f"filters/{name}.glsl" if name else ""))
     return found
 
 

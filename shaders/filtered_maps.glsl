@@ -18,6 +18,7 @@ layout(set = 0, binding = 17) uniform sampler2D base_colour_filtered;
 layout(set = 0, binding = 18) uniform sampler2D width_filtered;
 layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
 layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
+layout(set = 0, binding = 21) uniform sampler2D occlusion_filtered;
 
 // By how much of its width a footprint may be longer than its probes cover.
 const float SLACK = 0.25;
@@ -109,6 +110,13 @@ vec4 filtered_base_colour(surface_point surface, map_area lobes) {
 
 vec3 filtered_emission(surface_point surface, map_area lobes) {
     return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface, lobes).rgb;
+}
+
+// What part of the environment's light comes to the footprint.
+float fetch_occlusion(surface_point surface) {
+    float texel = filtered_texel(MAP_OCCLUSION, occlusion_map, occlusion_filtered, surface,
+                                 lobe_area(surface)).r;
+    return unoccluded(texel);
 }
 
 base_material filtered_material(surface_point surface, vec3 normal, map_area lobes) {

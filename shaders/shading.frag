@@ -11,9 +11,17 @@
 //                                               so that what is fetched serves them all
 //   vec3 evaluate_appearance(appearance, surface_point, vec3 incoming, uint light)
 //                                               reflectance times cosine for one of those
+//
+// and, where ENVIRONMENT is defined, light comes from all sides as well:
+//   vec3 reflect_environment(inout appearance, surface_point)
+//                                               radiance reflected of it
+//   float fetch_occlusion(surface_point)        how much of it comes to the footprint
 
 #include "filter.glsl"
 #include "punctual_lights.glsl"
+#ifdef ENVIRONMENT
+#include "environment_integral.glsl"
+#endif
 
 layout(location = 0) out vec4 radiance_out;
 #ifdef AOV
@@ -48,6 +56,15 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
     return sum;
 }
 
+#ifdef ENVIRONMENT
+vec3 environment_light(inout appearance fetched, surface_point surface) {
+    vec3 reflected = ENVIRONMENT_METHOD == ENVIRONMENT_EXACT
+                         ? integrated_environment(fetched, surface)
+                         : reflect_environment(fetched, surface);
+    return fetch_occlusion(surface) * reflected;
+}
+#endif
+
 void main() {
     surface_point surface = read_surface();
     appearance fetched = fetch_appearance(surface);
@@ -58,6 +75,9 @@ void main() {
     vec3 value = vec3(0.0);
     if (DIRECTIONAL_LIGHTS || POINT_LIGHTS || SPOT_LIGHTS)
         value = reflected_radiance(fetched, surface);
+#ifdef ENVIRONMENT
+    value += environment_light(fetched, surface);
+#endif
     if (EMISSION)
         value += material.emissive.rgb * fetched.emission;
     if (VIEW == VIEW_LOBES)

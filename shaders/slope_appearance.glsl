@@ -94,4 +94,19 @@ vec3 lobes_colour() {
     return sum;
 }
 
+#ifdef ENVIRONMENT
+// As evaluate_footprint, of the environment: what the filter brings.
+vec3 reflect_footprint(appearance fetched, surface_point surface);
+
+vec3 reflect_environment(appearance fetched, surface_point surface) {
+    if (!SLOPES)
+        return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
+    vec3 sum = reflect_footprint(fetched, surface);
+    if (may_see_level_0(lobe_map()))
+        sum = mix(sum, reflect_base_material(surface, fetched.base, fetched.base.normal),
+                  fetched.base_share);
+    return sum;
+}
+#endif
+
 #endif

@@ -9,6 +9,10 @@
 #include "lib/slope_distribution.glsl"
 #include "lib/tilted_slopes.glsl"
 
+#ifdef ENVIRONMENT
+#include "environment_lobes.glsl"
+#endif
+
 layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
 layout(constant_id = SPECIALISE_HEIGHT) const float HEIGHT = 1.0;
 

@@ -38,6 +38,7 @@ layout(set = 0, binding = 5) uniform sampler2D normal_map;
 layout(set = 0, binding = 6) uniform sampler2D width_map;
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 8) uniform sampler2D emissive_map;
+layout(set = 0, binding = 9) uniform sampler2D occlusion_map;
 
 layout(location = 0) in vec3 interpolated_position;
 layout(location = 1) in vec3 interpolated_normal;

@@ -21,6 +21,11 @@ vec4 unfiltered_base_colour(surface_point surface) {
     return unfiltered_texel(MAP_BASE_COLOUR, base_colour_map, surface);
 }
 
+// glTF 2.0, section 3.9.3: of an occlusion map's texel, or a mean of them.
+float unoccluded(float texel) {
+    return has_map(MAP_OCCLUSION) ? 1.0 + material.occlusion_strength * (texel - 1.0) : 1.0;
+}
+
 base_material unfiltered_material(surface_point surface) {
     return assemble_material(surface, unfiltered_normal(surface), unfiltered_base_colour(surface),
                              unfiltered_texel(MAP_WIDTH, width_map, surface),

@@ -3,6 +3,11 @@
 
 #include "unfiltered_maps.glsl"
 
+#ifdef ENVIRONMENT
+#include "environment_lobes.glsl"
+#include "environment_sample.glsl"
+#endif
+
 struct appearance {
     base_material base;
     vec3 emission;
@@ -33,3 +38,15 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }
+
+float fetch_occlusion(surface_point surface) {
+    return unoccluded(unfiltered_texel(MAP_OCCLUSION, occlusion_map, surface).r);
+}
+
+#ifdef ENVIRONMENT
+vec3 reflect_environment(appearance fetched, surface_point surface) {
+    if (ENVIRONMENT_METHOD == ENVIRONMENT_REFERENCE)
+        return sampled_environment(surface, fetched.base);
+    return reflect_base_material(surface, fetched.base, fetched.base.normal);
+}
+#endif

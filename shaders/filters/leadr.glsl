@@ -105,3 +105,84 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
         sum += lambert_facets(fetched, fresnel, outgoing, incoming, light);
     return sum;
 }
+
+#ifdef ENVIRONMENT
+// The slopes' lobe as one of directions, about the mean normal, to first order.
+half_vector_distribution half_vectors_of_slopes(slope_distribution slopes) {
+    vec3 normal = normal_of_slope(slopes.mean);
+    vec3 first = vec3(-slopes.root.x, -slopes.root.z, 0.0) * normal.z;
+    vec3 second = vec3(0.0, -slopes.root.y, 0.0) * normal.z;
+    return gaussian_half_vectors(normal, first - normal * dot(normal, first),
+                                 second - normal * dot(normal, second));
+}
+
+// Algorithm 1.
+vec3 sampled_slopes(surface_point surface, slope_distribution slopes, vec3 f0) {
+    float spacing = grid_spacing();
+    float height = height_above_slope(slopes.mean, surface.outgoing);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
+        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
+            vec2 place = spacing * (vec2(j, k) - 0.5 * (float(ENVIRONMENT_GRID) - 1.0));
+            vec2 slope = slope_at(slopes, place);
+            vec3 normal = normal_of_slope(slope);
+            float cosine = dot(normal, surface.outgoing);
+            vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
+            float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
+                         masking_shadowing_of_slopes(slopes, incoming, surface.outgoing);
+            float solid_angle = spacing * spacing * slopes.root.x * slopes.root.y * normal.z *
+                                normal.z * normal.z;
+            float weight = exp(-0.5 * dot(place, place));
+            sum += weight * (above_horizon(incoming) ? seen : 0.0) *
+                   fresnel_schlick(f0, vec3(1.0), cosine) *
+                   sample_radiance(surface, half_vector_sample(normal, weight, solid_angle),
+                                   incoming);
+            weights += weight;
+        }
+    }
+    return sum / (weights * max(height, COSINE_MINIMUM));
+}
+
+vec3 reflect_slopes(appearance fetched, surface_point surface) {
+    slope_distribution slopes = fetched.lobe.slopes;
+    base_material frame = fetched.filtered;
+    half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return lobes_colour() * frame.specular * reflect_half_vectors(surface, half_vectors);
+    if (sampled_by_grid())
+        return sampled_slopes(surface, slopes, frame.specular);
+    // Masked as a round distribution of the same breadth.
+    float width = base_lobe_of_concentration(
+        DISTRIBUTION, 1.0 / max(lobe_variance(half_vectors.shape), 1e-6));
+    return reflect_microfacets(surface, half_vectors, frame.specular, width);
+}
+
+// Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Masking alone is counted, as
+// in Algorithm 2: what shadows the environment's light is not known.
+vec3 lambert_slopes(appearance fetched, surface_point surface) {
+    slope_distribution facets = fetched.lobe.facets;
+    vec3 sum = vec3(0.0);
+    for (uint j = 0u; j < GRID; ++j) {
+        for (uint k = 0u; k < GRID; ++k) {
+            vec2 position = vec2(grid_position(j), grid_position(k));
+            vec2 slope = slope_at(facets, position);
+            sum += exp(-0.5 * dot(position, position)) *
+                   max(height_above_slope(slope, surface.outgoing), 0.0) *
+                   mean_irradiance(surface, normal_of_slope(slope));
+        }
+    }
+    float row = grid_weight();
+    float height = height_above_slope(facets.mean, surface.outgoing);
+    float visible = height > 0.0 ? 1.0 / (1.0 + lambda_of_slopes(facets, surface.outgoing)) : 0.0;
+    return let_through(surface, fetched.filtered) * sum *
+           (visible / (row * row * max(height, COSINE_MINIMUM)));
+}
+
+vec3 reflect_footprint(appearance fetched, surface_point surface) {
+    vec3 sum = reflect_slopes(fetched, surface);
+    if (DIFFUSE)
+        sum += lambert_slopes(fetched, surface);
+    return sum;
+}
+#endif

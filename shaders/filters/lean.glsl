@@ -73,3 +73,22 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
         sum += microfacet_diffuse(fetched.filtered.diffuse, vec3(0.0), dot(lambert, incoming));
     return sum;
 }
+
+#ifdef ENVIRONMENT
+vec3 reflect_footprint(appearance fetched, surface_point surface) {
+    footprint_lobe lobe = fetched.lobe;
+    vec3 root = lobe.slopes.root;
+    half_vector_distribution half_vectors =
+        gaussian_half_vectors(lobe.tangent_from_mean[2],
+                              lobe.tangent_from_mean * vec3(-root.x, -root.z, 0.0),
+                              lobe.tangent_from_mean * vec3(0.0, -root.y, 0.0));
+    base_material frame = fetched.filtered;
+    vec3 sum = MODEL == MODEL_MICROFACET
+                   ? reflect_microfacets(surface, half_vectors, frame.specular, frame.width)
+                   : lobes_colour() * frame.specular *
+                         reflect_half_vectors(surface, half_vectors);
+    if (DIFFUSE)
+        sum += reflect_lambert(surface, frame, lambert_normal(fetched.moments));
+    return sum;
+}
+#endif

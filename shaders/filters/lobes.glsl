@@ -11,6 +11,10 @@
 #include "lib/characteristic_vector.glsl"
 #include "lib/dispersion.glsl"
 
+#ifdef ENVIRONMENT
+#include "environment_lobes.glsl"
+#endif
+
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
@@ -390,3 +394,59 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
                                                 incoming)
                : evaluate_footprint_lobes(fetched, distribution, halfway, incoming);
 }
+
+#ifdef ENVIRONMENT
+vec3 reflect_lobe(appearance fetched, surface_point surface, lobe one) {
+    vec3 axis = one.axis * fetched.mixture_from_tangent;
+    half_vector_distribution round =
+        round_half_vectors(axis, one.concentration, surface.outgoing);
+    float mass = one.weight / von_mises_fisher_peak(one.concentration);
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return mass * reflect_half_vectors(surface, round);
+    // Back from a projected area of one.
+    mass *= von_mises_fisher_projected_area(concentration_from_complement(fetched.base_complement));
+    base_material frame = fetched.filtered;
+    vec3 sum = mass * reflect_microfacets(surface, round, frame.specular, frame.width);
+    if (keeps_shape())
+        sum += one.own_weight *
+               reflect_microfacets(surface,
+                                   base_half_vectors(axis, one.parameter, surface.outgoing),
+                                   frame.specular, frame.width);
+    return sum;
+}
+
+vec3 reflect_mixture(inout appearance fetched, surface_point surface) {
+    vec3 sum = vec3(0.0);
+    walk at = start_walk(fetched);
+    if (SUBDIVISION == 0u && !walks_base()) {
+        at.sector = SECTOR_ALL; // nothing to walk
+        return reflect_lobe(fetched, surface, take_cluster(at, fetched));
+    }
+    while (at.base_lobe < LOBE_COUNT || at.sector < SECTOR_END) {
+        lobe next;
+        if (walks_base() && at.base_lobe < LOBE_COUNT)
+            next = take_base_lobe(at, fetched);
+        else
+            next = take_cluster(at, fetched);
+        sum += reflect_lobe(fetched, surface, next);
+    }
+    return sum;
+}
+
+vec3 reflect_environment(inout appearance fetched, surface_point surface) {
+    if (!MIXTURE)
+        return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
+    fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    vec3 sum = reflect_mixture(fetched, surface);
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        sum *= mixture_colour() * fetched.filtered.specular;
+    if (may_see_level_0(lobe_map()) && !base_in_walk()) {
+        base_material base = fetched.base;
+        base.specular = fetched.filtered.specular;
+        sum += fetched.base_share * reflect_base_specular(surface, base);
+    }
+    if (DIFFUSE)
+        sum += reflect_lambert(surface, fetched.filtered, fetched.diffuse_normal);
+    return sum;
+}
+#endif

@@ -6,3 +6,9 @@
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }
+
+#ifdef ENVIRONMENT
+vec3 reflect_environment(appearance fetched, surface_point surface) {
+    return reflect_base_material(surface, fetched.base, fetched.base.normal);
+}
+#endif

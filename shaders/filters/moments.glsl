@@ -10,6 +10,10 @@
 #include "lib/plane_gaussian.glsl"
 #include "lib/plane_lobe.glsl"
 
+#ifdef ENVIRONMENT
+#include "environment_lobes.glsl"
+#endif
+
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
@@ -53,6 +57,7 @@ struct plane_bin {
     float variance; // of the base lobes
     vec2 mean;      // of their places
     float spread;   // half the trace of their covariance
+    vec3 covariance; // (xx, yy, xy) of the lobe in the plane, base lobes included
     vec3 axis;      // the same as a direction
     mat2 gain;      // the mean place of those that reflect moves so with the half vector's
     plane_gaussian narrow, middle, wide;
@@ -105,6 +110,7 @@ plane_bin read_bin(map_area area, uint index, vec3 curvature) {
     bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
     vec3 covariance = covariance_of(mean, spread * scale) * (RANGE * RANGE) + curvature;
     vec3 base = bin.variance * plane_distortion(bin.mean);
+    bin.covariance = covariance + base;
     bin.gain = mat2(covariance.x, covariance.z, covariance.z, covariance.y) *
                inverse_of(covariance + base);
     if (distribution_kind() == DISTRIBUTION_GGX) {
@@ -181,6 +187,17 @@ void add_to_means(inout bin_means means, plane_bin bin) {
     means.axis += bin.mass * vec3(bin.axis.xy, bin.axis.z - bin.spread);
 }
 
+// The normals that the bins' means tell.
+void take_means(inout appearance fetched, bin_means means) {
+    float scale = 1.0 / max(means.mass, 1e-6);
+    fetched.diffuse_normal = normal_from_axis(means.axis * scale);
+    if (may_see_level_0(lobe_map()))
+        fetched.diffuse_normal =
+            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
+    fetched.normal = mean_direction(fetched.diffuse_normal, vec3(0.0, 0.0, 1.0));
+    fetched.filtered.normal = fetched.normal;
+}
+
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!MIXTURE)
         return;
@@ -208,13 +225,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
         if (LIGHTS_AT_ONCE > 3u)
             add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
     }
-    float scale = 1.0 / max(means.mass, 1e-6);
-    fetched.diffuse_normal = normal_from_axis(means.axis * scale);
-    if (may_see_level_0(lobe_map()))
-        fetched.diffuse_normal =
-            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
-    fetched.normal = mean_direction(fetched.diffuse_normal, vec3(0.0, 0.0, 1.0));
-    fetched.filtered.normal = fetched.normal;
+    take_means(fetched, means);
 }
 
 // Colours of the footprint; where bins have their own, means of what each texel reflects, and not
@@ -325,3 +336,77 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
                ? evaluate_bin_microfacets(fetched, sum, halfway, surface.outgoing, incoming)
                : evaluate_bin_lobes(fetched, sum, halfway, incoming);
 }
+
+#ifdef ENVIRONMENT
+// A bin as a lobe of half vectors: the covariance of its places, brought to the sphere.
+direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
+    float x = sqrt(max(covariance.x, 1e-12));
+    float shared_part = covariance.z / x;
+    float y = sqrt(max(covariance.y - shared_part * shared_part, 1e-12));
+    return direction_lobe(bin.axis, direction_step(bin.mean, vec2(x, shared_part)),
+                          direction_step(bin.mean, vec2(0.0, y)));
+}
+
+// As much of GGX's long tails is left as base lobes make up of the bin's breadth.
+vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
+    direction_lobe shape = lobe_of_bin(bin, bin.covariance);
+    half_vector_distribution gaussian = half_vector_distribution(shape, DISTRIBUTION_VMF);
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return reflect_half_vectors(surface, gaussian);
+    float width = parameter_of_plane_variance(DISTRIBUTION, bin.variance);
+    if (distribution_kind() != DISTRIBUTION_GGX)
+        return reflect_microfacets(surface, gaussian, f0, width);
+    float own = bin.variance / (bin.variance + bin.spread);
+    return mix(reflect_microfacets(surface, gaussian, f0, width),
+               reflect_microfacets(
+                   surface, half_vector_distribution(shape, DISTRIBUTION_GGX), f0, width),
+               own);
+}
+
+// A bin's part of the appearance: of microfacets as seen along the normal, where a lobe's mass is
+// more than one.
+float part_of_bin(plane_bin bin) {
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return bin.mass;
+    float parameter = parameter_of_plane_variance(distribution_kind(), bin.variance);
+    return bin.mass / plane_mass(MODEL, distribution_kind(), parameter);
+}
+
+vec3 reflect_bins(inout appearance fetched, surface_point surface) {
+    vec3 sum = vec3(0.0);
+    bin_means means = bin_means(0.0, vec3(0.0), 0.0);
+    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    for (uint i = 0u; i < BINS; ++i) {
+        plane_bin bin = read_bin(fetched.area, i, surface.curvature);
+        if (bin.mass <= LEAST_SHARE)
+            continue;
+        add_to_means(means, bin);
+        fetched.lobe_count += 1.0;
+        vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
+        vec3 reflected = part_of_bin(bin) * reflect_bin(fetched, surface, bin, f0);
+        if (MODEL == MODEL_HALF_VECTOR_LOBES)
+            reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * mixture_colour();
+        sum += reflected;
+    }
+    take_means(fetched, means);
+    return (1.0 - fetched.base_share) * sum;
+}
+
+vec3 reflect_environment(inout appearance fetched, surface_point surface) {
+    if (!MIXTURE)
+        return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
+    vec3 sum = reflect_bins(fetched, surface);
+    base_material frame = fetched.filtered;
+    if (may_see_level_0(lobe_map())) {
+        base_material base = fetched.base;
+        if (BIN_COLOUR)
+            frame.diffuse = mix(frame.diffuse, base.diffuse, fetched.base_share);
+        else
+            base.specular = frame.specular;
+        sum += fetched.base_share * reflect_base_specular(surface, base);
+    }
+    if (DIFFUSE)
+        sum += reflect_lambert(surface, frame, fetched.diffuse_normal);
+    return sum;
+}
+#endif

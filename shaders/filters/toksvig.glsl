@@ -21,3 +21,9 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     return evaluate_base_material(widened_material(fetched), fetched.mean_normal, surface.outgoing,
                                   incoming);
 }
+
+#ifdef ENVIRONMENT
+vec3 reflect_environment(appearance fetched, surface_point surface) {
+    return reflect_base_material(surface, widened_material(fetched), fetched.mean_normal);
+}
+#endif

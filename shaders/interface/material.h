@@ -11,7 +11,8 @@
 #define MAP_WIDTH       2 // metallic-roughness, or the width of half-vector lobes
 #define MAP_SPECULAR    3
 #define MAP_EMISSIVE    4
-#define MAP_COUNT       5
+#define MAP_OCCLUSION   5 // where there is light from an environment
+#define MAP_COUNT       6
 
 // A material's constants (uniform block, std140). Which parts are read depends on the
 // specialisation of the shader.
@@ -24,10 +25,14 @@ struct material_constants {
     float normal_concentration;                    // kappa_N, 0: none
     float4 lobe_direction[MATERIAL_MAXIMUM_LOBES]; // in the frame of the normal; w: width
     float4 lobe_colour[MATERIAL_MAXIMUM_LOBES];    // linear RGB; w: share of the sum's luminance
+    float occlusion_strength;                      // of MAP_OCCLUSION, [0, 1]
+    float padding_0;
+    float padding_1;
+    float padding_2;
     // Where each map is read: two rows (u, v) of an affine transform of the texture coordinates.
     float4 transforms[2 * MAP_COUNT];
 };
-INTERFACE_SIZE(material_constants, 336)
+INTERFACE_SIZE(material_constants, 384)
 INTERFACE_OFFSET(material_constants, emissive, 16)
 INTERFACE_OFFSET(material_constants, metallic, 32)
 INTERFACE_OFFSET(material_constants, roughness, 36)
@@ -35,6 +40,7 @@ INTERFACE_OFFSET(material_constants, normal_scale, 40)
 INTERFACE_OFFSET(material_constants, normal_concentration, 44)
 INTERFACE_OFFSET(material_constants, lobe_direction, 48)
 INTERFACE_OFFSET(material_constants, lobe_colour, 112)
-INTERFACE_OFFSET(material_constants, transforms, 176)
+INTERFACE_OFFSET(material_constants, occlusion_strength, 176)
+INTERFACE_OFFSET(material_constants, transforms, 192)
 
 #endif

@@ -36,6 +36,7 @@
 #define DISTRIBUTION_BECKMANN    1
 #define DISTRIBUTION_BLINN_PHONG 2
 #define DISTRIBUTION_VMF         3
+#define DISTRIBUTION_COUNT       4
 
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1

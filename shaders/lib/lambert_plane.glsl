@@ -21,6 +21,13 @@ vec3 direction_from_plane(vec2 place) {
     return vec3(place * sqrt(max(1.0 - 0.25 * square, 0.0)), 1.0 - 0.5 * square);
 }
 
+// What a direction moves by when its place does, to first order.
+vec3 direction_step(vec2 place, vec2 step) {
+    float height = sqrt(max(1.0 - 0.25 * dot(place, place), 0.05));
+    float outward = dot(place, step);
+    return vec3(height * step - place * (0.25 * outward / height), -outward);
+}
+
 // How an isotropic variance about a direction looks in the plane at its place (xx, yy, xy): the
 // map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With
 // c = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,

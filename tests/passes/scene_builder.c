@@ -95,6 +95,33 @@ void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity)
     require(scene_add_light(scene, &light, NULL));
 }
 
+void scene_set_environment(lobe_scene *scene, lobe_image image) {
+    lobe_environment *environment = calloc(1, sizeof *environment);
+    char *name = strdup("environment");
+    if (!environment || !name)
+        abort();
+    *environment = (lobe_environment){.name = name,
+                                      .image = image,
+                                      .world_from_environment = {{1}, {0, 1}, {0, 0, 1}},
+                                      .intensity = 1};
+    scene->environment = environment;
+}
+
+void scene_surround(lobe_scene *scene, uint32_t height, environment_radiance radiance) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, 2 * height, height);
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < 2 * height; x++) {
+            // The centre looks to +Z, longitude grows to the left.
+            double longitude = M_PI * (1 - (x + 0.5) / height);
+            double latitude = M_PI * (0.5 - (y + 0.5) / height);
+            const double direction[3] = {cos(latitude) * sin(longitude), sin(latitude),
+                                         cos(latitude) * cos(longitude)};
+            radiance(direction, (float *)image.texels + 4 * ((size_t)y * 2 * height + x));
+        }
+    }
+    scene_set_environment(scene, image);
+}
+
 void scene_look_from(lobe_scene *scene, const double towards[3], double height) {
     double length =
         sqrt(towards[0] * towards[0] + towards[1] * towards[1] + towards[2] * towards[2]);
@@ -120,7 +147,7 @@ void scene_look_down(lobe_scene *scene, double height) {
 
 void scene_end(lobe_scene *scene) {
     // A scene without a light is given some, which no test wants.
-    if (scene->light_count == 0)
+    if (scene->light_count == 0 && !scene->environment)
         scene_add_sun(scene, (double[]){0, 1, 0}, 1);
     require(scene_complete(scene, NULL));
 }

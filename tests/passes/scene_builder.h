@@ -28,6 +28,14 @@ void scene_add_square(lobe_scene *scene, const lobe_material *material, double t
 /// A directional light; `towards` need not be of unit length.
 void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity);
 
+/// Light from all around: an image of latitude and longitude (RGBA32_FLOAT), which the scene owns
+/// from then on.
+void scene_set_environment(lobe_scene *scene, lobe_image image);
+/// The radiance of a direction of the environment's space.
+typedef void (*environment_radiance)(const double direction[3], float radiance[3]);
+/// The same, of `height` rows and twice as many columns.
+void scene_surround(lobe_scene *scene, uint32_t height, environment_radiance radiance);
+
 /// An orthographic camera straight above the origin: x to the right, z down. A square picture
 /// shows `height` metres.
 void scene_look_down(lobe_scene *scene, double height);

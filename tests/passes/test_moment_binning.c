@@ -8,6 +8,7 @@
 
 #include "engine/half.h"
 #include "passes/moment_binning.h"
+#include "tests/passes/mixture_reference.h"
 #include "tests/passes/moment_reference.h"
 #include "tests/passes/picture.h"
 #include "tests/passes/scene_builder.h"

@@ -184,16 +184,18 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
     assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    environment_state environment = {0};
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
+                              .environment = &environment,
                               .log = &f->log};
     filtered_appearance appearance = {0};
     lobe_graph_begin(f->graph);
     shading_targets targets = shading_targets_declare(f->graph, extent, extent, false);
-    lobe_resource lights = shading_upload_lights(&context);
+    shading_light light = shading_light_prepare(&context);
     lobe_resource sum = lobe_graph_image(
         f->graph,
         &(lobe_image_description){
@@ -201,9 +203,9 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_pass *clear = lobe_graph_add_pass(f->graph, LOBE_PASS_TRANSFER, "clear");
     sum = lobe_pass_fill(clear, sum, (lobe_range){0}, (float[4]){0});
     for (uint32_t i = 0; i < samples; i++) {
-        float position[2];
-        sample_position(i, samples, position);
-        shading(&context, &appearance, lights, position, &targets);
+        shading_sample sample = {.number = i};
+        sample_position(i, samples, sample.position);
+        shading(&context, &appearance, &light, &sample, &targets);
         sum = accumulation(f->graph, targets.radiance, sum, extent, extent);
     }
     lobe_graph_read_back(f->graph, sum, (lobe_range){0});

@@ -45,10 +45,15 @@ def test_shaders_become_a_table():
     assert "table_count = 2;" in table and "0x07230203," in table
 
 
-def test_each_filter_gives_two_variants():
-    status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
+def test_filters_and_macros_give_variants():
+    source = LAYERED.replace("void main", "#ifdef AOV\n#endif\n#ifdef ENVIRONMENT\n#endif\nvoid main")
+    status, _, table = embed({"pass.comp": source, "filters/flat.glsl": "void f() {}\n"})
     assert status == 0
-    assert '"pass_flat.comp"' in table and '"pass_flat_aov.comp"' in table
+    for name in ("pass_flat", "pass_flat_aov", "pass_flat_environment", "pass_flat_environment_aov"):
+        assert f'"{name}.comp"' in table, name
+    assert "table_count = 4;" in table
+    status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
+    assert status == 0 and '"pass_flat.comp"' in table and "aov" not in table
 
 
 def test_faulty_source_is_named():

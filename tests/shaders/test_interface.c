@@ -8,7 +8,9 @@
 
 #include "engine/shader.h"
 #include "shaders/interface/atlas.h"
+#include "shaders/interface/background.h"
 #include "shaders/interface/clustering.h"
+#include "shaders/interface/environment_light.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/irradiance_harmonics.h"
@@ -35,12 +37,19 @@ static known_member known[] = {
     MEMBER(atlas_layout, u, 0),
     MEMBER(atlas_layout, v, 1),
     MEMBER(atlas_layout, second_coordinates, 2),
+    MEMBER(background_constants, centre, 0),
+    MEMBER(background_constants, right, 1),
+    MEMBER(background_constants, down, 2),
     MEMBER(clustering_constants, width, 0),
     MEMBER(clustering_constants, height, 1),
     MEMBER(atlas_constants, rotation, 0),
     MEMBER(atlas_constants, eye, 1),
     MEMBER(atlas_constants, width, 2),
     MEMBER(atlas_constants, height, 3),
+    MEMBER(environment_constants, environment_from_world, 0),
+    MEMBER(environment_constants, intensity, 1),
+    MEMBER(environment_constants, sample_number, 2),
+    MEMBER(environment_constants, pattern, 3),
     MEMBER(frame_constants, world_to_clip, 0),
     MEMBER(frame_constants, world_to_camera, 1),
     MEMBER(frame_constants, eye, 2),
@@ -65,7 +74,8 @@ static known_member known[] = {
     MEMBER(material_constants, normal_concentration, 5),
     MEMBER(material_constants, lobe_direction, 6),
     MEMBER(material_constants, lobe_colour, 7),
-    MEMBER(material_constants, transforms, 8),
+    MEMBER(material_constants, occlusion_strength, 8),
+    MEMBER(material_constants, transforms, 12),
     MEMBER(moment_bin, centre, 0),
     MEMBER(moment_bin, shape, 1),
     MEMBER(moment_binning_constants, width, 0),

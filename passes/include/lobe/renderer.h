@@ -41,6 +41,9 @@ typedef struct lobe_scene_changes {
     size_t mesh_count;
     const uint32_t *instances; ///< transform, mesh or material
     size_t instance_count;
+    /// The environment's image, layout or whether there is one. Its rotation and intensity are read
+    /// in each frame.
+    bool environment;
 } lobe_scene_changes;
 
 /// Takes over what the host changed in the scene that is set; uploads no more than that, and in the
@@ -96,6 +99,10 @@ typedef struct lobe_render_parameters {
     /// Which of many patterns the samples lie in: pictures of different patterns have errors of
     /// their own, by which noise can be told from what is true. Used by the reference alone.
     uint32_t pattern;
+    /// Parts of the work on an environment's filtered maps (levels, or faces of large levels) to do
+    /// in this frame at most; until all is done, frames are lit by the maps of the environment
+    /// before, or else by its plain MIP chain. 0: all at once.
+    uint32_t environment_parts;
     /// Also deliver depth, normal, lobe count and level (one sample, at the pixel's centre).
     bool arbitrary_output_variables;
     /// Build every map again, as if the scene had changed.

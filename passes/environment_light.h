@@ -1,0 +1,43 @@
+#ifndef PASSES_ENVIRONMENT_LIGHT_H
+#define PASSES_ENVIRONMENT_LIGHT_H
+
+#include "passes/filter.h"
+#include "passes/material_specialisation.h"
+
+/// The sample of each pixel that a shading pass draws.
+typedef struct shading_sample {
+    float position[2];        ///< in the pixel, [0, 1] each
+    uint32_t number, pattern; ///< of the reference: which sample of which pattern
+} shading_sample;
+
+/// The scene's environment as the shading pass reads it (shaders/environment.glsl). Of its maps,
+/// only those that the method asks for are made.
+typedef struct environment_light {
+    bool present;       ///< false: the scene has no environment
+    uint32_t method;    ///< ENVIRONMENT_...
+    lobe_resource cube; ///< radiance with all levels
+    /// Filtered with lobes; none where nobody asks.
+    lobe_resource prefiltered, prefiltered_ggx;
+    lobe_resource harmonics; ///< of the irradiance
+    /// Directional albedo, one a distribution of microfacets; none where no material needs it.
+    lobe_resource albedo[DISTRIBUTION_COUNT];
+} environment_light;
+
+/// Adds the passes that make the maps.
+environment_light environment_light_build(const filter_context *context);
+
+/// Binds them to all draws of a shading pass.
+void environment_light_read(const environment_light *light, const filter_context *context,
+                            lobe_pass *pass, const shading_sample *sample);
+
+/// How many of `lights` punctual lights filters see together.
+uint32_t environment_light_lights_at_once(const environment_light *light, uint32_t lights);
+
+void environment_light_specialise(const environment_light *light, const filter_context *context,
+                                  specialisation_list *list);
+
+/// The table of directional albedo for a material's draws.
+lobe_binding environment_light_albedo(const environment_light *light, const filter_context *context,
+                                      const lobe_material *material);
+
+#endif

@@ -1,0 +1,41 @@
+#ifndef INTERFACE_ENVIRONMENT_LIGHT_H
+#define INTERFACE_ENVIRONMENT_LIGHT_H
+
+#include "specialisation.h"
+#include "types.h"
+
+// Light from an environment (uniform block, std140). Its maps are in its own space.
+struct environment_constants {
+    float4 environment_from_world[3]; // rows of a rotation
+    float intensity;                  // factor of the maps' radiance
+    uint sample_number;               // of the reference: which of a pixel's samples is drawn
+    uint pattern;                     // and which of its patterns
+    uint padding;
+};
+INTERFACE_SIZE(environment_constants, 64)
+INTERFACE_OFFSET(environment_constants, intensity, 48)
+INTERFACE_OFFSET(environment_constants, sample_number, 52)
+INTERFACE_OFFSET(environment_constants, pattern, 56)
+
+// uint, how the environment is integrated.
+#define SPECIALISE_ENVIRONMENT_METHOD 20
+// uint, [1, 8]: lobes that an elongated one is made of at most.
+#define SPECIALISE_ENVIRONMENT_PROBES 21
+// uint, [2, 8]: samples along each side of the grid of ENVIRONMENT_SAMPLED.
+#define SPECIALISE_ENVIRONMENT_GRID 22
+// uint, HORIZON_...: what becomes of the part of a lobe below the surface.
+#define SPECIALISE_HORIZON 23
+// bool: light that microfacets reflect more than once is made up for.
+#define SPECIALISE_MULTIPLE_SCATTERING 27
+
+#define ENVIRONMENT_EXACT       0
+#define ENVIRONMENT_MIP         1
+#define ENVIRONMENT_PREFILTERED 2
+#define ENVIRONMENT_SAMPLED     3
+#define ENVIRONMENT_REFERENCE   4 // one unbiased sample: only where many are averaged
+
+#define HORIZON_IGNORED 0
+#define HORIZON_CLIPPED 1
+#define HORIZON_FADED   2
+
+#endif
