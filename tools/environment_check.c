@@ -7,6 +7,8 @@
 #include "passes/environment_check.h"
 
 #define MOST_ROUNDS 16
+/// Updates whose median is taken: each is long.
+#define UPDATES 3
 /// Samples of the method `sampled`.
 #define SAMPLES 32
 /// Terms of the exact sum that one submission adds: no device is kept from its other work for long.
@@ -223,23 +225,22 @@ static lobe_result prepare(measurement *m) {
 
 /// The plain MIP chain is timed in the same updates.
 static lobe_result time_updates(measurement *m) {
-    double updates[MOST_ROUNDS], chains[MOST_ROUNDS];
+    double updates[UPDATES], chains[UPDATES];
     progress_step(m->job->progress, "%s, faces of %u: updates", m->job->environment->name,
                   m->findings->face);
     lobe_result result = LOBE_OK;
-    uint32_t count = m->job->rounds;
-    for (uint32_t round = 0; result == LOBE_OK && round < count; ++round) {
+    for (uint32_t round = 0; result == LOBE_OK && round < UPDATES; ++round) {
         result = lobe_environment_maps_update(m->maps, NULL);
         const lobe_environment_maps_information *information =
             lobe_environment_maps_describe(m->maps);
         updates[round] = information->milliseconds;
         chains[round] = mip_time(information);
-        progress_part(m->job->progress, (round + 1.0) / count);
+        progress_part(m->job->progress, (round + 1.0) / UPDATES);
     }
     if (result != LOBE_OK)
         return result;
-    m->findings->update_milliseconds = median(updates, count);
-    m->findings->mip_milliseconds = median(chains, count);
+    m->findings->update_milliseconds = median(updates, UPDATES);
+    m->findings->mip_milliseconds = median(chains, UPDATES);
     return LOBE_OK;
 }
 
