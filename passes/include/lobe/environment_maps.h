@@ -51,10 +51,10 @@ typedef struct lobe_environment_maps_parameters {
     /// Parts of the work to do in one submission, so that other work of the device gets its turn;
     /// 0: all in one.
     uint32_t parts_a_submission;
-    /// A folder where filtered cubes are kept, as OpenEXR files named after what they were made
-    /// from: those that are there are not made again, others are added. A damaged or foreign file
-    /// is passed over with a notice and replaced; a folder that takes no files is told in a
-    /// warning. Files may be removed at any time. NULL: none is read or written. Copied.
+    /// An existing folder where filtered cubes are kept, as OpenEXR files named after what they
+    /// were made from: those that are there are not made again, others are added. A damaged or
+    /// foreign file is passed over with a notice and replaced; a folder that takes no files is told
+    /// in a warning. Files may be removed at any time. NULL: none is read or written. Copied.
     const char *cache;
     /// Called between submissions with the part done, [0, 1]; returning false stops with
     /// LOBE_OK and no maps. NULL: none.
