@@ -5,7 +5,7 @@
 #include "shaders/interface/environment.h"
 
 // Of a texel of the image: how far subsamples are apart at most.
-#define SUBSAMPLES_A_TEXEL 5
+#define SUBSAMPLES_A_TEXEL 4
 
 /// The middle of each face of the cube, and the directions of its x and y (Vulkan's own).
 static const double face_axes[6][3][3] = {

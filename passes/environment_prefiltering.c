@@ -18,12 +18,15 @@
 #define TEXELS_A_DEVIATION 1
 
 // The same in texels of the level that keeps the filtered environment. Their interpolation is off
-// by 1.1 % then (relative L2) where all light comes from one point.
+// by 1.1 % then (relative L2) where all light comes from one point, 1.6 % for GGX lobes. Measured
+// over the sphere, faces of 128 and 256 texels, kappa = 1, 4, 16 to 4096, six real environments:
+// 0.03 to 0.9 %. GGX lobes 0.03 to 1.2 %, and 1.8 % where the peak is narrower than the radiance's
+// texels (kappa = 4096 with 128). Four texels leave a third of that, for four times the work.
 #define LEVEL_TEXELS_A_DEVIATION 2
 
 uint32_t prefiltered_width(uint32_t size) {
-    // Lobes no sharper than one texel of the radiance.
-    return size >= 128 ? 256 : 2 * size;
+    // No lobe narrower than a texel of the radiance, and kappa = 4096 from 128 texels on.
+    return size <= 128 ? 2 * size : size;
 }
 
 double lobe_environment_level_concentration(uint32_t width, uint32_t level) {

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The six faces of an environment from its image: each texel is the mean radiance over its solid
-// angle, of many subsamples that are a quarter of the image's texels apart at most. Energy is kept
-// to a thousandth, wherever on the image it lies.
+// angle, of many subsamples that are a quarter of the image's texels apart at most. A sun of two
+// texels keeps its energy to 2e-4, next to the poles to 5e-3.
 
 #include "interface/environment.h"
 #include "lib/cube_texel.glsl"
@@ -69,7 +69,7 @@ vec3 radiance(int face, vec2 point, float size) {
                : radiance_on_face(face, point);
 }
 
-const int LEAST_SUBSAMPLES = 4, POLAR_SUBSAMPLES = 4;
+const int LEAST_SUBSAMPLES = 4, POLAR_SUBSAMPLES = 6;
 
 // Seen from within, texels shrink towards the edges of a face, and need fewer subsamples of latitude
 // and longitude there; next to the poles, where rows have narrow transitions, they need more.
@@ -85,27 +85,47 @@ int subsample_count(int face, vec2 centre) {
     return length(direction.xz) * shrinking < polar ? POLAR_SUBSAMPLES * count : count;
 }
 
+// Points of a texel in [0, 1]^2: a grid where the image has one just as fine, else a Fibonacci
+// lattice (Zaremba, 1966, Good Lattice Points, Discrepancy, and Numerical Integration). It goes on
+// from texel to texel as a grid does, but has no rows along which the image's own could fall in step
+// with it: sums over the hats of bilinear interpolation are then right to a thousandth.
+struct point_set {
+    int count, step; // step: that of the lattice; 0: a grid
+    int side;        // of the grid
+};
+
+point_set points_for(int side) {
+    if (constants.nearest != 0u)
+        return point_set(side * side, 0, side);
+    ivec2 numbers = ivec2(5, 8);
+    while (numbers.y < side * side)
+        numbers = ivec2(numbers.y, numbers.x + numbers.y);
+    return point_set(numbers.y, numbers.x, 0);
+}
+
+vec2 point_at(point_set set, int i) {
+    if (set.step == 0)
+        return (vec2(i % set.side, i / set.side) + 0.5) / float(set.side);
+    return (vec2(i, uint(i) * uint(set.step) % uint(set.count)) + 0.5) / float(set.count);
+}
+
 void main() {
     ivec3 position = ivec3(gl_GlobalInvocationID);
     int size = int(constants.size);
     if (any(greaterThanEqual(position.xy, ivec2(size))))
         return;
+    float texel = 2.0 / float(size);
     vec2 low = vec2(2 * position.xy - size) / float(size);
-    int count = subsample_count(position.z, low + 1.0 / float(size));
-    float extent = 2.0 / float(size * count);
+    point_set set = points_for(subsample_count(position.z, low + 0.5 * texel));
+    float spacing = texel * inversesqrt(float(set.count));
     // Means are taken of differences to one of the values: a constant stays exactly what it is.
-    vec3 base = radiance(position.z, low + 0.5 * extent, extent);
+    vec3 base = radiance(position.z, low + texel * point_at(set, 0), spacing);
     vec4 sum = vec4(0.0);
-    for (int y = 0; y < count; ++y) {
-        vec4 row = vec4(0.0);
-        for (int x = 0; x < count; ++x) {
-            vec2 corner = low + extent * vec2(x, y);
-            vec2 centre = corner + 0.5 * extent;
-            float shrinking = inversesqrt(1.0 + dot(centre, centre));
-            float weight = shrinking * shrinking * shrinking;
-            row += weight * vec4(radiance(position.z, centre, extent * shrinking) - base, 1.0);
-        }
-        sum += row;
+    for (int i = 0; i < set.count; ++i) {
+        vec2 point = low + texel * point_at(set, i);
+        float shrinking = inversesqrt(1.0 + dot(point, point));
+        float weight = shrinking * shrinking * shrinking;
+        sum += weight * vec4(radiance(position.z, point, spacing * shrinking) - base, 1.0);
     }
     imageStore(cube, position, vec4(base + sum.rgb / sum.a, 1.0));
 }

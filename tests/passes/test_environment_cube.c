@@ -115,10 +115,10 @@ static double row_solid_angle(uint32_t row, uint32_t width, uint32_t height) {
 /// the seam of the image, at and near the poles.
 static void a_small_sun_keeps_its_energy(void **state) {
     static const uint32_t places[][2] = {
-        {37, 93}, {128, 128}, {159, 128}, {160, 78},  {511, 100}, {13, 0},   {255, 1},
-        {400, 2}, {300, 4},   {77, 7},    {444, 255}, {201, 254}, {333, 12}, {100, 239},
+        {18, 46}, {64, 64}, {79, 64}, {80, 39},   {255, 50},  {13, 0},  {127, 1},
+        {200, 2}, {150, 4}, {77, 7},  {222, 127}, {100, 126}, {166, 6}, {50, 119},
     };
-    const uint32_t width = 512, height = 256;
+    const uint32_t width = 256, height = 128;
     lobe_environment environment = environment_of_colour(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, width,
                                                          height, (float[3]){1, 1, 1});
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
@@ -126,7 +126,7 @@ static void a_small_sun_keeps_its_energy(void **state) {
         float *sun[2] = {environment_texel(&environment, x, y),
                          environment_texel(&environment, (x + 1) % width, y)};
         sun[0][1] = sun[1][1] = 1e5f;
-        host_cube cube = cube_of(*state, &environment, 64);
+        host_cube cube = cube_of(*state, &environment, 32);
         double energy[3], expected = 2 * (1e5 - 1) * row_solid_angle(y, width, height);
         cube_energy(&cube, 0, energy);
         if (!(fabs((energy[1] - energy[0]) / expected - 1) < 5e-3))
@@ -160,7 +160,7 @@ static void a_turned_image_gives_a_turned_cube(void **state) {
                     cube_texel(&before, 0, from, (int)(32 * place[0]), (int)(32 * place[1]));
                 for (int i = 0; i < 3; i++)
                     assert_true(fabs(cube_texel(&after, 0, face, x, y)[i] - expected[i]) <
-                                1e-4 * (1 + expected[i]));
+                                2e-3 * (1 + expected[i]));
             }
     free_cube(&before);
     free_cube(&after);
