@@ -18,7 +18,7 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
     return VK_FALSE;
 }
 
-static void open_instance(host_device *host) {
+static void open_instance(host_device *host, bool validated) {
     static const char *const layer = "VK_LAYER_KHRONOS_validation";
     static const char *const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     static const VkValidationFeatureEnableEXT enabled =
@@ -43,9 +43,9 @@ static void open_instance(host_device *host) {
     };
     const VkInstanceCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = &features,
+        .pNext = validated ? &features : NULL,
         .pApplicationInfo = &application,
-        .enabledLayerCount = 1,
+        .enabledLayerCount = validated,
         .ppEnabledLayerNames = &layer,
         .enabledExtensionCount = 1,
         .ppEnabledExtensionNames = &extension,
@@ -89,16 +89,24 @@ static void open_device(host_device *host) {
     vkGetDeviceQueue(vulkan->device, vulkan->queue_family, 0, &vulkan->queue);
 }
 
-void host_device_open(host_device *host) {
+static void open_host(host_device *host, bool validated) {
     *host = (host_device){0};
     log_recorder_start(&host->recorder);
-    open_instance(host);
+    open_instance(host, validated);
     open_device(host);
     const VkCommandPoolCreateInfo pool = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
         .queueFamilyIndex = host->vulkan.queue_family,
     };
     CHECK(vkCreateCommandPool(host->vulkan.device, &pool, NULL, &host->pool));
+}
+
+void host_device_open(host_device *host) {
+    open_host(host, true);
+}
+
+void host_device_open_unvalidated(host_device *host) {
+    open_host(host, false);
 }
 
 void host_device_close(host_device *host) {

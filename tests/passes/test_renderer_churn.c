@@ -1,0 +1,199 @@
+// Frames of which each differs from the one before at random: scenes, filters, sizes, materials,
+// maps, where they are drawn and how they are submitted. Memory comes back to where it was, and the
+// validation layer is silent.
+
+#include "tests/passes/fixture.h"
+
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/random.h"
+#include "tests/engine/host_device.h"
+#include "tests/passes/picture.h"
+#include "tests/passes/scene_builder.h"
+
+enum { SCENES = 3, SIZES = 3, ROUNDS = 6, FRAMES = 24 };
+
+typedef struct churn {
+    host_device host;
+    lobe_device *device;
+    lobe_renderer *renderer;
+    lobe_scene *scenes[SCENES];
+    const lobe_scene *set;
+    host_image targets[SIZES];
+    random_sequence sequence;
+} churn;
+
+static const uint32_t sizes[SIZES] = {4, 9, 16};
+
+static uint32_t pick(churn *c, uint32_t count) {
+    return random_bits(&c->sequence) % count;
+}
+
+static lobe_scene *scene_of(int number) {
+    lobe_scene *scene = scene_begin();
+    for (int n = 0; n <= number; n++) {
+        float aside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5f * (float)n, 0, 0, 1};
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
+        if (n % 2)
+            lobe_material_default(&material);
+        material.normal_map =
+            scene_add_map(scene, random_normal_map(8, 8, 0.4, 70 + (uint64_t)(number + n)));
+        scene_add_square(scene, &material, 1, aside);
+    }
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
+static void open_churn(churn *c, bool validated) {
+    *c = (churn){0};
+    if (validated)
+        host_device_open(&c->host);
+    else
+        host_device_open_unvalidated(&c->host);
+    c->device = host_device_import(&c->host);
+    assert_int_equal(lobe_renderer_create(c->device, &c->host.recorder.log, &c->renderer), LOBE_OK);
+    for (int n = 0; n < SCENES; n++)
+        c->scenes[n] = scene_of(n);
+    for (int n = 0; n < SIZES; n++)
+        c->targets[n] = host_image_create(&c->host, VK_FORMAT_R16G16B16A16_SFLOAT, sizes[n],
+                                          sizes[n], VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+}
+
+static void close_churn(churn *c) {
+    lobe_device_memory memory;
+    lobe_renderer_destroy(&c->renderer);
+    lobe_device_memory_query(c->device, &memory);
+    assert_int_equal(memory.used_bytes, 0);
+    assert_int_equal(memory.allocated_bytes, 0);
+    for (int n = 0; n < SIZES; n++)
+        host_image_destroy(&c->host, &c->targets[n]);
+    for (int n = 0; n < SCENES; n++)
+        lobe_scene_destroy(&c->scenes[n]);
+    lobe_device_destroy(&c->device);
+    assert_int_equal(c->host.recorder.errors, 0);
+    host_device_close(&c->host);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Changes
+
+static void change_scene(churn *c) {
+    const lobe_scene *scene = c->scenes[pick(c, SCENES)];
+    if (scene != c->set)
+        assert_int_equal(lobe_renderer_set_scene(c->renderer, scene), LOBE_OK);
+    c->set = scene;
+}
+
+static void change_material(churn *c) {
+    for (int n = 0; n < SCENES; n++)
+        if (c->scenes[n] == c->set) {
+            uint32_t changed = pick(c, (uint32_t)c->set->material_count);
+            lobe_material *material = &c->scenes[n]->materials[changed];
+            material->roughness = (float)random_between(&c->sequence, 0.2, 1);
+            material->lobes[0].width = (float)random_between(&c->sequence, 5, 50);
+            float *texels = c->scenes[n]->images[changed].image.texels;
+            texels[0] = (float)random_between(&c->sequence, 0.4, 0.6);
+            const lobe_scene_changes changes = {.materials = &changed,
+                                                .material_count = 1,
+                                                .images = &changed,
+                                                .image_count = pick(c, 2)};
+            assert_int_equal(lobe_renderer_update_scene(c->renderer, &changes), LOBE_OK);
+        }
+}
+
+static void render(churn *c, const lobe_render_parameters *parameters) {
+    lobe_frame frame;
+    if (lobe_renderer_render(c->renderer, parameters, &frame) != LOBE_OK)
+        fail_msg("%s", c->host.recorder.last_error);
+    lobe_frame_free(&frame);
+}
+
+/// Delivered, drawn into an image, submitted without waiting, or recorded.
+static void draw_somehow(churn *c) {
+    static const char *const filters[] = {"lobes", "mipmap", "toksvig", "direct"};
+    const uint32_t size = pick(c, SIZES), how = pick(c, 4);
+    const lobe_vulkan_image image = {.image = c->targets[size].image,
+                                     .format = c->targets[size].format,
+                                     .width = sizes[size],
+                                     .height = sizes[size],
+                                     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
+    const lobe_render_target target = {.radiance = &image};
+    lobe_vulkan_submission submission = {0};
+    lobe_render_parameters parameters = {.filter = filter_named(filters[pick(c, 4)]),
+                                         .width = sizes[size],
+                                         .height = sizes[size],
+                                         .frames_in_flight = 1 + pick(c, 3)};
+    if (how > 0)
+        parameters.target = &target;
+    if (how > 1)
+        parameters.submission = &submission;
+    if (how > 2)
+        submission.commands = host_begin(&c->host);
+    render(c, &parameters);
+    if (submission.commands)
+        host_finish(&c->host, submission.commands);
+}
+
+static void change_and_draw(churn *c) {
+    if (pick(c, 4) == 0)
+        change_scene(c);
+    if (pick(c, 2) == 0)
+        change_material(c);
+    draw_somehow(c);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Memory
+
+/// Bytes of the host's memory in use.
+static size_t host_bytes(void) {
+    return mallinfo2().uordblks;
+}
+
+/// The same frames in each round: what is kept for them is made in the first.
+static void go_round(churn *c) {
+    c->sequence = random_start(5);
+    c->set = c->scenes[0];
+    assert_int_equal(lobe_renderer_set_scene(c->renderer, c->set), LOBE_OK);
+    for (int n = 0; n < FRAMES; n++)
+        change_and_draw(c);
+    assert_int_equal(lobe_renderer_set_scene(c->renderer, NULL), LOBE_OK);
+    lobe_device_memory memory;
+    lobe_device_memory_query(c->device, &memory);
+    assert_int_equal(memory.used_bytes, 0);
+}
+
+static void changes_are_valid(void **state) {
+    (void)state;
+    churn c;
+    open_churn(&c, true);
+    go_round(&c);
+    close_churn(&c);
+}
+
+static void memory_stays(void **state) {
+    (void)state;
+    churn c;
+    size_t first = 0, last = 0;
+    open_churn(&c, false);
+    for (int round = 0; round < ROUNDS; round++) {
+        go_round(&c);
+        // Drivers fill their pools for a while.
+        first = round == ROUNDS / 2 ? host_bytes() : first;
+        last = host_bytes();
+    }
+    if (last > first + (16 << 10))
+        fail_msg("%zu bytes of host memory became %zu", first, last);
+    close_churn(&c);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changes_are_valid),
+        cmocka_unit_test(memory_stays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
