@@ -3,7 +3,6 @@
 
 #include "tests/engine/cmocka_all.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,149 +11,7 @@
 #include "engine/vulkan_check.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/test_shaders.h"
-
-// ---------------------------------------------------------------------------------------------
-// Functions of Vulkan that stand before those of the loader
-
-static int calls;          ///< so far, of those that can fail
-static int failing;        ///< the one that fails; 0: none
-static VkResult fault;     ///< with this
-static const char *failed; ///< its name, once it has
-static int alive;          ///< objects made and not destroyed
-
-static bool fails(const char *name) {
-    if (++calls != failing)
-        return false;
-    failed = name;
-    return true;
-}
-
-#define REAL(name) ((PFN_##name)dlsym(RTLD_NEXT, #name))
-
-#define FALLIBLE(name, parameters, arguments)                                                      \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        return fails(#name) ? fault : REAL(name) arguments;                                        \
-    }
-
-#define MAKES(name, parameters, arguments)                                                         \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        if (fails(#name))                                                                          \
-            return fault;                                                                          \
-        VkResult result = REAL(name) arguments;                                                    \
-        alive += result == VK_SUCCESS;                                                             \
-        return result;                                                                             \
-    }
-
-#define DESTROYS(name, handle)                                                                     \
-    VKAPI_ATTR void VKAPI_CALL name(VkDevice device, handle gone,                                  \
-                                    const VkAllocationCallbacks *callbacks) {                      \
-        alive -= gone != VK_NULL_HANDLE;                                                           \
-        REAL(name)(device, gone, callbacks);                                                       \
-    }
-
-/// What a device makes by a structure that describes it.
-#define OBJECT(name)                                                                               \
-    MAKES(vkCreate##name,                                                                          \
-          (VkDevice device, const Vk##name##CreateInfo *create,                                    \
-           const VkAllocationCallbacks *callbacks, Vk##name *made),                                \
-          (device, create, callbacks, made))                                                       \
-    DESTROYS(vkDestroy##name, Vk##name)
-
-OBJECT(Buffer)
-OBJECT(CommandPool)
-OBJECT(DescriptorPool)
-OBJECT(DescriptorSetLayout)
-OBJECT(Image)
-OBJECT(ImageView)
-OBJECT(PipelineCache)
-OBJECT(PipelineLayout)
-OBJECT(QueryPool)
-OBJECT(Sampler)
-OBJECT(Semaphore)
-OBJECT(ShaderModule)
-
-MAKES(vkCreateComputePipelines,
-      (VkDevice device, VkPipelineCache cache, uint32_t count,
-       const VkComputePipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,
-       VkPipeline *made),
-      (device, cache, count, create, callbacks, made))
-MAKES(vkCreateGraphicsPipelines,
-      (VkDevice device, VkPipelineCache cache, uint32_t count,
-       const VkGraphicsPipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,
-       VkPipeline *made),
-      (device, cache, count, create, callbacks, made))
-DESTROYS(vkDestroyPipeline, VkPipeline)
-MAKES(vkAllocateMemory,
-      (VkDevice device, const VkMemoryAllocateInfo *allocate,
-       const VkAllocationCallbacks *callbacks, VkDeviceMemory *made),
-      (device, allocate, callbacks, made))
-DESTROYS(vkFreeMemory, VkDeviceMemory)
-
-MAKES(vkCreateInstance,
-      (const VkInstanceCreateInfo *create, const VkAllocationCallbacks *callbacks,
-       VkInstance *made),
-      (create, callbacks, made))
-MAKES(vkCreateDevice,
-      (VkPhysicalDevice physical, const VkDeviceCreateInfo *create,
-       const VkAllocationCallbacks *callbacks, VkDevice *made),
-      (physical, create, callbacks, made))
-
-VKAPI_ATTR void VKAPI_CALL vkDestroyInstance(VkInstance gone,
-                                             const VkAllocationCallbacks *callbacks) {
-    alive -= gone != VK_NULL_HANDLE;
-    REAL(vkDestroyInstance)(gone, callbacks);
-}
-
-VKAPI_ATTR void VKAPI_CALL vkDestroyDevice(VkDevice gone, const VkAllocationCallbacks *callbacks) {
-    alive -= gone != VK_NULL_HANDLE;
-    REAL(vkDestroyDevice)(gone, callbacks);
-}
-
-FALLIBLE(vkAllocateCommandBuffers,
-         (VkDevice device, const VkCommandBufferAllocateInfo *allocate, VkCommandBuffer *made),
-         (device, allocate, made))
-FALLIBLE(vkAllocateDescriptorSets,
-         (VkDevice device, const VkDescriptorSetAllocateInfo *allocate, VkDescriptorSet *made),
-         (device, allocate, made))
-FALLIBLE(vkBeginCommandBuffer, (VkCommandBuffer commands, const VkCommandBufferBeginInfo *begin),
-         (commands, begin))
-FALLIBLE(vkEndCommandBuffer, (VkCommandBuffer commands), (commands))
-FALLIBLE(vkBindBufferMemory,
-         (VkDevice device, VkBuffer buffer, VkDeviceMemory memory, VkDeviceSize offset),
-         (device, buffer, memory, offset))
-FALLIBLE(vkBindImageMemory,
-         (VkDevice device, VkImage image, VkDeviceMemory memory, VkDeviceSize offset),
-         (device, image, memory, offset))
-FALLIBLE(vkEnumeratePhysicalDevices,
-         (VkInstance instance, uint32_t *count, VkPhysicalDevice *devices),
-         (instance, count, devices))
-FALLIBLE(vkMapMemory,
-         (VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size,
-          VkMemoryMapFlags flags, void **mapped),
-         (device, memory, offset, size, flags, mapped))
-FALLIBLE(vkGetPhysicalDeviceImageFormatProperties2,
-         (VkPhysicalDevice physical, const VkPhysicalDeviceImageFormatInfo2 *query,
-          VkImageFormatProperties2 *properties),
-         (physical, query, properties))
-FALLIBLE(vkGetQueryPoolResults,
-         (VkDevice device, VkQueryPool pool, uint32_t first, uint32_t count, size_t size,
-          void *data, VkDeviceSize stride, VkQueryResultFlags flags),
-         (device, pool, first, count, size, data, stride, flags))
-FALLIBLE(vkQueueSubmit2,
-         (VkQueue queue, uint32_t count, const VkSubmitInfo2 *submits, VkFence fence),
-         (queue, count, submits, fence))
-FALLIBLE(vkResetCommandPool, (VkDevice device, VkCommandPool pool, VkCommandPoolResetFlags flags),
-         (device, pool, flags))
-FALLIBLE(vkResetDescriptorPool,
-         (VkDevice device, VkDescriptorPool pool, VkDescriptorPoolResetFlags flags),
-         (device, pool, flags))
-
-/// What is waited for is done all the same: a device that is lost runs nothing any more.
-VKAPI_ATTR VkResult VKAPI_CALL vkWaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *wait,
-                                                uint64_t timeout) {
-    VkResult result = REAL(vkWaitSemaphores)(device, wait, timeout);
-    return fails("vkWaitSemaphores") ? fault : result;
-}
+#include "tests/engine/vulkan_faults.h"
 
 // ---------------------------------------------------------------------------------------------
 // Something of everything
@@ -247,47 +104,47 @@ static void close_work(work *w) {
 
 /// Two frames, the second of another size. `*torn_down`: the fault came only at the end.
 static lobe_result run(work *w, bool *torn_down) {
-    calls = 0;
-    failed = NULL;
+    faults.calls = 0;
+    faults.failed = NULL;
     *w = (work){0};
     log_recorder_start(&w->recorder);
     lobe_result result = open_work(w);
     result = result ? result : run_frame(w, 4);
     result = result ? result : run_frame(w, 8);
-    *torn_down = failed == NULL;
+    *torn_down = faults.failed == NULL;
     return result;
 }
 
 static void check_fault(VkResult with) {
     work w;
     bool torn_down;
-    fault = with;
+    faults.fault = with;
     lobe_result result = run(&w, &torn_down);
-    const char *name = failed ? failed : "(teardown)";
+    const char *name = faults.failed ? faults.failed : "(teardown)";
     lobe_result expected = torn_down ? LOBE_OK : engine_vulkan_result(with);
     if (result != expected || w.recorder.errors != !torn_down)
-        fail_msg("call %d, %s: %s instead of %s, %d lines, the last '%s'", failing, name,
+        fail_msg("call %d, %s: %s instead of %s, %d lines, the last '%s'", faults.failing, name,
                  lobe_result_name(result), lobe_result_name(expected), w.recorder.errors,
                  w.recorder.last_error);
     // Once more on the same objects, where there are any: nothing is left half-built.
     if (w.graph && with != VK_ERROR_DEVICE_LOST && run_frame(&w, 4) != LOBE_OK)
-        fail_msg("call %d, %s: %s", failing, name, w.recorder.last_error);
+        fail_msg("call %d, %s: %s", faults.failing, name, w.recorder.last_error);
     close_work(&w);
-    if (alive)
-        fail_msg("call %d, %s: %d objects are left", failing, name, alive);
+    if (faults.alive)
+        fail_msg("call %d, %s: %d objects are left", faults.failing, name, faults.alive);
 }
 
 static void each_call_fails_once(void **state) {
     (void)state;
     work w;
     bool torn_down;
-    failing = 0;
+    faults.failing = 0;
     assert_int_equal(run(&w, &torn_down), LOBE_OK);
-    const int during = calls;
+    const int during = faults.calls;
     close_work(&w);
-    assert_int_equal(alive, 0);
+    assert_int_equal(faults.alive, 0);
     assert_true(during > 60);
-    for (failing = 1; failing <= during; failing++) {
+    for (faults.failing = 1; faults.failing <= during; faults.failing++) {
         check_fault(VK_ERROR_OUT_OF_DEVICE_MEMORY);
         check_fault(VK_ERROR_DEVICE_LOST);
     }

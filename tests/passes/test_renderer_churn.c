@@ -13,7 +13,7 @@
 #include "tests/passes/picture.h"
 #include "tests/passes/scene_builder.h"
 
-enum { SCENES = 3, SIZES = 3, ROUNDS = 6, FRAMES = 24 };
+enum { SCENES = 3, SIZES = 3, ROUNDS = 4, FRAMES = 12 };
 
 typedef struct churn {
     host_device host;
