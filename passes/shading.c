@@ -226,7 +226,7 @@ void shading(const filter_context *context, const filtered_appearance *appearanc
     environment_light_read(&light->environment, context, pass, sample);
     bool outputs = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
-    if (draws_background(context, &light->environment))
+    if (draws_background(context, &light->environment) && !targets->keep_radiance)
         background(pass, context, light->environment.cube, sample->position, outputs);
     char fragment_shader[64];
     snprintf(fragment_shader, sizeof fragment_shader, "shading_%s%s%s.frag",

@@ -179,6 +179,36 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
     lobe_frame_free(&expected);
 }
 
+/// A visible environment is a background like any other.
+static void the_environment_stays_behind_the_hosts_background(void **state) {
+    static const float green[4] = {0, 0.5f, 0, 1};
+    static const char *const quick[] = {"env=mip", "env_size=16", NULL};
+    host_fixture *f = *state;
+    const lobe_settings settings = settings_of(filter_named("lobes"), quick);
+    scene_set_environment(f->scene, constant_map(8, 4, 0.25f, 0.25f, 0.25f));
+    f->scene->environment_visible = true;
+    const lobe_scene_changes changes = {.environment = true};
+    assert_int_equal(lobe_renderer_update_scene(f->passes.renderer, &changes), LOBE_OK);
+    lobe_render_parameters parameters = {.settings = &settings, .width = SIZE, .height = SIZE};
+    lobe_frame expected = render(f, &parameters);
+    assert_float_equal(pixel_at(&expected.radiance, 0, 0)[1], 0.25f, 1e-3);
+    fill(f, green, 0);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const lobe_render_target target = {.radiance = &colour, .keep = true};
+    parameters.target = &target;
+    lobe_frame frame = render(f, &parameters);
+    lobe_image image = host_texels(f, &f->colour);
+    const uint32_t middle = SIZE / 2;
+    assert_memory_equal(pixel_at(&image, 0, 0), green, 16);
+    assert_memory_equal(pixel_at(&image, middle, middle),
+                        pixel_at(&expected.radiance, middle, middle), 16);
+    lobe_scene_set_environment(f->scene, NULL);
+    assert_int_equal(lobe_renderer_update_scene(f->passes.renderer, &changes), LOBE_OK);
+    lobe_image_free(&image);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+}
+
 /// An image as displays want it: encoded, to the nearest of 256 steps.
 static void formats_of_displays_are_encoded(void **state) {
     host_fixture *f = *state;
@@ -364,6 +394,7 @@ int main(void) {
         cmocka_unit_test(the_hosts_image_gets_the_same_bits),
         cmocka_unit_test(other_outputs_are_still_delivered),
         cmocka_unit_test(lobe_draws_over_what_the_host_drew),
+        cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
         cmocka_unit_test(formats_of_displays_are_encoded),
         cmocka_unit_test(frames_in_flight_are_those_delivered),
         cmocka_unit_test_setup_teardown(pictures_are_recorded_into_the_hosts_commands, open_host,
