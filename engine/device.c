@@ -82,9 +82,10 @@ static lobe_result create_timeline(lobe_device *device) {
         .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
         .pNext = &type,
     };
-    return VULKAN_CHECK(&device->log,
-                        vkCreateSemaphore(device->vulkan, &create, NULL, &device->timeline),
-                        "device '%s'", device->information.name);
+    return VULKAN_CHECK(
+        &device->log,
+        vkCreateSemaphore(device->vulkan, &create, device->callbacks, &device->timeline),
+        "device '%s'", device->information.name);
 }
 
 static lobe_result create_command_pool(lobe_device *device) {
@@ -93,15 +94,17 @@ static lobe_result create_command_pool(lobe_device *device) {
         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
         .queueFamilyIndex = device->queue_family,
     };
-    return VULKAN_CHECK(&device->log,
-                        vkCreateCommandPool(device->vulkan, &create, NULL, &device->commands),
-                        "device '%s'", device->information.name);
+    return VULKAN_CHECK(
+        &device->log,
+        vkCreateCommandPool(device->vulkan, &create, device->callbacks, &device->commands),
+        "device '%s'", device->information.name);
 }
 
 static lobe_result create_memory(lobe_device *device, uint64_t limit) {
     const engine_memory_parameters parameters = {
         .physical = device->physical,
         .vulkan = device->vulkan,
+        .callbacks = device->callbacks,
         .limit = limit,
         .budget = device->memory_budget,
         .log = &device->log,
@@ -184,8 +187,8 @@ static void destroy_vulkan(lobe_device *device) {
     engine_pipelines_destroy(device, &device->pipelines);
     engine_shaders_destroy(&device->shaders);
     engine_memory_destroy(&device->memory);
-    vkDestroyCommandPool(device->vulkan, device->commands, NULL);
-    vkDestroySemaphore(device->vulkan, device->timeline, NULL);
+    vkDestroyCommandPool(device->vulkan, device->commands, device->callbacks);
+    vkDestroySemaphore(device->vulkan, device->timeline, device->callbacks);
     if (!device->imported)
         vkDestroyDevice(device->vulkan, NULL);
 }

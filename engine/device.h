@@ -24,6 +24,9 @@ struct lobe_device {
     pthread_mutex_t queue_mutex;
     bool imported;           ///< instance, device and queue are the host's
     lobe_vulkan_device host; ///< where imported: the callbacks; what it points to may be gone
+    /// The host's, for Vulkan's own memory; NULL: none. Points to the copy behind it.
+    const VkAllocationCallbacks *callbacks;
+    VkAllocationCallbacks kept_callbacks;
     uint32_t queue_family;
     uint32_t timestamp_bits; ///< valid bits of a timestamp; 0: the queue has none
     VkPhysicalDeviceLimits limits;

@@ -70,6 +70,10 @@ static lobe_result take_host(const lobe_vulkan_device *host, lobe_device *device
     if (result != LOBE_OK)
         return result;
     device->host = *host;
+    if (host->allocation_callbacks) {
+        device->kept_callbacks = *host->allocation_callbacks;
+        device->callbacks = &device->kept_callbacks;
+    }
     device->imported = true;
     device->instance.vulkan = host->instance;
     device->instance.debug_utils = host->debug_utils;
@@ -123,6 +127,7 @@ void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles)
         .queue_family = device->queue_family,
         .queue = device->queue,
         .debug_utils = device->instance.debug_utils,
+        .allocation_callbacks = device->callbacks,
         .lock_queue = lock_queue,
         .unlock_queue = unlock_queue,
         .user = device,

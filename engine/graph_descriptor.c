@@ -84,10 +84,10 @@ static lobe_result create_pool(lobe_graph *graph) {
         .poolSizeCount = used,
         .pPoolSizes = sizes,
     };
-    return VULKAN_CHECK(
-        &device->log,
-        vkCreateDescriptorPool(device->vulkan, &create, NULL, &graph->flight->descriptors),
-        "render graph");
+    return VULKAN_CHECK(&device->log,
+                        vkCreateDescriptorPool(device->vulkan, &create, device->callbacks,
+                                               &graph->flight->descriptors),
+                        "render graph");
 }
 
 /// Empties the pool; makes a larger one where it is too small for this frame.
@@ -108,7 +108,7 @@ static lobe_result prepare_pool(lobe_graph *graph) {
                          &device->log,
                          vkResetDescriptorPool(device->vulkan, graph->flight->descriptors, 0),
                          "render graph");
-    vkDestroyDescriptorPool(device->vulkan, graph->flight->descriptors, NULL);
+    vkDestroyDescriptorPool(device->vulkan, graph->flight->descriptors, device->callbacks);
     graph->flight->descriptors = VK_NULL_HANDLE;
     return create_pool(graph);
 }

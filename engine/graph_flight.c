@@ -15,7 +15,8 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
     lobe_result result = LOBE_OK;
     if (!flight->command_pool)
         result = VULKAN_CHECK(
-            &device->log, vkCreateCommandPool(device->vulkan, &pool, NULL, &flight->command_pool),
+            &device->log,
+            vkCreateCommandPool(device->vulkan, &pool, device->callbacks, &flight->command_pool),
             "render graph");
     if (result != LOBE_OK)
         return result;
@@ -84,9 +85,9 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
     engine_graph_retire_flight(graph, flight);
     engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
     engine_staging_destroy(device, &flight->read_back);
-    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, NULL);
-    vkDestroyQueryPool(device->vulkan, flight->timestamps, NULL);
-    vkDestroyCommandPool(device->vulkan, flight->command_pool, NULL);
+    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
+    vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
+    vkDestroyCommandPool(device->vulkan, flight->command_pool, device->callbacks);
 }
 
 void engine_graph_free_flights(lobe_graph *graph) {

@@ -50,15 +50,15 @@ void engine_graph_free_views(lobe_device *device, engine_graph_object *object) {
     while (object->views) {
         engine_graph_view *view = object->views;
         object->views = view->next;
-        vkDestroyImageView(device->vulkan, view->view, NULL);
+        vkDestroyImageView(device->vulkan, view->view, device->callbacks);
         free(view);
     }
 }
 
 void engine_graph_free_object(lobe_device *device, engine_graph_object *object) {
     engine_graph_free_views(device, object);
-    vkDestroyImage(device->vulkan, object->image, NULL);
-    vkDestroyBuffer(device->vulkan, object->buffer, NULL);
+    vkDestroyImage(device->vulkan, object->image, device->callbacks);
+    vkDestroyBuffer(device->vulkan, object->buffer, device->callbacks);
     *object = (engine_graph_object){0};
 }
 

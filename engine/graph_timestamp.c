@@ -11,7 +11,7 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
     uint32_t needed = 2 * graph->dependencies.running_count;
     if (!can_time(graph) || needed <= graph->flight->timestamp_capacity)
         return LOBE_OK;
-    vkDestroyQueryPool(device->vulkan, graph->flight->timestamps, NULL);
+    vkDestroyQueryPool(device->vulkan, graph->flight->timestamps, device->callbacks);
     graph->flight->timestamps = VK_NULL_HANDLE;
     graph->flight->timestamp_capacity = 0;
     const VkQueryPoolCreateInfo create = {
@@ -20,7 +20,8 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
         .queryCount = needed,
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateQueryPool(device->vulkan, &create, NULL, &graph->flight->timestamps),
+        &device->log,
+        vkCreateQueryPool(device->vulkan, &create, device->callbacks, &graph->flight->timestamps),
         "render graph");
     if (result == LOBE_OK)
         graph->flight->timestamp_capacity = needed;

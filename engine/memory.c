@@ -54,7 +54,7 @@ lobe_result engine_memory_create(const engine_memory_parameters *parameters,
 
 static void release_block(engine_memory *memory, engine_memory_block *block) {
     // Freeing unmaps.
-    vkFreeMemory(memory->parameters.vulkan, block->memory, NULL);
+    vkFreeMemory(memory->parameters.vulkan, block->memory, memory->parameters.callbacks);
     memory->allocated -= block->size;
     memory->allocated_of_heap[memory->properties.memoryTypes[block->type].heapIndex] -= block->size;
     engine_range_allocator_destroy(&block->ranges);
@@ -179,7 +179,8 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
     };
     const VkDevice vulkan = memory->parameters.vulkan;
     lobe_result result = VULKAN_CHECK(
-        memory->parameters.log, vkAllocateMemory(vulkan, &allocate, NULL, &block->memory),
+        memory->parameters.log,
+        vkAllocateMemory(vulkan, &allocate, memory->parameters.callbacks, &block->memory),
         "'%s' (%llu bytes)", request->name, (unsigned long long)request->requirements.size);
     if (result == LOBE_OK && request->place != ENGINE_MEMORY_DEVICE)
         result =

@@ -40,9 +40,10 @@ typedef struct engine_allocation {
 typedef struct engine_memory_parameters {
     VkPhysicalDevice physical;
     VkDevice vulkan;
-    uint64_t limit;      ///< most bytes in blocks; 0: none
-    bool budget;         ///< VK_EXT_memory_budget is enabled
-    const lobe_log *log; ///< must outlive the memory
+    const VkAllocationCallbacks *callbacks; ///< NULL: none
+    uint64_t limit;                         ///< most bytes in blocks; 0: none
+    bool budget;                            ///< VK_EXT_memory_budget is enabled
+    const lobe_log *log;                    ///< must outlive the memory
 } engine_memory_parameters;
 
 lobe_result engine_memory_create(const engine_memory_parameters *parameters,

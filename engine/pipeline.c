@@ -138,7 +138,7 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
 // Making
 
 static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
-    vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, NULL);
+    vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
     engine_pipeline_layout_destroy(device, &cached->pipeline);
     free((void *)cached->pipeline.name);
     free(cached->key.specialisation);
@@ -186,7 +186,7 @@ static lobe_result create_compute(lobe_device *device, const cached_pipeline *ca
     };
     return VULKAN_CHECK(&device->log,
                         vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
-                                                 &create, NULL, &pipeline->pipeline),
+                                                 &create, device->callbacks, &pipeline->pipeline),
                         "pipeline '%s'", pipeline->name);
 }
 

@@ -62,9 +62,10 @@ static lobe_result create_cache(lobe_device *device, const uint8_t *data, size_t
         .initialDataSize = size,
         .pInitialData = data,
     };
-    return VULKAN_CHECK(&device->log,
-                        vkCreatePipelineCache(device->vulkan, &create, NULL, &cache->vulkan),
-                        "pipeline cache");
+    return VULKAN_CHECK(
+        &device->log,
+        vkCreatePipelineCache(device->vulkan, &create, device->callbacks, &cache->vulkan),
+        "pipeline cache");
 }
 
 lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
@@ -125,7 +126,7 @@ static void save(lobe_device *device, const engine_pipeline_cache *cache) {
 void engine_pipeline_cache_destroy(lobe_device *device, engine_pipeline_cache *cache) {
     if (cache->file && cache->vulkan)
         save(device, cache);
-    vkDestroyPipelineCache(device->vulkan, cache->vulkan, NULL);
+    vkDestroyPipelineCache(device->vulkan, cache->vulkan, device->callbacks);
     free(cache->file);
     *cache = (engine_pipeline_cache){0};
 }

@@ -102,10 +102,11 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
         .bindingCount = (uint32_t)pipeline->binding_count,
         .pBindings = bindings,
     };
-    const lobe_result result = VULKAN_CHECK(
-        &device->log,
-        vkCreateDescriptorSetLayout(device->vulkan, &create, NULL, &pipeline->set_layout),
-        "pipeline '%s'", pipeline->name);
+    const lobe_result result =
+        VULKAN_CHECK(&device->log,
+                     vkCreateDescriptorSetLayout(device->vulkan, &create, device->callbacks,
+                                                 &pipeline->set_layout),
+                     "pipeline '%s'", pipeline->name);
     free(bindings);
     return result;
 }
@@ -127,9 +128,10 @@ static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline)
         .pushConstantRangeCount = pipeline->push_constant_size ? 1 : 0,
         .pPushConstantRanges = &range,
     };
-    return VULKAN_CHECK(&device->log,
-                        vkCreatePipelineLayout(device->vulkan, &create, NULL, &pipeline->layout),
-                        "pipeline '%s'", pipeline->name);
+    return VULKAN_CHECK(
+        &device->log,
+        vkCreatePipelineLayout(device->vulkan, &create, device->callbacks, &pipeline->layout),
+        "pipeline '%s'", pipeline->name);
 }
 
 lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shader *const *shaders,
@@ -144,7 +146,7 @@ lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shad
 }
 
 void engine_pipeline_layout_destroy(lobe_device *device, engine_pipeline *pipeline) {
-    vkDestroyPipelineLayout(device->vulkan, pipeline->layout, NULL);
-    vkDestroyDescriptorSetLayout(device->vulkan, pipeline->set_layout, NULL);
+    vkDestroyPipelineLayout(device->vulkan, pipeline->layout, device->callbacks);
+    vkDestroyDescriptorSetLayout(device->vulkan, pipeline->set_layout, device->callbacks);
     free(pipeline->bindings);
 }

@@ -165,8 +165,8 @@ lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache c
         .pDynamicState = &dynamic,
         .layout = pipeline->layout,
     };
-    return VULKAN_CHECK(
-        &device->log,
-        vkCreateGraphicsPipelines(device->vulkan, cache, 1, &create, NULL, &pipeline->pipeline),
-        "pipeline '%s'", pipeline->name);
+    return VULKAN_CHECK(&device->log,
+                        vkCreateGraphicsPipelines(device->vulkan, cache, 1, &create,
+                                                  device->callbacks, &pipeline->pipeline),
+                        "pipeline '%s'", pipeline->name);
 }

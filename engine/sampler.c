@@ -58,7 +58,8 @@ static lobe_result create(lobe_device *device, const lobe_sampler *settings, VkS
         .maxAnisotropy = settings->maximum_anisotropy,
         .maxLod = VK_LOD_CLAMP_NONE,
     };
-    return VULKAN_CHECK(&device->log, vkCreateSampler(device->vulkan, &information, NULL, sampler),
+    return VULKAN_CHECK(&device->log,
+                        vkCreateSampler(device->vulkan, &information, device->callbacks, sampler),
                         "sampler");
 }
 
@@ -89,7 +90,7 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
 void engine_sampler_cache_destroy(lobe_device *device, engine_sampler_cache *cache) {
     for (engine_cached_sampler *sampler = cache->samplers, *next; sampler; sampler = next) {
         next = sampler->next;
-        vkDestroySampler(device->vulkan, sampler->sampler, NULL);
+        vkDestroySampler(device->vulkan, sampler->sampler, device->callbacks);
         free(sampler);
     }
     cache->samplers = NULL;

@@ -89,7 +89,7 @@ static void free_words(const engine_shader_code *code, engine_shader_words *word
 }
 
 static void free_loaded(lobe_device *device, loaded_shader *loaded) {
-    vkDestroyShaderModule(device->vulkan, loaded->shader.module, NULL);
+    vkDestroyShaderModule(device->vulkan, loaded->shader.module, device->callbacks);
     engine_reflection_free(&loaded->shader);
     free_words(loaded->code, &loaded->words);
     free(loaded);
@@ -102,7 +102,8 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
         .pCode = loaded->words.words,
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateShaderModule(device->vulkan, &create, NULL, &loaded->shader.module),
+        &device->log,
+        vkCreateShaderModule(device->vulkan, &create, device->callbacks, &loaded->shader.module),
         "shader '%s'", loaded->shader.name);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)loaded->shader.module,

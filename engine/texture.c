@@ -95,7 +95,7 @@ void lobe_texture_destroy(lobe_texture **texture) {
     lobe_device *device = (*texture)->device;
     // A device that is lost has finished, too.
     (void)engine_device_wait_all(device);
-    vkDestroyImage(device->vulkan, (*texture)->image, NULL);
+    vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
     engine_memory_free(device->memory, &(*texture)->allocation);
     free((*texture)->name);
     free(*texture);

@@ -18,7 +18,8 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
         .usage = usage,
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateBuffer(device->vulkan, &create, NULL, buffer), "buffer '%s'", name);
+        &device->log, vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
+        "buffer '%s'", name);
     if (result != LOBE_OK)
         return result;
     vkGetBufferMemoryRequirements(device->vulkan, *buffer, requirements);
@@ -47,7 +48,7 @@ lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, V
 
 void engine_buffer_destroy_placed(lobe_device *device, VkBuffer *buffer,
                                   engine_allocation *allocation) {
-    vkDestroyBuffer(device->vulkan, *buffer, NULL);
+    vkDestroyBuffer(device->vulkan, *buffer, device->callbacks);
     *buffer = VK_NULL_HANDLE;
     engine_memory_free(device->memory, allocation);
 }

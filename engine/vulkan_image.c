@@ -81,8 +81,9 @@ lobe_result engine_image_create(lobe_device *device, const engine_image_paramete
     lobe_result result = check_limits(device, parameters, &create);
     if (result != LOBE_OK)
         return result;
-    result = VULKAN_CHECK(&device->log, vkCreateImage(device->vulkan, &create, NULL, image),
-                          "image '%s'", parameters->name);
+    result =
+        VULKAN_CHECK(&device->log, vkCreateImage(device->vulkan, &create, device->callbacks, image),
+                     "image '%s'", parameters->name);
     if (result != LOBE_OK)
         return result;
     vkGetImageMemoryRequirements(device->vulkan, *image, requirements);
@@ -107,9 +108,9 @@ lobe_result engine_view_create(lobe_device *device, const engine_view_parameters
                 .layerCount = parameters->layer_count,
             },
     };
-    const lobe_result result =
-        VULKAN_CHECK(&device->log, vkCreateImageView(device->vulkan, &create, NULL, view),
-                     "image '%s'", parameters->name);
+    const lobe_result result = VULKAN_CHECK(
+        &device->log, vkCreateImageView(device->vulkan, &create, device->callbacks, view),
+        "image '%s'", parameters->name);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)*view, parameters->name);
     return result;

@@ -2,7 +2,9 @@
 
 #include "tests/engine/cmocka_all.h"
 
+#include <malloc.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tests/engine/host_device.h"
@@ -103,6 +105,55 @@ static void the_queue_is_used_under_the_hosts_lock(void **state) {
     assert_int_equal(counter.locked, 0);
     assert_int_equal(counter.uses, uses + 1);
     lobe_device_destroy(&device);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Memory of the host
+
+typedef struct books {
+    _Atomic int made, freed; ///< the driver has threads
+} books;
+
+static VKAPI_ATTR void *VKAPI_CALL allocate(void *user, size_t size, size_t alignment,
+                                            VkSystemAllocationScope scope) {
+    (void)scope;
+    ((books *)user)->made++;
+    size_t whole = (size + alignment - 1) / alignment * alignment;
+    return aligned_alloc(alignment < sizeof(void *) ? sizeof(void *) : alignment,
+                         whole < sizeof(void *) ? sizeof(void *) : whole);
+}
+
+static VKAPI_ATTR void VKAPI_CALL release(void *user, void *memory) {
+    ((books *)user)->freed += memory != NULL;
+    free(memory);
+}
+
+static VKAPI_ATTR void *VKAPI_CALL reallocate(void *user, void *memory, size_t size,
+                                              size_t alignment, VkSystemAllocationScope scope) {
+    void *moved = size ? allocate(user, size, alignment, scope) : NULL;
+    if (moved && memory) {
+        size_t kept = malloc_usable_size(memory);
+        memcpy(moved, memory, kept < size ? kept : size);
+    }
+    if (moved || !size)
+        release(user, memory);
+    return moved;
+}
+
+static void the_driver_takes_the_hosts_memory(void **state) {
+    (void)state;
+    books books = {0};
+    const VkAllocationCallbacks callbacks = {.pUserData = &books,
+                                             .pfnAllocation = allocate,
+                                             .pfnReallocation = reallocate,
+                                             .pfnFree = release};
+    host.vulkan.allocation_callbacks = &callbacks;
+    lobe_device *device = host_device_import(&host);
+    int before = books.made;
+    use(device);
+    assert_true(books.made > before);
+    lobe_device_destroy(&device);
+    assert_int_equal(books.made, books.freed);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -210,6 +261,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(the_hosts_device_outlives_ours, open_host, close_host),
         cmocka_unit_test_setup_teardown(the_queue_is_used_under_the_hosts_lock, open_host,
                                         close_host),
+        cmocka_unit_test_setup_teardown(the_driver_takes_the_hosts_memory, open_host, close_host),
         cmocka_unit_test_setup_teardown(recommended_features_are_turned_on, open_host, close_host),
         cmocka_unit_test_setup_teardown(missing_features_are_told_in_words, open_host, close_host),
         cmocka_unit_test_setup_teardown(single_structures_count, open_host, close_host),

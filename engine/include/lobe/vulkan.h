@@ -90,6 +90,10 @@ typedef struct lobe_vulkan_device {
     const char *const *extensions; ///< device extensions that were turned on; during the call only
     uint32_t extension_count;
     bool debug_utils; ///< the instance has VK_EXT_debug_utils: lobe names its objects and passes
+    /// Where the driver is to get the host's memory for all that lobe makes of Vulkan, from
+    /// whatever thread lobe is called from; copied. NULL: wherever it likes. lobe's own structures
+    /// come from malloc().
+    const VkAllocationCallbacks *allocation_callbacks;
     /// Called around each use of the queue, so that host and lobe can share it: nobody else may
     /// use the queue in between. Called from whatever thread lobe is called from, and never nested.
     /// Both or neither; NULL: the host uses the queue only where lobe is not being called.
