@@ -18,7 +18,8 @@ static const uint32_t checked_faces[] = {128, 256};
 typedef struct environment_request {
     const char *file, *output, *json, *cache;
     uint32_t face, kernel, directions;
-    bool check, no_cache, has_face, has_directions;
+    double kappa;
+    bool check, no_cache, has_face, has_directions, has_kappa;
     device_options device;
 } environment_request;
 
@@ -39,6 +40,8 @@ static int check_usage(const option_table *table, const environment_request *req
         return options_usage_error(table, "--json: there is nothing to write without --check");
     if (request->has_directions && !request->check)
         return options_usage_error(table, "--directions: nothing is measured without --check");
+    if (request->has_kappa && !request->check)
+        return options_usage_error(table, "--kappa: nothing is measured without --check");
     if (request->cache && request->no_cache)
         return options_usage_error(table, "--cache: not together with --no-cache");
     if (request->output && !output_file_has_ending(request->output, ".exr"))
@@ -95,6 +98,7 @@ static lobe_result check(const environment_request *request, environment_state *
         .log = &state->log,
         .progress = &state->progress,
         .environment = state->environment,
+        .kappa = request->kappa,
         .directions = request->directions,
         .rounds = 5,
     };
@@ -192,6 +196,18 @@ static int run(int argc, char **argv) {
          .minimum = 1,
          .maximum = 65536,
          .given = &request.has_directions},
+        {.name = "kappa",
+         .kind = OPTION_NUMBER,
+         .argument = "K",
+         .summary =
+             "with --check: the concentration of the broadest of seven lobes, each four times "
+             "as concentrated as the one before; 1: lobes that the levels stand for, 2: lobes "
+             "half way between levels",
+         .target = &request.kappa,
+         .fallback = "1",
+         .minimum = 0.01,
+         .maximum = 100,
+         .given = &request.has_kappa},
         {.name = "cache",
          .kind = OPTION_TEXT,
          .argument = "DIR",

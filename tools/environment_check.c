@@ -266,7 +266,7 @@ lobe_result environment_check_run(const environment_check_job *job, uint32_t fac
     measurement m = {.job = job, .findings = findings, .repeats = choose_repeats(job->device)};
     *findings = (environment_findings){.face = face};
     for (int lobe = 0; lobe < CHECK_LOBES; ++lobe)
-        findings->concentrations[lobe] = pow(4, lobe);
+        findings->concentrations[lobe] = job->kappa * pow(4, lobe);
     lobe_result result = allocate(&m);
     if (result == LOBE_OK)
         result = prepare(&m);

@@ -44,6 +44,7 @@ typedef struct environment_check_job {
     const lobe_log *log;
     progress *progress;
     const lobe_environment *environment;
+    double kappa;        ///< of the broadest lobe; each next one has four times as much
     uint32_t directions; ///< spread over the sphere
     uint32_t rounds;     ///< of which medians are taken
 } environment_check_job;

@@ -111,6 +111,17 @@ def test_even_light_is_kept_by_every_method():
         check(row["kappa"] > 256 or row["relative_l2"] <= 1e-3, f"{row}")
 
 
+def test_lobes_between_levels():
+    path = fresh_folder("between") / "between.json"
+    succeeds("environment", LAMPS, "--face", "16", "--check", "--directions", "64", "--kappa", "2",
+             "--json", path)
+    rows = json.loads(path.read_text())["results"]
+    check({row["kappa"] for row in rows} == {2 * kappa for kappa in KAPPAS}, f"{rows}")
+    for row in rows:
+        check(row["method"] != "prefiltered" or row["kappa"] > 8 or row["relative_l2"] < 0.14,
+              f"{row}")
+
+
 def test_wrong_usage():
     is_wrong_usage("environment")
     is_wrong_usage("environment", "sky", "sky")
@@ -120,6 +131,7 @@ def test_wrong_usage():
     is_wrong_usage("environment", "sky", "-o", "a.png", says="a.png")
     is_wrong_usage("environment", "sky", "--json", "a.json", says=["--json", "--check"])
     is_wrong_usage("environment", "sky", "--directions", "9", says=["--directions", "--check"])
+    is_wrong_usage("environment", "sky", "--kappa", "2", says=["--kappa", "--check"])
     is_wrong_usage("environment", "sky", "--no-cache", "--cache", "a", says=["--cache"])
 
 
