@@ -252,7 +252,9 @@ void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
 /// Compiles where that was not done, records, and submits without waiting, or records into the
 /// host's command buffer: `submission` says how. lobe_graph_begin waits until fewer frames than
 /// allowed are in flight; of frames in the host's command buffers the host knows itself: the one
-/// that was recorded so many frames before must have been finished when the next is begun.
+/// that was recorded so many frames before must have been finished when the next is begun. Where a
+/// frame needs other memory than the last (images of another extent, other retained resources), its
+/// compilation waits for the queue. On failure the host's command buffer must not be submitted.
 /// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
 /// buffer, or too many).
 lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
