@@ -35,8 +35,8 @@ lobe_result scene_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t materi
 
 lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log);
 
-/// Where there is neither light nor environment, adds a key light and a weaker fill, seen from the
-/// scene's camera, with a notice; sets `has_added_light`.
+/// Where there is neither light nor environment, adds the environment "sky", with a notice; sets
+/// `has_added_light`.
 lobe_result scene_add_missing_light(lobe_scene *scene, const lobe_log *log);
 
 /// The last step: sets the scene's bounds; where `has_camera` is false, sets a camera that frames

@@ -153,6 +153,8 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     lobe_scene_path(scene, options->path, &camera);
     scene->camera = camera;
     if (lights) {
+        if (scene->has_added_light)
+            lobe_scene_set_environment(scene, NULL); // now there is light of its own
         free(scene->lights);
         scene->lights = lights;
         scene->light_count = options->lights.count;

@@ -177,7 +177,7 @@ static void first_camera_is_used(void **state) {
                  "\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":0,\"zfar\":9}},"
                  "{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.75,\"znear\":0.125}}]");
     assert_true(scene->has_camera);
-    assert_int_equal(fixture->notices, 1); // the lights only
+    assert_int_equal(fixture->notices, 1); // the sky only
     const lobe_camera *camera = &scene->camera;
     gltf_fixture_assert_near(camera->eye, (const float[]){0, 0, 4}, 3, NEAR);
     gltf_fixture_assert_near(camera->target, (const float[]){0, 0, 0}, 3, NEAR);
@@ -217,14 +217,15 @@ static void bad_cameras_are_refused(void **state) {
     }
 }
 
-static void camera_and_lights_are_added_and_said(void **state) {
+static void camera_and_sky_are_added_and_said(void **state) {
     gltf_fixture *fixture = *state;
     lobe_scene *scene = open_nodes(fixture, ",\"nodes\":[{\"mesh\":0,\"scale\":[5,5,5]}]");
     assert_int_equal(fixture->notices, 2);
     assert_int_equal(fixture->warnings, 0);
     assert_false(scene->has_camera);
-    assert_int_equal(scene->light_count, 2);
-    assert_true(scene->lights[0].intensity[0] > scene->lights[1].intensity[0]);
+    assert_int_equal(scene->light_count, 0);
+    assert_string_equal(scene->environment->name, "sky");
+    assert_false(scene->environment_visible);
     lobe_camera framing;
     lobe_scene_frame(scene, 16.0 / 9, &framing);
     assert_memory_equal(&scene->camera, &framing, sizeof framing);
@@ -306,7 +307,7 @@ int main(void) {
         cmocka_unit_test(first_camera_is_used),
         cmocka_unit_test(orthographic_cameras_give_their_height),
         cmocka_unit_test(bad_cameras_are_refused),
-        cmocka_unit_test(camera_and_lights_are_added_and_said),
+        cmocka_unit_test(camera_and_sky_are_added_and_said),
         cmocka_unit_test(an_empty_scene_is_given_nothing),
         cmocka_unit_test(bad_hierarchies_are_refused),
         cmocka_unit_test(long_chains_of_nodes_are_walked_without_recursion),

@@ -185,7 +185,7 @@ typedef struct lobe_scene {
     lobe_light *lights;
     size_t light_count;
     lobe_environment *environment; ///< light from all around; NULL: none
-    bool has_added_light;          ///< the file brought no light; what there is was added by lobe
+    bool has_added_light;          ///< the file brought no light: the environment is the sky
     bool environment_visible;      ///< it is seen where nothing is hit, instead of `background`
     lobe_camera camera;
     bool has_camera;     ///< false: the file brought none; `camera` is that of lobe_scene_frame
@@ -210,7 +210,7 @@ void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camer
 void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera);
 
 /// Gives a scene another environment, which it then owns, in place of its own, which is freed.
-/// NULL: none. Lights that lobe added for want of any then go, unless `environment` is NULL.
+/// NULL: none.
 void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment);
 
 /// Frees all and clears the pointer. NULL is fine.
