@@ -57,7 +57,7 @@ static const lobe_knob shared_knobs[] = {
         .kind = LOBE_KNOB_INTEGER,
         .minimum = 1,
         .maximum = 8,
-        .initial = 4,
+        .initial = 2,
     },
     {
         .name = "env_grid",

@@ -63,15 +63,10 @@ vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axi
 }
 
 // The environment through a round lobe.
-vec3 prefiltered_radiance(uint kind, vec3 direction, float variance) {
-    float concentration = 1.0 / max(variance, 1e-8);
-    float width = float(textureSize(prefiltered_environment, 0).x);
-    float level = prefiltered_level(width, concentration);
-    vec3 smooth_radiance = kind == DISTRIBUTION_GGX
-                               ? textureLod(prefiltered_environment_ggx, direction, level).rgb
-                               : textureLod(prefiltered_environment, direction, level).rgb;
-    float raw = radiance_share(width, environment_width(), concentration);
-    return mix(smooth_radiance, textureLod(environment_cube, direction, 0.0).rgb, raw);
+vec3 prefiltered_radiance(uint kind, vec3 direction, float level) {
+    return kind == DISTRIBUTION_GGX
+               ? textureLod(prefiltered_environment_ggx, direction, level).rgb
+               : textureLod(prefiltered_environment, direction, level).rgb;
 }
 
 // An elongated lobe is a row of round ones, of Gaussian weights: n at distances of
@@ -86,17 +81,23 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
     float count = clamp(wanted, 1.0, float(ENVIRONMENT_PROBES));
     float variance = count > 1.0 ? max(minor, 3.0 * major / (count + 4.0)) : sqrt(major * minor);
     float reach = sqrt(max(major - variance, 0.0) / major) * sqrt(12.0 / (count + 1.0));
+    float width = float(textureSize(prefiltered_environment, 0).x);
+    float concentration = 1.0 / max(variance, 1e-8);
+    float level = prefiltered_level(width, concentration);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint i = 0u; i < uint(count); ++i) {
         float place = float(i) - 0.5 * (count - 1.0);
         float weight = exp(-6.0 / (count + 1.0) * place * place);
         vec3 direction = lobe.axis + place * reach * lobe.first;
-        sum += weight *
-               prefiltered_radiance(kind, to_environment(surface, direction), variance);
+        sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), level);
         weights += weight;
     }
-    return sum / weights;
+    // Lobes too sharp for the finest level are, in part, the radiance itself.
+    float unfiltered =
+        count > 1.0 ? 0.0 : radiance_share(width, environment_width(), concentration);
+    vec3 radiance = textureLod(environment_cube, to_environment(surface, lobe.axis), 0.0).rgb;
+    return mix(sum / weights, radiance, unfiltered);
 }
 
 // Mean radiance over the incoming lobe that belongs to a lobe of half vectors.

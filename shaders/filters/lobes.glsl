@@ -403,16 +403,14 @@ vec3 reflect_lobe(appearance fetched, surface_point surface, lobe one) {
     float mass = one.weight / von_mises_fisher_peak(one.concentration);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return mass * reflect_half_vectors(surface, round);
-    // Back from a projected area of one.
+    // Back from a projected area of one; GGX's tails are kept as in `moments`.
     mass *= von_mises_fisher_projected_area(concentration_from_complement(fetched.base_complement));
     base_material frame = fetched.filtered;
-    vec3 sum = mass * reflect_microfacets(surface, round, frame.specular, frame.width);
-    if (keeps_shape())
-        sum += one.own_weight *
-               reflect_microfacets(surface,
-                                   base_half_vectors(axis, one.parameter, surface.outgoing),
-                                   frame.specular, frame.width);
-    return sum;
+    if (keeps_shape()) {
+        round = base_half_vectors(axis, one.parameter, surface.outgoing);
+        mass += one.own_weight;
+    }
+    return mass * reflect_microfacets(surface, round, frame.specular, frame.width);
 }
 
 vec3 reflect_mixture(inout appearance fetched, surface_point surface) {
