@@ -42,6 +42,8 @@ static const lobe_knob shared_knobs[] = {
         .maximum = 3,
         .initial = 2,
         .choices = methods,
+        .sweep = "mip,sampled", // exact takes hours
+        .environment = true,
     },
     {
         .name = "env_size",
@@ -50,6 +52,7 @@ static const lobe_knob shared_knobs[] = {
         .maximum = 7,
         .initial = 4,
         .choices = sizes,
+        .environment = true,
     },
     {
         .name = "env_probes",
@@ -58,6 +61,8 @@ static const lobe_knob shared_knobs[] = {
         .minimum = 1,
         .maximum = 8,
         .initial = 2,
+        .sweep = "1,4,8",
+        .environment = true,
     },
     {
         .name = "env_grid",
@@ -66,11 +71,15 @@ static const lobe_knob shared_knobs[] = {
         .minimum = 2,
         .maximum = 8,
         .initial = 5,
+        .sweep = "3,7",
+        .sweep_with = "env=sampled",
+        .environment = true,
     },
     {
         .name = "env_window",
         .summary = "how strongly the nine harmonics of diffuse light are kept from ringing; 0: not",
         .maximum = 0.95,
+        .environment = true,
     },
     {
         .name = "horizon",
@@ -80,6 +89,8 @@ static const lobe_knob shared_knobs[] = {
         .maximum = 2,
         .initial = 1,
         .choices = horizons,
+        .sweep = "ignored,faded",
+        .environment = true,
     },
     {
         .name = "scattering",
@@ -98,6 +109,7 @@ static const lobe_knob exact_environment_knob = {
     .kind = LOBE_KNOB_CHOICE,
     .maximum = 3,
     .choices = methods,
+    .environment = true,
 };
 
 static const lobe_knob *shared_knob(const lobe_filter *filter, size_t index) {

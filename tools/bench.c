@@ -18,12 +18,13 @@ typedef struct bench_request {
     option_list scenes;
     const char *filters;     ///< "a,b,c"; NULL: all there are
     option_list assignments; ///< "KNOB=VALUE"
+    option_list environments;
     const char *json;
     scene_options opening;
     device_options device;
     bench_job job;
     bool sweep, resume;
-    const char *pictures;
+    const char *pictures, *knobs;
     uint32_t path_samples, stations;
     bool has_path_samples, has_stations;
 } bench_request;
@@ -60,14 +61,14 @@ static int choose_filters(const option_table *table, bench_request *request, con
     return status;
 }
 
-static bool has_knob(const lobe_filter *filter, const char *assignment) {
+static const lobe_knob *find_knob(const lobe_filter *filter, const char *assignment) {
     size_t length = strcspn(assignment, "=");
     for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
-        const char *name = lobe_filter_knob(filter, i)->name;
-        if (strlen(name) == length && memcmp(name, assignment, length) == 0)
-            return true;
+        const lobe_knob *knob = lobe_filter_knob(filter, i);
+        if (strlen(knob->name) == length && memcmp(knob->name, assignment, length) == 0)
+            return knob;
     }
-    return false;
+    return NULL;
 }
 
 /// A knob is set in every filter that has it; one at least must.
@@ -75,7 +76,7 @@ static int set_knob(bench_job *job, const char *assignment, const lobe_log *log)
     bool known = false;
     for (size_t i = 0; i < job->filter_count; ++i) {
         bench_filter *filter = &job->filters[i];
-        if (!has_knob(filter->filter, assignment))
+        if (!find_knob(filter->filter, assignment))
             continue;
         known = true;
         if (lobe_settings_set(filter->filter, &filter->settings, assignment, log) != LOBE_OK)
@@ -100,7 +101,7 @@ static int choose_truths(bench_request *request, const lobe_log *log) {
     lobe_settings_default(reference, &job->truth);
     for (size_t i = 0; i < request->assignments.count; ++i) {
         const char *assignment = request->assignments.values[i];
-        if (has_knob(reference, assignment) &&
+        if (find_knob(reference, assignment) &&
             lobe_settings_set(reference, &job->truth, assignment, log) != LOBE_OK)
             return 2;
     }
@@ -108,18 +109,53 @@ static int choose_truths(bench_request *request, const lobe_log *log) {
     return lobe_settings_set(reference, &job->truth_lobe_base, "base=lobe", log) == LOBE_OK ? 0 : 1;
 }
 
+/// What a sweep goes through it sets itself.
+static int check_set_beside_sweep(const option_table *table, const bench_request *request) {
+    for (size_t i = 0; request->sweep && i < request->assignments.count; ++i) {
+        for (size_t k = 0; k < lobe_filter_count(); ++k) {
+            const lobe_knob *knob = find_knob(lobe_filter_get(k), request->assignments.values[i]);
+            if (knob && knob->sweep && sweep_plan_lists(request->knobs, knob->name))
+                return options_usage_error(table, "--set %s: --sweep sets that knob itself",
+                                           request->assignments.values[i]);
+        }
+    }
+    return 0;
+}
+
 static int check_sweep_usage(const option_table *table, const bench_request *request) {
     if (request->sweep && !request->json)
         return options_usage_error(table, "--sweep needs --json FILE");
-    if (request->sweep && request->assignments.count > 0)
-        return options_usage_error(table, "--set: --sweep sets the knobs itself");
+    int status = check_set_beside_sweep(table, request);
+    if (status != 0)
+        return status;
     const char *alone = request->resume             ? "--resume"
                         : request->pictures         ? "--pictures"
+                        : request->knobs            ? "--knobs"
                         : request->has_path_samples ? "--path-samples"
                         : request->has_stations     ? "--stations"
                                                     : NULL;
     if (!request->sweep && alone)
         return options_usage_error(table, "%s goes with --sweep", alone);
+    if (!request->sweep && request->environments.count > 1)
+        return options_usage_error(table, "--environment: more than one go with --sweep");
+    return 0;
+}
+
+static bool is_known_knob(const char *name) {
+    for (size_t i = 0; i < lobe_filter_count(); ++i) {
+        if (find_knob(lobe_filter_get(i), name))
+            return true;
+    }
+    return strcmp(name, "none") == 0;
+}
+
+static int check_knobs(const option_table *table, const char *knobs) {
+    for (const char *rest = knobs; rest; rest = strchr(rest, ',') ? strchr(rest, ',') + 1 : NULL) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(rest, ","), rest);
+        if (!is_known_knob(name))
+            return options_usage_error(table, "--knobs: no filter has a knob '%s'", name);
+    }
     return 0;
 }
 
@@ -128,6 +164,8 @@ static int check_usage(const option_table *table, bench_request *request, const 
     if (size[0] == 0 || size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", size[0], size[1]);
     int status = check_sweep_usage(table, request);
+    if (status == 0)
+        status = check_knobs(table, request->knobs);
     if (status == 0)
         status = choose_filters(table, request, log);
     for (size_t i = 0; status == 0 && i < request->assignments.count; ++i)
@@ -215,6 +253,7 @@ static lobe_result sweep(const bench_request *request) {
         .json = request->json,
         .pictures = request->pictures,
         .opening = &request->opening,
+        .knobs = request->knobs,
         .path_samples = request->path_samples,
         .stations = request->stations,
         .resume = request->resume,
@@ -222,7 +261,7 @@ static lobe_result sweep(const bench_request *request) {
     };
     const struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
-    return sweep_run(&job, request->scenes.values, request->scenes.count);
+    return sweep_run(&job, &request->scenes, &request->environments);
 }
 
 static lobe_result compare_filters(const bench_request *request) {
@@ -258,6 +297,8 @@ static int run_request(const option_table *table, bench_request *request) {
     int status = check_usage(table, request, &log);
     if (status != 0)
         return status;
+    if (request->environments.count > 0)
+        request->opening.environment = request->environments.values[0];
     return bench(request) == LOBE_OK && !interrupted ? 0 : 1;
 }
 
@@ -296,7 +337,8 @@ static int run(int argc, char **argv) {
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
-         .summary = "sets a knob in every filter that has it",
+         .summary = "sets a knob in every filter that has it; with --sweep, one that it does not "
+                    "go through",
          .target = &request.assignments,
          .values = OPTION_VALUES_KNOB},
         {.name = "json",
@@ -310,6 +352,12 @@ static int run(int argc, char **argv) {
                     "splits times into building and shading, and measures flicker along the "
                     "scene's path; Ctrl-C stops it after writing the scenes that are done",
          .target = &request.sweep},
+        {.name = "knobs",
+         .kind = OPTION_TEXT,
+         .argument = "A,B,C",
+         .summary = "with --sweep: knobs to go through, or 'none' (default: all that have values "
+                    "worth comparing)",
+         .target = &request.knobs},
         {.name = "resume",
          .kind = OPTION_FLAG,
          .summary = "with --sweep: goes on from FILE, where it exists, with the scenes it lacks",
@@ -339,10 +387,17 @@ static int run(int argc, char **argv) {
          .maximum = 1000,
          .given = &request.has_stations},
         scene_option_assets(&request.opening),
-        scene_option_environment(&request.opening),
+        {.name = "environment",
+         .kind = OPTION_LIST,
+         .argument = "FILE",
+         .summary = "light from all around, instead of the scene's own: an .exr or .hdr file, "
+                    "'sky' or 'none'; given more than once, with --sweep: every scene is measured "
+                    "in each",
+         .target = &request.environments},
         scene_option_rotation(&request.opening),
         scene_option_intensity(&request.opening),
         scene_option_background(&request.opening),
+        scene_option_no_lights(&request.opening),
         device_option_select(&request.device),
         device_option_validation(&request.device),
     };

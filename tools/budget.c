@@ -24,14 +24,23 @@ static void list_scenes(const sweep_results *figures, char *text, size_t size) {
     }
 }
 
+static bool is_of_scene(const sweep_scene *entry, const char *name) {
+    return strcmp(entry->scene ? entry->scene : entry->name, name) == 0;
+}
+
 static lobe_result check_scene(const char *path, const char *name, const lobe_log *log,
                                const sweep_results *figures) {
-    const sweep_scene *scene = sweep_results_scene(figures, name);
-    if (scene && !scene->skipped)
-        return LOBE_OK;
-    if (scene)
+    const sweep_scene *skipped = NULL;
+    for (size_t i = 0; i < figures->scene_count; ++i) {
+        if (!is_of_scene(&figures->scenes[i], name))
+            continue;
+        if (!figures->scenes[i].skipped)
+            return LOBE_OK;
+        skipped = &figures->scenes[i];
+    }
+    if (skipped)
         return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: scene '%s' was skipped there: %s", path, name, scene->skipped);
+                             "%s: scene '%s' was skipped there: %s", path, name, skipped->skipped);
     char scenes[512];
     list_scenes(figures, scenes, sizeof scenes);
     return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
@@ -45,6 +54,24 @@ lobe_result budget_read(const budget_options *options, const char *scene, const 
         return LOBE_OK;
     lobe_result result = sweep_results_read(options->sweep, log, figures);
     return result == LOBE_OK ? check_scene(options->sweep, scene, log, figures) : result;
+}
+
+/// `*entry`: the scene in the picture's light.
+static lobe_result find_entry(const char *path, const budget_picture *picture, const lobe_log *log,
+                              const sweep_results *figures, const sweep_scene **entry) {
+    const lobe_environment *environment = picture->scene->environment;
+    const char *name = environment ? environment->name : NULL;
+    for (size_t i = 0; i < figures->scene_count; ++i) {
+        *entry = &figures->scenes[i];
+        if (!(*entry)->skipped && sweep_scene_is(*entry, picture->name, name, picture->lighting))
+            return LOBE_OK;
+    }
+    char scenes[512];
+    list_scenes(figures, scenes, sizeof scenes);
+    return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                         "%s: holds measurements of %s, not of scene '%s' in environment %s (%s)",
+                         path, scenes, picture->name, name ? name : "none",
+                         picture->lighting[0] ? picture->lighting : "light unchanged");
 }
 
 static lobe_result check_device(const char *path, const budget_picture *picture,
@@ -70,14 +97,18 @@ static void warn_of_what_differs(const char *path, const budget_picture *picture
 }
 
 static lobe_result find_figures(const budget_options *options, const budget_picture *picture,
-                                const lobe_log *log, sweep_results *figures) {
+                                const lobe_log *log, sweep_results *figures,
+                                const sweep_scene **entry) {
+    *entry = NULL;
     if (!options->sweep)
         return calibrate(&(calibration){.device = picture->device,
                                         .log = log,
                                         .scene = picture->scene,
                                         .size = {picture->size[0], picture->size[1]}},
                          figures);
-    lobe_result result = check_device(options->sweep, picture, log, figures);
+    lobe_result result = find_entry(options->sweep, picture, log, figures, entry);
+    if (result == LOBE_OK)
+        result = check_device(options->sweep, picture, log, figures);
     if (result == LOBE_OK)
         warn_of_what_differs(options->sweep, picture, log, figures);
     return result;
@@ -101,17 +132,27 @@ static bool read_row(const sweep_row *row, const lobe_filter **filter, lobe_sett
     return true;
 }
 
-/// The rows of a scene, of all where `scene` is NULL. Returns their number.
-static size_t list_rows(const sweep_results *figures, const char *scene, const sweep_row **rows) {
+/// The rows of a scene, all where `scene` is NULL. Returns their number.
+static size_t list_rows(const sweep_results *figures, const sweep_scene *scene,
+                        const sweep_row **rows) {
     size_t count = 0;
     for (size_t i = 0; i < figures->row_count; ++i) {
         const sweep_row *row = &figures->rows[i];
         const lobe_filter *filter;
         lobe_settings settings;
-        if ((!scene || strcmp(row->scene, scene) == 0) && read_row(row, &filter, &settings))
+        if ((!scene || strcmp(row->scene, scene->name) == 0) && read_row(row, &filter, &settings))
             rows[count++] = row;
     }
     return count;
+}
+
+/// What the truth's noise adds to errors is no filter's fault.
+static void leave_out_noise(const sweep_scene *scene, sweep_results *figures) {
+    for (size_t i = 0; scene && i < figures->row_count; ++i) {
+        sweep_row *row = &figures->rows[i];
+        if (strcmp(row->scene, scene->name) == 0)
+            row->error.relative_l2 = sweep_error_without_noise(scene, row);
+    }
 }
 
 static trade_request request_of(const budget_options *options, const budget_picture *picture,
@@ -218,13 +259,15 @@ static lobe_result fail(const budget_options *options, const trade_request *requ
 lobe_result budget_pick(const budget_options *options, const budget_picture *picture,
                         const lobe_log *log, sweep_results *figures, const lobe_filter **filter,
                         lobe_settings *settings) {
-    lobe_result result = find_figures(options, picture, log, figures);
+    const sweep_scene *entry;
+    lobe_result result = find_figures(options, picture, log, figures, &entry);
     if (result != LOBE_OK)
         return result;
+    leave_out_noise(entry, figures);
     const sweep_row **rows = calloc(figures->row_count + 1, sizeof *rows);
     if (!rows)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "budget: out of memory");
-    const size_t count = list_rows(figures, options->sweep ? picture->name : NULL, rows);
+    const size_t count = list_rows(figures, entry, rows);
     const trade_request request = request_of(options, picture, figures);
     const trade_choice choice = trade_choose(&request, rows, count);
     const text source = describe_source(options, picture, figures);

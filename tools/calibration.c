@@ -27,7 +27,9 @@ static lobe_result make_plan(sweep_job *job) {
         return result;
     lobe_settings_default(reference, &bench->truth);
     add_filters(bench);
-    return sweep_plan_make(bench->filters, bench->filter_count, bench->log, &job->plan);
+    // Knobs of environments stay as they are: their maps take long to make, a calibration is short.
+    const sweep_plan_request request = {bench->filters, bench->filter_count, false, NULL};
+    return sweep_plan_make(&request, bench->log, &job->plan);
 }
 
 static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_results *results) {
@@ -44,6 +46,8 @@ static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_
     progress_expect(bench->progress, sweep_scene_work(job));
     lobe_result result = sweep_measure(job, scene, &entry, results->rows);
     progress_end(bench->progress);
+    for (size_t i = 0; result == LOBE_OK && i < results->row_count; ++i)
+        results->rows[i].error.relative_l2 = sweep_error_without_noise(&entry, &results->rows[i]);
     return result;
 }
 

@@ -20,8 +20,8 @@ typedef struct calibration {
 /// supersamples; a few frames each. Says that it calibrates, and on a terminal how far it is.
 ///
 /// `*results` gets the size, samples and frames, and the rows with scene, filter, settings, times,
-/// memory and `error`; all else is empty. Free with sweep_results_free, after a failure too.
-/// Errors: LOBE_ERROR_OUT_OF_MEMORY, those of rendering.
+/// memory and `error`, its relative L2 without the truth's noise; all else is empty. Free with
+/// sweep_results_free, after a failure too. Errors: LOBE_ERROR_OUT_OF_MEMORY, those of rendering.
 lobe_result calibrate(const calibration *calibration, sweep_results *results);
 
 #endif

@@ -152,9 +152,12 @@ static bool has_own_view(const render_request *request) {
 static lobe_result pick_filter(render_request *request, render_state *state) {
     if (!budget_options_limit(&request->budget))
         return LOBE_OK;
+    char lighting[SCENE_OPTIONS_DESCRIPTION];
+    scene_options_describe(&request->opening, lighting);
     const budget_picture picture = {
         .name = request->scene,
         .scene = state->scene,
+        .lighting = lighting,
         .own_view = has_own_view(request),
         .device = state->device,
         .size = {request->size[0], request->size[1]},
@@ -404,6 +407,7 @@ static int run(int argc, char **argv) {
         scene_option_rotation(&request.opening),
         scene_option_intensity(&request.opening),
         scene_option_background(&request.opening),
+        scene_option_no_lights(&request.opening),
         {.name = "depth",
          .kind = OPTION_CHOICE,
          .argument = "DEPTH",

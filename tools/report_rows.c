@@ -14,9 +14,8 @@ bool report_is_far(const char *filter) {
 }
 
 const char *report_varied_value(const sweep_row *row) {
-    for (size_t i = 0; row->varied[0] != '\0' && i < row->setting_count; ++i) {
-        if (strcmp(row->settings[i].name, row->varied) == 0)
-            return row->settings[i].value;
-    }
-    return row->varied[0] != '\0' ? "?" : NULL;
+    if (row->varied[0] == '\0')
+        return NULL;
+    const char *value = sweep_row_value(row, row->varied);
+    return value ? value : "?";
 }

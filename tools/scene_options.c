@@ -1,5 +1,6 @@
 #include "tools/scene_options.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,6 +63,21 @@ option scene_option_background(scene_options *options) {
     };
 }
 
+option scene_option_no_lights(scene_options *options) {
+    return (option){
+        .name = "no-lights",
+        .kind = OPTION_FLAG,
+        .summary = "leaves out the scene's lights: what is left is its environment",
+        .target = &options->no_lights,
+    };
+}
+
+static void remove_lights(lobe_scene *scene) {
+    free(scene->lights);
+    scene->lights = NULL;
+    scene->light_count = 0;
+}
+
 static lobe_result replace_environment(const scene_options *options, const lobe_log *log,
                                        lobe_scene *scene) {
     lobe_environment *environment = NULL;
@@ -80,6 +96,18 @@ static const char *first_ignored(const scene_options *options) {
                                     : NULL;
 }
 
+void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]) {
+    char turned[48] = "", intensity[48] = "";
+    if (options->rotation != 0)
+        snprintf(turned, sizeof turned, ", turned by %g", options->rotation);
+    if (options->intensity != 1)
+        snprintf(intensity, sizeof intensity, ", intensity %g", options->intensity);
+    char all[SCENE_OPTIONS_DESCRIPTION + 2];
+    snprintf(all, sizeof all, "%s%s%s%s", options->no_lights ? ", no lights" : "", turned,
+             intensity, options->background ? ", background" : "");
+    snprintf(text, SCENE_OPTIONS_DESCRIPTION, "%s", all[0] ? all + 2 : "");
+}
+
 lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
                                 lobe_scene *scene) {
     lobe_result result = LOBE_OK;
@@ -88,6 +116,8 @@ lobe_result scene_options_light(const scene_options *options, const lobe_log *lo
     lobe_environment *environment = scene->environment;
     if (result != LOBE_OK)
         return result;
+    if (options->no_lights)
+        remove_lights(scene);
     if (environment) {
         lobe_environment_turn(environment, options->rotation);
         environment->intensity *= (float)options->intensity;

@@ -12,6 +12,7 @@ typedef struct scene_options {
     double rotation;         ///< of the environment, degrees about +Y
     double intensity;        ///< factor
     bool background;         ///< the environment is seen behind the scene
+    bool no_lights;          ///< the scene's lights are left out, the environment stays
     bool has_rotation, has_intensity;
 } scene_options;
 
@@ -21,6 +22,14 @@ option scene_option_environment(scene_options *options);
 option scene_option_rotation(scene_options *options);
 option scene_option_intensity(scene_options *options);
 option scene_option_background(scene_options *options);
+option scene_option_no_lights(scene_options *options);
+
+/// Longest text that scene_options_describe writes, with its end.
+#define SCENE_OPTIONS_DESCRIPTION 128
+
+/// How the options change a scene's light beside choosing its environment: "no lights, turned by
+/// 30, intensity 2, background"; "" where they do not.
+void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]);
 
 /// Lights an opened scene as the options ask.
 lobe_result scene_options_light(const scene_options *options, const lobe_log *log,

@@ -1,5 +1,6 @@
 #include "tools/sweep.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -120,18 +121,25 @@ static lobe_result start_results(const sweep_job *job, sweep_results *results) {
     return result;
 }
 
-/// Whether a scene was skipped, or has all rows of the plan.
-static bool is_done(const sweep_job *job, const sweep_results *results, const char *name) {
-    const sweep_scene *scene = sweep_results_scene(results, name);
+static const sweep_plan *plan_for(const sweep_job *job, bool environment) {
+    return environment ? &job->environment_plan : &job->plan;
+}
+
+/// Whether a scene was skipped, or has all rows of its plan.
+static bool is_done(const sweep_job *job, const sweep_results *results,
+                    const sweep_subject *subject) {
+    const sweep_scene *scene = sweep_results_scene(results, subject->name);
     if (!scene || scene->skipped)
         return scene != NULL;
+    const sweep_plan *plan = plan_for(job, scene->environment != NULL);
     bool measured = true;
-    for (size_t i = 0; measured && i < job->plan.count; ++i) {
+    for (size_t i = 0; measured && i < plan->count; ++i) {
         sweep_setting settings[LOBE_MAXIMUM_KNOBS];
-        const sweep_variant *variant = &job->plan.variants[i];
+        const sweep_variant *variant = &plan->variants[i];
         size_t count = sweep_variant_settings(variant, settings);
-        measured = sweep_results_row(results, name, lobe_filter_name(variant->filter.filter),
-                                     settings, count) != NULL;
+        measured =
+            sweep_results_row(results, subject->name, lobe_filter_name(variant->filter.filter),
+                              settings, count) != NULL;
     }
     return measured;
 }
@@ -188,11 +196,25 @@ static void keep_reason(void *user, lobe_log_level level, const char *message) {
         lobe_log_print(kept->log, level, "%s", message);
 }
 
+/// The job as it is for scenes with or without an environment.
+static sweep_job job_for(const sweep_job *job, bool environment) {
+    sweep_job result = *job;
+    result.plan = *plan_for(job, environment);
+    return result;
+}
+
+static double work_of(const sweep_job *job, const sweep_subject *subject) {
+    const sweep_job expected = job_for(job, sweep_subject_has_environment(subject));
+    return sweep_scene_work(&expected);
+}
+
 /// A scene that the device takes.
-static lobe_result try_scene(const sweep_job *job, const char *name, const lobe_log *log,
-                             lobe_scene **scene) {
+static lobe_result try_scene(const sweep_job *job, const sweep_subject *subject,
+                             const lobe_log *log, lobe_scene **scene) {
     lobe_renderer *renderer = NULL;
-    lobe_result result = scene_options_open(job->opening, name, job->bench.size, log, scene);
+    scene_options opening = *job->opening;
+    opening.environment = subject->environment;
+    lobe_result result = scene_options_open(&opening, subject->scene, job->bench.size, log, scene);
     if (result == LOBE_OK)
         result = lobe_renderer_create(job->bench.device, log, &renderer);
     if (result == LOBE_OK)
@@ -202,39 +224,72 @@ static lobe_result try_scene(const sweep_job *job, const char *name, const lobe_
 }
 
 /// NULL, and the entry says why, where the scene cannot be opened or drawn.
-static lobe_result open_scene(const sweep_job *job, sweep_scene *entry, lobe_scene **scene) {
+static lobe_result open_scene(const sweep_job *job, const sweep_subject *subject,
+                              sweep_scene *entry, lobe_scene **scene) {
     reason_log kept = {.log = job->bench.log};
     const lobe_log log = {.write = keep_reason, .user = &kept};
-    if (try_scene(job, entry->name, &log, scene) == LOBE_OK) {
+    if (try_scene(job, subject, &log, scene) == LOBE_OK) {
         for (size_t i = 0; i < (*scene)->instance_count; ++i)
             entry->triangles += (*scene)->meshes[(*scene)->instances[i].mesh].index_count / 3;
         return LOBE_OK;
     }
     lobe_scene_destroy(scene);
-    progress_spare(job->bench.progress, sweep_scene_work(job));
+    progress_spare(job->bench.progress, work_of(job, subject));
     lobe_log_print(job->bench.log, LOBE_LOG_WARNING, "%s: skipped: %s", entry->name, kept.reason);
     entry->skipped = strdup(kept.reason);
     return entry->skipped ? LOBE_OK : out_of_memory(job);
 }
 
+static char *copy_text(const char *text, bool *copied) {
+    char *copy = text && text[0] ? strdup(text) : NULL;
+    *copied = *copied && (copy || !text || !text[0]);
+    return copy;
+}
+
+/// `scene` may be NULL. Free the entry with sweep_scene_free, after a failure too.
+static lobe_result describe_light(const sweep_job *job, const lobe_scene *scene,
+                                  sweep_scene *entry) {
+    char lighting[SCENE_OPTIONS_DESCRIPTION];
+    bool copied = true;
+    scene_options_describe(job->opening, lighting);
+    entry->lighting = copy_text(lighting, &copied);
+    if (scene && scene->environment)
+        entry->environment = copy_text(scene->environment->name, &copied);
+    return copied ? LOBE_OK : out_of_memory(job);
+}
+
+static lobe_result describe_scene(const sweep_job *job, const sweep_subject *subject,
+                                  sweep_scene *entry, lobe_scene **scene) {
+    bool copied = true;
+    *entry = (sweep_scene){.noise = (double)NAN};
+    entry->name = copy_text(subject->name, &copied);
+    entry->scene = copy_text(subject->scene, &copied);
+    if (!copied)
+        return out_of_memory(job);
+    lobe_result result = open_scene(job, subject, entry, scene);
+    return result == LOBE_OK ? describe_light(job, *scene, entry) : result;
+}
+
 /// The results get the scene, unless the sweep was stopped meanwhile.
-static lobe_result measure_scene(const sweep_job *job, const char *name, sweep_results *results) {
-    const size_t count = job->plan.count;
+static lobe_result measure_scene(const sweep_job *job, const sweep_subject *subject,
+                                 sweep_results *results) {
     lobe_scene *scene = NULL;
-    sweep_scene entry = {.name = strdup(name)};
-    sweep_row *rows = calloc(count, sizeof *rows);
-    lobe_result result = entry.name && rows ? LOBE_OK : out_of_memory(job);
-    if (result == LOBE_OK)
-        result = open_scene(job, &entry, &scene);
+    sweep_scene entry;
+    lobe_result result = describe_scene(job, subject, &entry, &scene);
+    const sweep_job scene_job = job_for(job, scene && scene->environment);
+    const size_t count = scene ? scene_job.plan.count : 0;
+    sweep_row *rows = calloc(count + 1, sizeof *rows);
+    if (result == LOBE_OK && !rows)
+        result = out_of_memory(job);
     if (result == LOBE_OK && scene)
-        result = sweep_measure(job, scene, &entry, rows);
+        result = sweep_measure(&scene_job, scene, &entry, rows);
     bool kept = result == LOBE_OK && !sweep_stopped(job);
     if (kept) {
-        remove_scene(results, name);
-        result = add_scene(job, results, &entry, rows, scene ? count : 0);
+        remove_scene(results, subject->name);
+        result = add_scene(job, results, &entry, rows, count);
         kept = result == LOBE_OK;
     }
-    for (size_t i = 0; rows && !(kept && scene) && i < count; ++i)
+    for (size_t i = 0; rows && !kept && i < count; ++i)
         sweep_row_free(&rows[i]);
     if (!kept)
         sweep_scene_free(&entry);
@@ -246,69 +301,112 @@ static lobe_result measure_scene(const sweep_job *job, const char *name, sweep_r
 // ---------------------------------------------------------------------------------------------
 // All scenes
 
+typedef struct subject_list {
+    sweep_subject *subjects;
+    size_t count;
+} subject_list;
+
 static size_t count_done(const sweep_job *job, const sweep_results *results,
-                         const char *const *scenes, size_t count) {
+                         const subject_list *list) {
     size_t done = 0;
-    for (size_t i = 0; i < count; ++i)
-        done += is_done(job, results, scenes[i]);
+    for (size_t i = 0; i < list->count; ++i)
+        done += is_done(job, results, &list->subjects[i]);
     return done;
 }
 
 /// What was missing then may be there now.
-static void forget_skipped(sweep_results *results, const char *const *scenes, size_t count) {
-    for (size_t i = 0; i < count; ++i) {
-        const sweep_scene *scene = sweep_results_scene(results, scenes[i]);
+static lobe_result check_former(const sweep_job *job, const subject_list *list,
+                                sweep_results *results) {
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < list->count; ++i) {
+        const char *name = list->subjects[i].name;
+        const sweep_scene *scene = sweep_results_scene(results, name);
         if (scene && scene->skipped)
-            remove_scene(results, scenes[i]);
+            remove_scene(results, name);
+        else if (scene)
+            result = sweep_subject_check(job, &list->subjects[i], scene);
     }
+    return result;
 }
 
-static lobe_result write_results(const sweep_job *job, const char *const *scenes, size_t count,
+static lobe_result write_results(const sweep_job *job, const subject_list *list,
                                  sweep_results *results) {
-    results->complete = count_done(job, results, scenes, count) == count;
+    results->complete = count_done(job, results, list) == list->count;
     return sweep_results_write(job->json, results, job->bench.log);
 }
 
-static lobe_result measure_scenes(const sweep_job *job, const char *const *scenes, size_t count,
+static void expect_work(const sweep_job *job, const sweep_results *results,
+                        const subject_list *list) {
+    double work = 0;
+    for (size_t i = 0; i < list->count; ++i) {
+        if (!is_done(job, results, &list->subjects[i]))
+            work += work_of(job, &list->subjects[i]);
+    }
+    progress_expect(job->bench.progress, work);
+}
+
+static lobe_result measure_scenes(const sweep_job *job, const subject_list *list,
                                   sweep_results *results) {
-    forget_skipped(results, scenes, count);
-    size_t left = count - count_done(job, results, scenes, count);
-    progress_expect(job->bench.progress, (double)left * sweep_scene_work(job));
-    lobe_result result = left > 0 ? LOBE_OK : write_results(job, scenes, count, results);
-    for (size_t i = 0; result == LOBE_OK && i < count && !sweep_stopped(job); ++i) {
-        if (is_done(job, results, scenes[i]))
+    expect_work(job, results, list);
+    bool measured = count_done(job, results, list) == list->count;
+    lobe_result result = measured ? write_results(job, list, results) : LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < list->count && !sweep_stopped(job); ++i) {
+        if (is_done(job, results, &list->subjects[i]))
             continue;
-        result = measure_scene(job, scenes[i], results);
+        result = measure_scene(job, &list->subjects[i], results);
         if (result == LOBE_OK)
             result = device_options_check(job->bench.device, job->bench.log);
         if (result == LOBE_OK)
-            result = write_results(job, scenes, count, results);
+            result = write_results(job, list, results);
     }
     progress_end(job->bench.progress);
     return result;
 }
 
-lobe_result sweep_run(sweep_job *job, const char *const *scenes, size_t scene_count) {
+static lobe_result make_plans(sweep_job *job) {
+    const bench_job *bench = &job->bench;
+    sweep_plan_request request = {bench->filters, bench->filter_count, false, job->knobs};
+    lobe_result result = sweep_plan_make(&request, bench->log, &job->plan);
+    request.environment = true;
+    return result == LOBE_OK ? sweep_plan_make(&request, bench->log, &job->environment_plan)
+                             : result;
+}
+
+static lobe_result check_outcome(const sweep_job *job, const subject_list *list,
+                                 const sweep_results *results) {
+    if (!results->complete)
+        lobe_log_print(job->bench.log, LOBE_LOG_WARNING,
+                       "interrupted: %s holds %zu of %zu scenes, --resume goes on", job->json,
+                       count_done(job, results, list), list->count);
+    if (results->complete && results->row_count == 0)
+        return lobe_log_fail(job->bench.log, LOBE_ERROR_NOT_FOUND, "%s: no scene could be measured",
+                             job->json);
+    return LOBE_OK;
+}
+
+lobe_result sweep_run(sweep_job *job, const option_list *scenes, const option_list *environments) {
     sweep_results results = {0};
+    subject_list list = {0};
     lobe_result result =
-        sweep_plan_make(job->bench.filters, job->bench.filter_count, job->bench.log, &job->plan);
+        sweep_subjects_list(scenes, environments, job->bench.log, &list.subjects, &list.count);
+    if (result == LOBE_OK)
+        result = make_plans(job);
     if (result == LOBE_OK)
         result = start_results(job, &results);
     if (result == LOBE_OK)
+        result = check_former(job, &list, &results);
+    if (result == LOBE_OK)
         result = sweep_pictures_open(job);
     if (result == LOBE_OK)
-        result = measure_scenes(job, scenes, scene_count, &results);
+        result = measure_scenes(job, &list, &results);
     if (result == LOBE_OK)
         sweep_print(&results);
-    if (result == LOBE_OK && !results.complete)
-        lobe_log_print(job->bench.log, LOBE_LOG_WARNING,
-                       "interrupted: %s holds %zu of %zu scenes, --resume goes on", job->json,
-                       count_done(job, &results, scenes, scene_count), scene_count);
-    if (result == LOBE_OK && results.complete && results.row_count == 0)
-        result = lobe_log_fail(job->bench.log, LOBE_ERROR_NOT_FOUND,
-                               "%s: no scene could be measured", job->json);
+    if (result == LOBE_OK)
+        result = check_outcome(job, &list, &results);
     sweep_results_free(&results);
     sweep_pictures_close(job);
     sweep_plan_free(&job->plan);
+    sweep_plan_free(&job->environment_plan);
+    sweep_subjects_free(&list.subjects, list.count);
     return result;
 }

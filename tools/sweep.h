@@ -15,7 +15,8 @@
 
 /// `lobe bench --sweep`: what its parts share. One file does one thing:
 ///
-///     sweep.c            scenes one after the other, results written after each
+///     sweep.c            subjects one after the other, results written after each
+///     sweep_subject.c    a scene in an environment: its name, and who it was before
 ///     sweep_plan.c       which rows there are
 ///     sweep_measure.c    all rows of one scene
 ///     sweep_flicker.c    change along the scene's path
@@ -27,7 +28,9 @@
 /// A row to measure: a filter and its knobs.
 typedef struct sweep_variant {
     bench_filter filter;
-    const char *varied; ///< the knob that is not at its default; "" for none
+    /// The knob that is gone through; "" for none. All others are at their defaults, but for what
+    /// it needs beside it (lobe_knob.sweep_with).
+    const char *varied;
 } sweep_variant;
 
 typedef struct sweep_plan {
@@ -35,14 +38,23 @@ typedef struct sweep_plan {
     size_t count;
 } sweep_plan;
 
+/// A scene in an environment.
+typedef struct sweep_subject {
+    char *name;              ///< "tablecloth in courtyard": what results know it by
+    const char *scene;       ///< as the user gave it
+    const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
+} sweep_subject;
+
 typedef struct sweep_job {
     bench_job bench;
-    sweep_plan plan;
+    sweep_plan plan;             ///< of scenes without an environment; of the one that is measured
+    sweep_plan environment_plan; ///< of those with one
     const char *json;
     const char *pictures; ///< folder; NULL: beside the JSON
     char *picture_folder; ///< where they go
     char *picture_prefix; ///< the same as seen from the JSON's folder, with a slash
     const scene_options *opening;
+    const char *knobs; ///< to go through, "a,b,c"; NULL: all
     uint32_t path_samples, stations;
     /// Measures no more than times, memory and the error of the still picture against the truth: no
     /// pictures, no copies, no truth with converted base lobes; then `stations` is 0.
@@ -51,12 +63,13 @@ typedef struct sweep_job {
     const volatile sig_atomic_t *interrupted; ///< not 0: stop soon
 } sweep_job;
 
-/// Measures the scenes and prints a table. Writes the JSON after each scene.
-/// A scene that does not open is entered as skipped. `bench.filters` and truths must be chosen.
-/// LOBE_OK too where it was interrupted. Errors: LOBE_ERROR_NOT_FOUND (every scene was skipped),
-/// LOBE_ERROR_INVALID_ARGUMENT (results to go on from
-/// were measured otherwise), LOBE_ERROR_WRITE, those of reading results and of rendering.
-lobe_result sweep_run(sweep_job *job, const char *const *scenes, size_t scene_count);
+/// Measures every scene in every environment (in its own where none are given) and prints a table.
+/// Writes the JSON after each. A scene that does not open is entered as skipped. `bench.filters`
+/// and truths must be chosen. `opening` says how scenes are lit else. LOBE_OK too where it was
+/// interrupted. Errors: LOBE_ERROR_NOT_FOUND (every scene was skipped), LOBE_ERROR_INVALID_ARGUMENT
+/// (results to go on from were measured otherwise; two environments called alike),
+/// LOBE_ERROR_WRITE, those of reading results and of rendering.
+lobe_result sweep_run(sweep_job *job, const option_list *scenes, const option_list *environments);
 
 /// Whether to stop. Steps then return LOBE_OK, with results to throw away.
 bool sweep_stopped(const sweep_job *job);
@@ -70,16 +83,43 @@ bool sweep_show_progress(void *user, double part);
 // ---------------------------------------------------------------------------------------------
 // sweep_plan.c
 
+typedef struct sweep_plan_request {
+    const bench_filter *filters;
+    size_t filter_count;
+    bool environment;  ///< goes through knobs that tell in an environment alone too
+    const char *knobs; ///< "a,b,c": goes through these alone; NULL: through all
+} sweep_plan_request;
+
 /// Each filter with its defaults, and once with each value of each knob's list `sweep` that is not
 /// the default; a supersampling filter only with its defaults. Of a filter given twice the second
-/// is passed over. Free with sweep_plan_free. Errors: LOBE_ERROR_INVALID_ARGUMENT (a value that
-/// its own knob refuses), LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result sweep_plan_make(const bench_filter *filters, size_t count, const lobe_log *log,
+/// is passed over. Free with sweep_plan_free. Errors: LOBE_ERROR_INVALID_ARGUMENT (a value that its
+/// own knob refuses), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result sweep_plan_make(const sweep_plan_request *request, const lobe_log *log,
                             sweep_plan *plan);
 void sweep_plan_free(sweep_plan *plan);
 
+/// Whether a request's `knobs` has the name.
+bool sweep_plan_lists(const char *knobs, const char *knob);
+
 /// Every knob of a variant as text, into at most LOBE_MAXIMUM_KNOBS; their number.
 size_t sweep_variant_settings(const sweep_variant *variant, sweep_setting *settings);
+
+// ---------------------------------------------------------------------------------------------
+// sweep_subject.c
+
+/// Every scene in every environment, scene by scene. Free with sweep_subjects_free, after a failure
+/// too. Errors: LOBE_ERROR_INVALID_ARGUMENT (two would have one name), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result sweep_subjects_list(const option_list *scenes, const option_list *environments,
+                                const lobe_log *log, sweep_subject **subjects, size_t *count);
+void sweep_subjects_free(sweep_subject **subjects, size_t count);
+
+/// Whether it can be known to have an environment before it is opened.
+bool sweep_subject_has_environment(const sweep_subject *subject);
+
+/// Results of that name are of the same scene in the same environment, lit likewise.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT.
+lobe_result sweep_subject_check(const sweep_job *job, const sweep_subject *subject,
+                                const sweep_scene *former);
 
 // ---------------------------------------------------------------------------------------------
 // sweep_measure.c
@@ -88,7 +128,7 @@ size_t sweep_variant_settings(const sweep_variant *variant, sweep_setting *setti
 double sweep_scene_work(const sweep_job *job);
 
 /// Measures all variants in a scene. `rows` has room for all, zeroed; free them after a failure
-/// too. `entry` gets the reference's picture.
+/// too. `entry` gets the reference's picture and noise.
 ///
 /// Every round gives each row a turn in one renderer: a frame with its maps built that only warms
 /// up (switching from row to row frees and allocates maps, and on a CPU memory is paid for when it

@@ -1,5 +1,6 @@
 #include "tools/sweep.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,8 @@ typedef struct row_times {
 typedef struct scene_run {
     const sweep_job *job;
     const lobe_scene *scene;
-    lobe_log errors; ///< passes on errors alone: warnings of a filter come once, not in every turn
+    const char *name; ///< of the results
+    lobe_log errors;  ///< passes on errors alone: warnings of a filter come once, not in every turn
     sweep_row *rows;
     row_times *times; ///< one a row
     lobe_image truth, truth_lobe_base;
@@ -73,38 +75,93 @@ double sweep_scene_work(const sweep_job *job) {
 // ---------------------------------------------------------------------------------------------
 // Truth
 
+/// What a truth is made of: one or two parts with samples of their own.
+typedef struct truth_parts {
+    const sweep_variant *reference;
+    const char *kind; ///< for people
+    uint32_t samples[2];
+} truth_parts;
+
+static lobe_result render_part(const scene_run *run, lobe_renderer *renderer,
+                               const truth_parts *parts, uint32_t part, lobe_frame *frame) {
+    const bench_job *bench = &run->job->bench;
+    const uint32_t samples = parts->samples[part];
+    *frame = (lobe_frame){0};
+    if (samples == 0 || sweep_stopped(run->job))
+        return LOBE_OK;
+    progress_step(bench->progress, "%s: %s, samples a pixel: %u", run->name, parts->kind, samples);
+    progress_weigh(bench->progress, samples);
+    lobe_render_parameters parameters = sweep_parameters(run->job, parts->reference);
+    parameters.samples = samples;
+    // Of two parts neither has the pattern of the filter reference, which is held against them.
+    parameters.pattern = parts->samples[1] > 0 ? part + 1 : 0;
+    parameters.discard = false;
+    parameters.progress = sweep_show_progress;
+    return lobe_renderer_render(renderer, &parameters, frame);
+}
+
+/// `first` becomes the mean of all samples. Returns what chance leaves in it, as relative L2: with
+/// n and m samples the parts' square distance is, in the mean, 1/n + 1/m times a sample's variance,
+/// the mean's own is 1/(n + m) times that.
+static double merge_parts(lobe_image *first, const lobe_image *second, const uint32_t samples[2]) {
+    const double all = (double)samples[0] + samples[1], weight = samples[1] / all;
+    const float *other = second->texels;
+    float *texels = first->texels;
+    double distances = 0, squares = 0;
+    for (size_t i = 0; i < 4 * (size_t)first->width * first->height; ++i) {
+        const double difference = (double)other[i] - texels[i];
+        texels[i] += (float)(weight * difference);
+        distances += i % 4 != 3 ? difference * difference : 0;
+        squares += i % 4 != 3 ? (double)texels[i] * texels[i] : 0;
+    }
+    return sqrt(weight * (1 - weight) * distances / squares);
+}
+
+static lobe_result render_parts(const scene_run *run, lobe_renderer *renderer,
+                                const truth_parts *parts, lobe_frame *frame, double *noise) {
+    *noise = (double)NAN;
+    lobe_frame second = {0};
+    lobe_result result = render_part(run, renderer, parts, 0, frame);
+    if (result == LOBE_OK)
+        result = render_part(run, renderer, parts, 1, &second);
+    if (result == LOBE_OK && second.radiance.texels)
+        *noise = merge_parts(&frame->radiance, &second.radiance, parts->samples);
+    lobe_frame_free(&second);
+    return result;
+}
+
+/// Lit by an environment, each sample sees it in a direction drawn by lot: there the truth is made
+/// of two parts of chances of their own, which tell how much of it is noise.
 static lobe_result render_truth(const scene_run *run, lobe_renderer *renderer,
-                                const lobe_settings *settings, const char *kind, char **picture,
+                                const lobe_settings *settings, const char *kind, sweep_scene *entry,
                                 lobe_image *image) {
     const bench_job *bench = &run->job->bench;
     sweep_variant reference = {.filter.settings = *settings, .varied = ""};
     lobe_result result = lobe_filter_find("reference", bench->log, &reference.filter.filter);
-    if (result != LOBE_OK || sweep_stopped(run->job))
+    if (result != LOBE_OK)
         return result;
-    progress_step(bench->progress, "%s: %s, samples a pixel: %u", run->scene->name, kind,
-                  bench->samples);
-    progress_weigh(bench->progress, bench->samples);
-    lobe_render_parameters parameters = sweep_parameters(run->job, &reference);
-    parameters.samples = bench->samples;
-    parameters.discard = false;
-    parameters.progress = sweep_show_progress;
-    lobe_frame frame;
-    result = lobe_renderer_render(renderer, &parameters, &frame);
-    if (result == LOBE_OK && picture && !run->job->brief && !sweep_stopped(run->job))
-        result = sweep_pictures_write(run->job, run->rows[0].scene, &reference, bench->samples, "",
-                                      &frame, picture);
+    const uint32_t half = run->scene->environment ? bench->samples / 2 : 0;
+    const truth_parts parts = {&reference, kind, {bench->samples - half, half}};
+    lobe_frame frame = {0};
+    double noise;
+    result = render_parts(run, renderer, &parts, &frame, &noise);
+    if (entry)
+        entry->noise = noise;
+    if (result == LOBE_OK && entry && !run->job->brief && !sweep_stopped(run->job))
+        result = sweep_pictures_write(run->job, entry->name, &reference, bench->samples, "", &frame,
+                                      &entry->reference);
     *image = frame.radiance;
     frame.radiance = (lobe_image){0};
     lobe_frame_free(&frame);
     return result;
 }
 
-static lobe_result render_truths(scene_run *run, char **picture) {
+static lobe_result render_truths(scene_run *run, sweep_scene *entry) {
     const bench_job *bench = &run->job->bench;
     lobe_renderer *renderer = NULL;
     lobe_result result = open_renderer(run, &run->errors, &renderer);
     if (result == LOBE_OK)
-        result = render_truth(run, renderer, &bench->truth, "reference", picture, &run->truth);
+        result = render_truth(run, renderer, &bench->truth, "reference", entry, &run->truth);
     if (result == LOBE_OK && !run->job->brief)
         result = render_truth(run, renderer, &bench->truth_lobe_base,
                               "reference with base lobes converted", NULL, &run->truth_lobe_base);
@@ -211,7 +268,7 @@ static lobe_result measure_stills(const scene_run *run) {
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < job->plan.count && !sweep_stopped(job); ++i) {
         const sweep_variant *variant = &job->plan.variants[i];
-        progress_step(job->bench.progress, "%s: error%s of %s, row %zu of %zu", run->scene->name,
+        progress_step(job->bench.progress, "%s: error%s of %s, row %zu of %zu", run->name,
                       job->brief ? "" : " and flicker", run->rows[i].filter, i + 1,
                       job->plan.count);
         progress_weigh(job->bench.progress, still_work(job, variant));
@@ -289,7 +346,7 @@ static lobe_result take_turn(const scene_run *run, lobe_renderer *renderer, size
 static lobe_result take_turns(const scene_run *run, lobe_renderer *renderer, sweep_copies *copies) {
     const sweep_job *job = run->job;
     const uint32_t rounds = (job->bench.frames + TURN_FRAMES - 1) / TURN_FRAMES;
-    progress_step(job->bench.progress, "%s: times of %u frames of %zu rows", run->scene->name,
+    progress_step(job->bench.progress, "%s: times of %u frames of %zu rows", run->name,
                   job->bench.frames, job->plan.count);
     progress_weigh(job->bench.progress, time_work(job));
     lobe_result result = LOBE_OK;
@@ -404,11 +461,14 @@ static void close_run(scene_run *run) {
 lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows) {
     lobe_log log = *job->bench.log;
-    scene_run run = {
-        .job = job, .scene = scene, .errors = {.write = write_error, .user = &log}, .rows = rows};
+    scene_run run = {.job = job,
+                     .scene = scene,
+                     .name = entry->name,
+                     .errors = {.write = write_error, .user = &log},
+                     .rows = rows};
     lobe_result result = open_rows(&run, entry->name);
     if (result == LOBE_OK)
-        result = render_truths(&run, &entry->reference);
+        result = render_truths(&run, entry);
     if (result == LOBE_OK && !sweep_stopped(job))
         result = measure_stills(&run);
     if (result == LOBE_OK && !sweep_stopped(job))

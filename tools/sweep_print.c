@@ -4,11 +4,8 @@
 #include <string.h>
 
 static void describe_settings(const sweep_row *row, char *text, size_t size) {
-    text[0] = '\0';
-    for (size_t i = 0; i < row->setting_count; ++i) {
-        if (strcmp(row->settings[i].name, row->varied) == 0)
-            snprintf(text, size, "%s=%s", row->settings[i].name, row->settings[i].value);
-    }
+    const char *value = sweep_row_value(row, row->varied);
+    snprintf(text, size, "%s%s%s", value ? row->varied : "", value ? "=" : "", value ? value : "");
 }
 
 static void print_row(const sweep_row *row) {

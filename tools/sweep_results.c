@@ -15,16 +15,17 @@
 // Members: reading, writing and freeing all follow these tables, so they cannot disagree.
 
 typedef enum member_kind {
-    MEMBER_NUMBER,        ///< double; null is NAN
-    MEMBER_COUNT,         ///< uint32_t
-    MEMBER_LONG_COUNT,    ///< uint64_t
-    MEMBER_FLAG,          ///< bool
-    MEMBER_TEXT,          ///< char *, of its own
-    MEMBER_OPTIONAL_TEXT, ///< likewise; null or left out is NULL
-    MEMBER_FIXED_TEXT,    ///< char[size]
-    MEMBER_EXTENT,        ///< uint32_t[2]
-    MEMBER_STRUCTURE,     ///< a structure within
-    MEMBER_LIST,          ///< a pointer to structures, their number at count_offset
+    MEMBER_NUMBER,          ///< double; null is NAN
+    MEMBER_OPTIONAL_NUMBER, ///< likewise; NAN too where it is left out
+    MEMBER_COUNT,           ///< uint32_t
+    MEMBER_LONG_COUNT,      ///< uint64_t
+    MEMBER_FLAG,            ///< bool
+    MEMBER_TEXT,            ///< char *, of its own
+    MEMBER_OPTIONAL_TEXT,   ///< likewise; null or left out is NULL
+    MEMBER_FIXED_TEXT,      ///< char[size]
+    MEMBER_EXTENT,          ///< uint32_t[2]
+    MEMBER_STRUCTURE,       ///< a structure within
+    MEMBER_LIST,            ///< a pointer to structures, their number at count_offset
 } member_kind;
 
 typedef struct structure structure;
@@ -105,7 +106,11 @@ static const structure row_structure = STRUCTURE(sweep_row, row_members);
 
 static const member scene_members[] = {
     MEMBER(sweep_scene, name, MEMBER_TEXT),
+    MEMBER(sweep_scene, scene, MEMBER_OPTIONAL_TEXT),
+    MEMBER(sweep_scene, environment, MEMBER_OPTIONAL_TEXT),
+    MEMBER(sweep_scene, lighting, MEMBER_OPTIONAL_TEXT),
     MEMBER(sweep_scene, triangles, MEMBER_LONG_COUNT),
+    MEMBER(sweep_scene, noise, MEMBER_OPTIONAL_NUMBER),
     MEMBER(sweep_scene, reference, MEMBER_OPTIONAL_TEXT),
     MEMBER(sweep_scene, skipped, MEMBER_OPTIONAL_TEXT),
 };
@@ -190,6 +195,7 @@ static cJSON *describe_member(const member *member, const void *object) {
     const char *field = (const char *)object + member->offset;
     switch (member->kind) {
     case MEMBER_NUMBER:
+    case MEMBER_OPTIONAL_NUMBER:
         return describe_number(*(const double *)field);
     case MEMBER_COUNT:
         return cJSON_CreateNumber(*(const uint32_t *)field);
@@ -350,10 +356,15 @@ static lobe_result read_member(reader *reader, const member *member, const cJSON
     char *field = (char *)object + member->offset;
     if (member->kind == MEMBER_OPTIONAL_TEXT && (!item || cJSON_IsNull(item)))
         return LOBE_OK;
+    if (member->kind == MEMBER_OPTIONAL_NUMBER && !item) {
+        *(double *)field = (double)NAN;
+        return LOBE_OK;
+    }
     if (!item)
         return malformed(reader, "missing");
     switch (member->kind) {
     case MEMBER_NUMBER:
+    case MEMBER_OPTIONAL_NUMBER:
         return read_number(reader, item, (double *)field);
     case MEMBER_COUNT:
         return read_count(reader, item, (uint32_t *)field);
@@ -425,6 +436,34 @@ const sweep_scene *sweep_results_scene(const sweep_results *results, const char 
     return NULL;
 }
 
+/// No text is as good as an empty one.
+static bool same_text(const char *a, const char *b) {
+    return strcmp(a ? a : "", b ? b : "") == 0;
+}
+
+bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *environment,
+                    const char *lighting) {
+    return strcmp(entry->scene ? entry->scene : entry->name, scene) == 0 &&
+           same_text(entry->environment, environment) && same_text(entry->lighting, lighting);
+}
+
+/// The reference is the mean of two of chances of their own. Of a picture's square distance from
+/// it, what the products of its distances from both leave is theirs (noise_of in sweep_measure.c).
+double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
+    const double error = row->error.relative_l2;
+    if (isnan(scene->noise) || isnan(error))
+        return error;
+    return error > scene->noise ? sqrt(error * error - scene->noise * scene->noise) : 0;
+}
+
+const char *sweep_row_value(const sweep_row *row, const char *knob) {
+    for (size_t i = 0; i < row->setting_count; ++i) {
+        if (strcmp(row->settings[i].name, knob) == 0)
+            return row->settings[i].value;
+    }
+    return NULL;
+}
+
 static bool is_of(const sweep_row *row, const char *scene, const char *filter) {
     return strcmp(row->scene, scene) == 0 && strcmp(row->filter, filter) == 0;
 }
@@ -439,11 +478,8 @@ const sweep_row *sweep_results_default(const sweep_results *results, const char 
 }
 
 static bool has_setting(const sweep_row *row, const sweep_setting *setting) {
-    for (size_t i = 0; i < row->setting_count; ++i) {
-        if (strcmp(row->settings[i].name, setting->name) == 0)
-            return strcmp(row->settings[i].value, setting->value) == 0;
-    }
-    return false;
+    const char *value = sweep_row_value(row, setting->name);
+    return value && strcmp(value, setting->value) == 0;
 }
 
 static bool has_settings(const sweep_row *row, const sweep_setting *settings, size_t count) {

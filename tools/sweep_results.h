@@ -39,7 +39,8 @@ typedef struct sweep_row {
     char *filter;
     sweep_setting *settings; ///< every knob of the filter
     size_t setting_count;
-    /// The knob whose value is not the default; "" in the row of the defaults.
+    /// The knob whose value is not the default (another may have been set that it needs, see
+    /// lobe_knob.sweep_with); "" in the row of the defaults.
     char varied[32];
     // Milliseconds, medians and 95th percentiles over the frames.
     double rebuilt_ms, rebuilt_p95_ms;   ///< every map built in the frame
@@ -60,8 +61,14 @@ typedef struct sweep_row {
 } sweep_row;
 
 typedef struct sweep_scene {
-    char *name; ///< as the user gave it
+    char *name;        ///< unique in the results: the scene's, or "tablecloth in courtyard"
+    char *scene;       ///< as the user gave it; NULL: `name` is that
+    char *environment; ///< that lights it: its file or "sky"; NULL: none does
+    char *lighting;    ///< how options changed the light, see scene_options_describe; NULL: not
     uint64_t triangles;
+    /// What chance leaves in the reference: relative L2 distance from its limit at infinitely many
+    /// samples. NAN: not known. A row's error without it is the root of error^2 - noise^2.
+    double noise;
     char *reference; ///< EXR file of the reference, relative to the JSON file; NULL: none
     char *skipped;   ///< why the scene was not measured; NULL: it was
 } sweep_scene;
@@ -98,6 +105,17 @@ void sweep_scene_free(sweep_scene *scene);
 
 /// A scene by name; NULL where there is none.
 const sweep_scene *sweep_results_scene(const sweep_results *results, const char *name);
+
+/// Whether the entry is of this scene, lit by this environment (NULL: by none) and in this way.
+bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *environment,
+                    const char *lighting);
+
+/// A row's relative L2 error without what chance has left in its scene's reference; 0 where it is
+/// not larger.
+double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row);
+
+/// The value of a row's knob; NULL: it has no such knob.
+const char *sweep_row_value(const sweep_row *row, const char *knob);
 
 /// The row of a scene and filter at its defaults; NULL where there is none.
 const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,

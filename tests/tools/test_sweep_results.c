@@ -48,8 +48,13 @@ static sweep_row rows[] = {
      .flicker = -1},
 };
 static sweep_scene scenes[] = {
-    {.name = "cloth", .triangles = 1234, .reference = "a.pictures/cloth.exr"},
-    {.name = "\"dragon\"", .skipped = "no such file:\n\xc3\xa4"},
+    {.name = "cloth", .triangles = 1234, .noise = 0.3, .reference = "a.pictures/cloth.exr"},
+    {.name = "\"dragon\" in sun",
+     .scene = "\"dragon\"",
+     .environment = "a/sun.exr",
+     .lighting = "no lights",
+     .noise = NAN,
+     .skipped = "no such file:\n\xc3\xa4"},
 };
 static const sweep_results written = {
     .version = "1.2.3",
@@ -176,7 +181,11 @@ static void everything_comes_back(void **state) {
     assert_int_equal(read.scene_count, 2);
     for (size_t i = 0; i < 2; ++i) {
         assert_string_equal(read.scenes[i].name, scenes[i].name);
+        assert_texts_equal(read.scenes[i].scene, scenes[i].scene);
+        assert_texts_equal(read.scenes[i].environment, scenes[i].environment);
+        assert_texts_equal(read.scenes[i].lighting, scenes[i].lighting);
         assert_int_equal(read.scenes[i].triangles, scenes[i].triangles);
+        assert_int_equal(isnan(read.scenes[i].noise), isnan(scenes[i].noise));
         assert_texts_equal(read.scenes[i].reference, scenes[i].reference);
         assert_texts_equal(read.scenes[i].skipped, scenes[i].skipped);
     }
@@ -207,6 +216,20 @@ static void unknown_members_are_passed_over(void **state) {
     sweep_results_free(&read);
 }
 
+/// Files from before there were environments.
+static void what_older_files_lack_is_unknown(void **state) {
+    (void)state;
+    write_changed("\"environment\":\tnull", "\"envoy\":\tnull");
+    sweep_results read;
+    assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
+    assert_null(read.scenes[0].environment);
+    sweep_results_free(&read);
+    write_changed("\"noise\"", "\"nose\"");
+    assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
+    assert_true(isnan(read.scenes[0].noise));
+    sweep_results_free(&read);
+}
+
 static void malformed_members_are_named(void **state) {
     (void)state;
     static const struct {
@@ -219,6 +242,8 @@ static void malformed_members_are_named(void **state) {
         {"\"frames\":\t20", "\"frames\":\t2.5", "frames: not a whole number"},
         {"\"complete\":\ttrue", "\"complete\":\t1", "complete: neither true nor false"},
         {"\"triangles\":\t1234", "\"triangles\":\t1e300", "scenes[0].triangles: not a whole"},
+        {"\"noise\":\t0.3", "\"noise\":\t\"0.3\"", "scenes[0].noise: neither a number nor null"},
+        {"\"lighting\":\tnull", "\"lighting\":\t3", "scenes[0].lighting: not a text"},
         {"93.5", "\"93.5\"", "rows[0].rebuilt_ms: neither a number nor null"},
         {"80.25,\n\t\t\t\t\t\"count\":\t1", "80.25,\n\t\t\t\t\t\"count\":\t-1",
          "rows[0].passes[1].count: not a whole number"},
@@ -282,6 +307,30 @@ static void rows_are_found(void **state) {
     assert_null(sweep_results_scene(&written, "clot"));
 }
 
+static void scenes_are_told_apart_by_their_light(void **state) {
+    (void)state;
+    assert_true(sweep_scene_is(&scenes[0], "cloth", NULL, ""));
+    assert_true(sweep_scene_is(&scenes[1], "\"dragon\"", "a/sun.exr", "no lights"));
+    assert_false(sweep_scene_is(&scenes[1], "\"dragon\" in sun", "a/sun.exr", "no lights"));
+    assert_false(sweep_scene_is(&scenes[1], "\"dragon\"", "b/sun.exr", "no lights"));
+    assert_false(sweep_scene_is(&scenes[1], "\"dragon\"", NULL, "no lights"));
+    assert_false(sweep_scene_is(&scenes[1], "\"dragon\"", "a/sun.exr", NULL));
+    assert_false(sweep_scene_is(&scenes[0], "cloth", "a/sun.exr", ""));
+}
+
+static void noise_is_left_out_of_errors(void **state) {
+    (void)state;
+    assert_float_equal(sweep_error_without_noise(&scenes[0], &rows[0]), 0.4, 1e-12);
+    assert_float_equal(sweep_error_without_noise(&scenes[0], &rows[1]), 0, 0);
+    assert_float_equal(sweep_error_without_noise(&scenes[1], &rows[0]), 0.5, 0);
+}
+
+static void knobs_have_values(void **state) {
+    (void)state;
+    assert_string_equal(sweep_row_value(&rows[1], "epsilon0"), "0.5");
+    assert_null(sweep_row_value(&rows[1], "epsilon"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(everything_comes_back),
@@ -293,6 +342,10 @@ int main(void) {
         IN_TEST_FOLDER(missing_files_are_not_found),
         IN_TEST_FOLDER(a_folder_that_is_not_there_takes_no_file),
         cmocka_unit_test(rows_are_found),
+        IN_TEST_FOLDER(what_older_files_lack_is_unknown),
+        cmocka_unit_test(scenes_are_told_apart_by_their_light),
+        cmocka_unit_test(noise_is_left_out_of_errors),
+        cmocka_unit_test(knobs_have_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,10 @@ typedef struct lobe_knob {
     /// Values worth comparing, as a user would write them, with commas between: what a sweep of
     /// the benchmark goes through. NULL: none but the default.
     const char *sweep;
+    /// What must be set for those values to tell, "env=sampled"; NULL: nothing.
+    const char *sweep_with;
+    /// Tells only in scenes that are lit by an environment: a sweep passes over it in all others.
+    bool environment;
 } lobe_knob;
 
 /// Most knobs a filter may have, the shared ones included.

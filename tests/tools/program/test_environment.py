@@ -3,10 +3,10 @@
 import sys
 
 import tap
-from files import exr_header, gltf_triangle, gltf_write, png_write
+from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
 from program import SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report, succeeds
 
-DIRECT = ["--filter", "direct", *SMALL]
+DIRECT = ["--filter", "direct", "--set", "env_size=16", *SMALL]
 
 
 def write_hdr(path, width=8, height=4, texel=(128, 128, 128, 129)):
@@ -28,6 +28,21 @@ def test_file_and_none():
                           folder / "a.exr")
         check(environment_of(folder / "a.exr") == expected, report(result))
         check("warning" not in result.stderr, report(result))
+
+
+def test_a_scene_may_be_lit_by_its_environment_alone():
+    folder = fresh_folder("alone")
+    light = write_hdr(folder / "light.hdr")
+    dark = write_hdr(folder / "dark.hdr", texel=(0, 0, 0, 0))
+    pictures = {}
+    for name, options in (("both", ["--environment", light]), ("own", ["--environment", dark]),
+                          ("alone", ["--environment", light, "--no-lights"]),
+                          ("none", ["--environment", dark, "--no-lights"])):
+        succeeds("render", "bumps", *DIRECT, *options, "-o",
+                 folder / f"{name}.exr", "-o", folder / f"{name}.png")
+        pictures[name] = sum(map(sum, png_read(folder / f"{name}.png")[2]))
+    check(pictures["none"] < pictures["alone"] < pictures["both"], str(pictures))
+    check(pictures["none"] < pictures["own"] < pictures["both"], str(pictures))
 
 
 def test_a_scene_without_light_gets_no_other_beside():

@@ -192,6 +192,121 @@ def test_tables_are_made_from_json():
           result.stdout)
 
 
+# Environments -------------------------------------------------------------------------------
+
+LIT = ["--filters", "direct", "--no-lights", "--set", "env_size=16", "--stations", "1"]
+
+
+def write_hdr(path, texel):
+    """A Radiance picture of one colour with a brighter texel, not packed."""
+    path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" +
+                     bytes(texel) * 8 + bytes([*texel[:3], 132]) + bytes(texel) * 23)
+    return path
+
+
+def scene_of(results, name):
+    return next(scene for scene in results["scenes"] if scene["name"] == name)
+
+
+def rows_of(results, name):
+    return [row for row in results["rows"] if row["scene"] == name]
+
+
+_lit = []
+
+
+def lit():
+    """A scene in two environments and in none; the folder, the environments and the results."""
+    if not _lit:
+        folder = fresh_folder("lit")
+        maps = [write_hdr(folder / f"{name}.hdr", texel)
+                for name, texel in (("warm", (200, 128, 90, 128)), ("cool", (90, 128, 200, 128)))]
+        _, results = sweep(folder, "bumps", *LIT, "--environment", maps[0], "--environment",
+                           maps[1], "--environment", "none", "--knobs", "env,env_grid")
+        _lit.extend([folder, maps, results])
+    return _lit
+
+
+def test_every_scene_is_measured_in_every_environment():
+    _, maps, results = lit()
+    check([scene["name"] for scene in results["scenes"]] ==
+          ["bumps in warm", "bumps in cool", "bumps"], str(results["scenes"]))
+    for scene, environment in zip(results["scenes"], [*map(str, maps), None], strict=True):
+        check((scene["scene"], scene["environment"], scene["lighting"]) ==
+              ("bumps", environment, "no lights"), str(scene))
+        # Without an environment nothing is left to chance.
+        check((scene["noise"] is None) == (environment is None), str(scene))
+        if environment:
+            check(0 < scene["noise"] < 1, str(scene))
+    check(results["complete"] is True, "complete")
+
+
+def test_methods_are_gone_through_where_there_is_an_environment():
+    *_, results = lit()
+    knobs = ("env", "env_grid", "env_size")
+    for name in ("bumps in warm", "bumps in cool"):
+        shown = [(row["varied"], *(settings_of(row)[knob] for knob in knobs))
+                 for row in rows_of(results, name)]
+        check(shown == [("", "prefiltered", "5", "16"), ("env", "mip", "5", "16"),
+                        ("env", "sampled", "5", "16"), ("env_grid", "sampled", "3", "16"),
+                        ("env_grid", "sampled", "7", "16")], str(shown))
+    check([row["varied"] for row in rows_of(results, "bumps")] == [""], "rows without environment")
+
+
+def test_preparing_an_environment_is_building():
+    *_, results = lit()
+    row = rows_of(results, "bumps in warm")[0]
+    passes = {one["name"]: one["building"] for one in row["passes"]}
+    check(passes["environment_cube"] and passes["environment_prefiltering"], str(passes))
+    check(not passes["shading"] and row["building_ms"] > 0, str(row))
+    check(all(not one["name"].startswith("environment") for one in
+              rows_of(results, "bumps")[0]["passes"]), "without environment")
+
+
+def test_environments_differ_and_so_do_their_pictures():
+    folder, _, results = lit()
+    names = [scene["reference"] for scene in results["scenes"]]
+    check(len(set(names)) == 3, str(names))
+    check(exr_header(folder / names[0])["samples"] == 4, "samples of both halves")
+    errors = {row["error"]["relative_l2"] for row in results["rows"]}
+    check(len(errors) > 6, str(errors))
+
+
+def test_resuming_knows_environments():
+    folder, maps, results = lit()
+    arguments = ["bumps", *LIT, "--knobs", "env,env_grid", "--json", folder / "a.json", "--resume"]
+    result = succeeds("bench", *QUICK, *arguments, "--environment", maps[1])
+    check("reference" not in result.stderr, report(result))
+    check(json.loads((folder / "a.json").read_text())["rows"] == results["rows"], "rows changed")
+    fails("bench", *QUICK, *arguments, "--environment", maps[0], "--environment-intensity", "2",
+          says=["'bumps in warm' was measured in", "no lights, intensity 2", "--resume"])
+    (folder / "other").mkdir(exist_ok=True)
+    other = write_hdr(folder / "other/warm.hdr", (9, 9, 9, 128))
+    fails("bench", *QUICK, *arguments, "--environment", other, says=["warm.hdr", "--resume"])
+    fails("bench", *QUICK, *arguments, "--environment", maps[0], "--environment", other,
+          says=["would both be called 'bumps in warm'"])
+
+
+def picked(folder, *arguments):
+    return lobe("render", "bumps", "--size", "64x36", "--sweep", folder / "a.json", "--error", "9",
+                *arguments, "-o", folder / "a.exr")
+
+
+def test_a_choice_goes_by_the_environment():
+    folder, maps, results = lit()
+    result = picked(folder, "--no-lights", "--environment", maps[1])
+    check(result.returncode == 0 and "of 5 choices" in result.stdout, report(result))
+    fastest = min(rows_of(results, "bumps in cool"), key=lambda row: row["rebuilt_ms"])
+    header = exr_header(folder / "a.exr")
+    check(header["knob.env"] == settings_of(fastest)["env"], report(result))
+    result = picked(folder, "--no-lights")
+    check(result.returncode == 0 and "1 of 1 choices" in result.stdout, report(result))
+    for light in (["--no-lights", "--environment", "sky"], ["--environment", maps[1]]):
+        result = picked(folder, *light)
+        check(result.returncode == 1 and "holds measurements of bumps in warm, bumps in cool, bumps"
+              in result.stderr and "in environment" in result.stderr, report(result))
+
+
 # Stopping and going on ----------------------------------------------------------------------
 
 def start(*arguments):
@@ -247,10 +362,11 @@ def test_resuming_measures_more_scenes_and_skipped_ones():
     folder = fresh_folder("more")
     (folder / "scene").mkdir()
     path = folder / "scene" / "a.gltf"
-    _, results = sweep(folder, path, "checkerboard", "--filters", "direct")
+    options = ["--filters", "direct", "--environment", "none"]
+    _, results = sweep(folder, path, "checkerboard", *options)
     check({row["scene"] for row in results["rows"]} == {"checkerboard"}, "rows")
     path.write_text(json.dumps(gltf_triangle()), encoding="utf-8")
-    result, results = sweep(folder, path, "checkerboard", "--filters", "direct", "--resume")
+    result, results = sweep(folder, path, "checkerboard", *options, "--resume")
     check("checkerboard: reference" not in result.stderr, report(result))
     check({row["scene"] for row in results["rows"]} == {str(path), "checkerboard"},
           str(results["rows"]))
@@ -291,8 +407,12 @@ def test_resuming_from_a_broken_file_is_refused():
 def test_options_that_do_not_go_together():
     is_wrong_usage("bench", "bumps", "--sweep", says="--sweep needs --json")
     is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--set", "probes=2",
-                   says="--sweep sets the knobs itself")
-    for option in (["--resume"], ["--pictures", "x"], ["--stations", "2"], ["--path-samples", "2"]):
+                   says="--sweep sets that knob itself")
+    is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--knobs", "env,odd",
+                   says="no filter has a knob 'odd'")
+    is_wrong_usage("bench", "bumps", "--environment", "sky", "--environment", "none",
+                   says="--environment: more than one go with --sweep")
+    for option in (["--resume"], ["--knobs", "env"], ["--pictures", "x"], ["--stations", "2"], ["--path-samples", "2"]):
         is_wrong_usage("bench", "bumps", *option, says=f"{option[0]} goes with --sweep")
     is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--stations", "0",
                    says="--stations")
