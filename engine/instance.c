@@ -59,26 +59,46 @@ static VkDebugUtilsMessengerCreateInfoEXT messenger_settings(const engine_valida
     };
 }
 
-static VkResult create_plain(engine_instance *instance, const void *next, const char *layer) {
+/// What the instance is asked for beside what lobe knows by itself.
+typedef struct instance_request {
+    const void *next;
+    const char *layer; ///< NULL: none
+    const char *const *extensions;
+    uint32_t extension_count;
+} instance_request;
+
+static VkResult create_plain(engine_instance *instance, const instance_request *request) {
     const VkApplicationInfo application = {
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
         .pEngineName = "lobe",
         .apiVersion = VK_API_VERSION_1_3,
     };
-    const char *const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const char **extensions = calloc(request->extension_count + 1, sizeof *extensions);
+    if (!extensions)
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
+    uint32_t count = 0;
+    while (count < request->extension_count) {
+        extensions[count] = request->extensions[count];
+        count++;
+    }
+    if (instance->debug_utils)
+        extensions[count++] = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     const VkInstanceCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-        .pNext = next,
+        .pNext = request->next,
         .pApplicationInfo = &application,
-        .enabledLayerCount = layer ? 1 : 0,
-        .ppEnabledLayerNames = &layer,
-        .enabledExtensionCount = instance->debug_utils ? 1 : 0,
-        .ppEnabledExtensionNames = &extension,
+        .enabledLayerCount = request->layer ? 1 : 0,
+        .ppEnabledLayerNames = &request->layer,
+        .enabledExtensionCount = count,
+        .ppEnabledExtensionNames = extensions,
     };
-    return vkCreateInstance(&create, NULL, &instance->vulkan);
+    const VkResult result = vkCreateInstance(&create, NULL, &instance->vulkan);
+    free(extensions);
+    return result;
 }
 
-static VkResult create_validated(engine_instance *instance, const engine_validation *validation) {
+static VkResult create_validated(engine_instance *instance, const engine_validation *validation,
+                                 const instance_request *plain) {
     static const VkValidationFeatureEnableEXT enabled[] = {
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
     };
@@ -89,7 +109,10 @@ static VkResult create_validated(engine_instance *instance, const engine_validat
         .enabledValidationFeatureCount = sizeof enabled / sizeof *enabled,
         .pEnabledValidationFeatures = enabled,
     };
-    return create_plain(instance, &features, VALIDATION_LAYER);
+    instance_request request = *plain;
+    request.next = &features;
+    request.layer = VALIDATION_LAYER;
+    return create_plain(instance, &request);
 }
 
 static lobe_result create_messenger(const lobe_log *log, const engine_validation *validation,
@@ -104,14 +127,21 @@ static lobe_result create_messenger(const lobe_log *log, const engine_validation
 
 lobe_result engine_instance_create(const lobe_log *log, const engine_validation *validation,
                                    engine_instance *instance) {
+    return engine_instance_create_with(log, validation, NULL, 0, instance);
+}
+
+lobe_result engine_instance_create_with(const lobe_log *log, const engine_validation *validation,
+                                        const char *const *extensions, uint32_t extension_count,
+                                        engine_instance *instance) {
+    const instance_request request = {.extensions = extensions, .extension_count = extension_count};
     *instance = (engine_instance){0};
     if (validation && !has_layer(VALIDATION_LAYER))
         return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
                              "validation: the layer " VALIDATION_LAYER " is not installed");
     instance->debug_utils =
         validation != NULL || has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    const VkResult created =
-        validation ? create_validated(instance, validation) : create_plain(instance, NULL, NULL);
+    const VkResult created = validation ? create_validated(instance, validation, &request)
+                                        : create_plain(instance, &request);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
         return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
     lobe_result result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");

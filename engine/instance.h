@@ -28,6 +28,10 @@ typedef struct engine_validation {
 /// LOBE_ERROR_UNSUPPORTED (no validation layer).
 lobe_result engine_instance_create(const lobe_log *log, const engine_validation *validation,
                                    engine_instance *instance);
+/// The same with extensions that the loader must have: those of a window's surface.
+lobe_result engine_instance_create_with(const lobe_log *log, const engine_validation *validation,
+                                        const char *const *extensions, uint32_t extension_count,
+                                        engine_instance *instance);
 void engine_instance_destroy(engine_instance *instance);
 
 #endif

@@ -27,8 +27,12 @@ option device_option_validation(device_options *options) {
     };
 }
 
-/// NULL where there is no place for it.
-static const char *find_pipeline_cache(char *path) {
+const char *device_options_selection(const device_options *options) {
+    const char *select = options->select ? options->select : getenv("LOBE_DEVICE");
+    return select && select[0] == '\0' ? NULL : select;
+}
+
+const char *device_options_pipeline_cache(char *path) {
     static const char name[] = "/pipelines";
     if (!cache_folder_find(NULL, path) || strlen(path) + sizeof name > CACHE_FOLDER_SIZE)
         return NULL;
@@ -38,14 +42,11 @@ static const char *find_pipeline_cache(char *path) {
 lobe_result device_options_open(const device_options *options, const lobe_log *log,
                                 lobe_device **device) {
     char cache[CACHE_FOLDER_SIZE];
-    const char *select = options->select ? options->select : getenv("LOBE_DEVICE");
-    if (select && select[0] == '\0')
-        select = NULL;
     return lobe_device_create(
         &(lobe_device_parameters){
-            .select = select,
+            .select = device_options_selection(options),
             .validation = options->validation,
-            .pipeline_cache = find_pipeline_cache(cache),
+            .pipeline_cache = device_options_pipeline_cache(cache),
             .log = log,
         },
         device);

@@ -17,6 +17,12 @@ typedef struct device_options {
 option device_option_select(device_options *options);
 option device_option_validation(device_options *options);
 
+/// What lobe_device_parameters.select is to be; NULL: the best suited.
+const char *device_options_selection(const device_options *options);
+/// The file that keeps compiled pipelines, written to `path` of CACHE_FOLDER_SIZE bytes (see
+/// tools/cache_folder.h); NULL where there is no place for it.
+const char *device_options_pipeline_cache(char *path);
+
 /// Opens the device, with a pipeline cache in the user's cache folder ($XDG_CACHE_HOME/lobe or
 /// ~/.cache/lobe) where there is one.
 lobe_result device_options_open(const device_options *options, const lobe_log *log,

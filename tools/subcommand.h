@@ -11,6 +11,7 @@ typedef struct subcommand {
 } subcommand;
 
 extern const subcommand render_subcommand;
+extern const subcommand view_subcommand;
 extern const subcommand bench_subcommand;
 extern const subcommand report_subcommand;
 extern const subcommand compare_subcommand;

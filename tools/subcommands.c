@@ -4,17 +4,9 @@
 #include <string.h>
 
 const subcommand *const subcommands[] = {
-    &render_subcommand,
-    &bench_subcommand,
-    &report_subcommand,
-    &compare_subcommand,
-    &environment_subcommand,
-    &scenes_subcommand,
-    &filters_subcommand,
-    &info_subcommand,
-    &manual_subcommand,
-    &completion_subcommand,
-    NULL,
+    &render_subcommand,  &view_subcommand,        &bench_subcommand,      &report_subcommand,
+    &compare_subcommand, &environment_subcommand, &scenes_subcommand,     &filters_subcommand,
+    &info_subcommand,    &manual_subcommand,      &completion_subcommand, NULL,
 };
 
 const subcommand *subcommand_find(const char *name) {

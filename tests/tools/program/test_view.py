@@ -1,0 +1,330 @@
+"""`lobe view` in a window: keys and mouse do what they say, and between events it sleeps."""
+
+import json
+import shutil
+import struct
+import sys
+import time
+import zlib
+
+import tap
+from program import check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
+from screen import Screen, Window
+
+SIZE = (320, 240)
+TEXT = f"{SIZE[0]}x{SIZE[1]}"
+STATE = {}
+
+
+def missing():
+    """Why there can be no window; None where there can."""
+    for name in ("Xvfb", "xdotool"):
+        if not shutil.which(name):
+            return f"{name} is not installed"
+    return None
+
+
+def screen():
+    if "screen" not in STATE:
+        STATE["screen"] = Screen()
+    return STATE["screen"]
+
+
+def window():
+    """One for most cases: starting takes longest. Its panel is hidden."""
+    if "window" not in STATE:
+        STATE["folder"] = fresh_folder("recorded")
+        STATE["window"] = Window(screen(), "checkerboard", "--size", TEXT, "--samples", 2,
+                                 "--path-frames", 5, "-o", STATE["folder"])
+        STATE["window"].do("key", "Tab")
+    return STATE["window"]
+
+
+def seen(width=SIZE[0], height=SIZE[1], left=0, top=0):
+    return screen().picture(left, top, width, height)
+
+
+def largest_difference(one, other):
+    return max(abs(a - b) for row, other_row in zip(one, other)
+               for k in range(3) for a, b in zip(row[k::4], other_row[k::4]))
+
+
+def part_that_differs(one, other):
+    pairs = [(row[i:i + 3], other_row[i:i + 3]) for row, other_row in zip(one, other)
+             for i in range(0, len(row), 4)]
+    return sum(a != b for a, b in pairs) / len(pairs)
+
+
+def png_rows(path):
+    """Of an opaque PNG of lobe's: rows of B, G, R, 0."""
+    data, position, packed = path.read_bytes(), 8, b""
+    while position < len(data):
+        size, kind = struct.unpack(">I4s", data[position:position + 8])
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", data[position + 8:position + 18])
+        if kind == b"IDAT":
+            packed += data[position + 8:position + 8 + size]
+        position += 12 + size
+    channels = {2: 3, 6: 4}[colour]
+    check(depth == 8, "8 bits a channel")
+    return [swizzled(row, channels) for row in unfiltered(zlib.decompress(packed), width, height,
+                                                          channels)]
+
+
+def unfiltered(data, width, height, channels):
+    """PNG, second edition, 9.2: filter types 0 to 4."""
+    stride, above = width * channels, bytes(width * channels)
+    for y in range(height):
+        kind, row = data[y * (stride + 1)], bytearray(data[y * (stride + 1) + 1:][:stride])
+        for i in range(stride):
+            a = row[i - channels] if i >= channels else 0
+            b, c = above[i], above[i - channels] if i >= channels else 0
+            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth(a, b, c))[kind]) & 255
+        above = bytes(row)
+        yield above
+
+
+def paeth(a, b, c):
+    p = a + b - c
+    return min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+
+
+def swizzled(row, channels):
+    pixels = bytearray(len(row) // channels * 4)
+    for k, channel in ((0, 2), (1, 1), (2, 0)):
+        pixels[k::4] = row[channel::channels]
+    return bytes(pixels)
+
+
+def rendered(*options):
+    path = fresh_folder("rendered") / "picture.png"
+    succeeds("render", "checkerboard", "--size", TEXT, "-o", path, *options)
+    return png_rows(path)
+
+
+def is_off(test, reference):
+    """The error that `lobe compare` measures."""
+    return json.loads(succeeds("compare", test, reference, "--json").stdout)["rmse"]
+
+
+def changes(*events):
+    """What is seen before the events and after; they must differ visibly."""
+    before = seen()
+    window().do(*events)
+    after = seen()
+    check(part_that_differs(before, after) > 0.05, f"{events}: nothing to be seen of it")
+    return before, after
+
+
+# ---------------------------------------------------------------------------------------------
+
+
+def test_wrong_usage():
+    is_wrong_usage("view", says="SCENE")
+    is_wrong_usage("view", "bumps", "pillow", says="pillow")
+    is_wrong_usage("view", "bumps", "--exit", says="--frames")
+    is_wrong_usage("view", "bumps", "--filter", "blur", says="blur")
+    is_wrong_usage("view", "bumps", "--set", "colour=1", says="colour")
+
+
+def test_no_display():
+    for display in ("", ":4321"):
+        fails("view", "checkerboard", "--frames", 1, "--exit", DISPLAY=display, WAYLAND_DISPLAY="",
+              says="window")
+
+
+def test_frames_and_exit_under_validation():
+    if missing():
+        return missing()
+    for options in (["--filter", "mipmap", "--environment", "sky"], ["--filter", "reference"]):
+        result = lobe("view", "checkerboard", "--size", "64x48", "--frames", 3, "--exit",
+                      "--validation", *options, DISPLAY=screen().name)
+        check(result.returncode == 0 and "validation" not in result.stderr, report(result))
+    return None
+
+
+def test_a_missing_scene():
+    if missing():
+        return missing()
+    fails("view", "no-such-scene", DISPLAY=screen().name, says="no-such-scene")
+    return None
+
+
+def test_shows_what_render_draws():
+    if missing():
+        return missing()
+    window()
+    difference = largest_difference(seen(), rendered())
+    check(difference <= 1, f"differs by {difference} of 255")
+    return None
+
+
+def test_sleeps_while_nothing_changes():
+    if missing():
+        return missing()
+    before = window().seconds()
+    time.sleep(1)
+    taken = window().seconds() - before
+    check(taken <= 0.01, f"takes {1000 * taken:.0f} ms of a second")
+    return None
+
+
+def test_panel_and_keys():
+    if missing():
+        return missing()
+    plain, with_panel = changes("key", "Tab")
+    _, both = changes("key", "F1")
+    check(part_that_differs(both, with_panel) > 0.05, "no keys")
+    window().do("key", "F1", "key", "Tab")
+    check(seen() == plain, "something stays on the picture")
+    return None
+
+
+def test_mouse_moves_the_camera():
+    if missing():
+        return missing()
+    window()
+    screen().do("mousemove", 160, 120)
+    before = seen()
+    for events in (["mousedown", 1, "mousemove", 200, 130, "mouseup", 1],
+                   ["mousedown", 2, "mousemove", 180, 150, "mouseup", 2],
+                   ["mousedown", 3, "mousemove", 200, 110, "mouseup", 3],
+                   ["click", 4, "click", 4], ["key", "Left"], ["key", "Up"]):
+        changes(*events)
+    window().do("key", "Home")
+    check(seen() == before, "Home does not lead home")
+    return None
+
+
+def test_keys_fly_while_they_are_held():
+    if missing():
+        return missing()
+    start = seen()
+    screen().do("keydown", "w")
+    time.sleep(0.3)
+    halfway = seen()
+    time.sleep(0.3)
+    further = seen()
+    window().do("keyup", "w")
+    check(start != halfway != further, "does not fly")
+    window().do("key", "Home")
+    check(seen() == start, "Home does not lead home")
+    return None
+
+
+def test_filters_and_outputs():
+    if missing():
+        return missing()
+    before, after = changes("key", "f")
+    names = [line.split(":")[0] for line in succeeds("filters").stdout.splitlines()
+             if ": " in line and not line.startswith(" ")]
+    following = names[(names.index("lobes") + 1) % len(names)]
+    difference = largest_difference(after, rendered("--filter", following))
+    check(difference <= 1, f"{following}: differs by {difference} of 255")
+    for _ in range(len(names) - 1):
+        window().do("key", "f")
+    check(seen() == before, "does not come round")
+    changes("key", "v")
+    changes("key", "v")
+    window().do("key", "v")
+    check(seen() == before, "does not come back to radiance")
+    return None
+
+
+def test_split_view_has_a_divider():
+    if missing():
+        return missing()
+    before, split = changes("key", "c")
+    left, right = ([row[4 * a:4 * b] for row in split] for a, b in ((0, 158), (162, 320)))
+    check(left == [row[:4 * 158] for row in before], "the first filter's half has changed")
+    check(right != [row[4 * 162:] for row in before], "the reference looks the same")
+    screen().do("mousemove", 160, 120)
+    changes("mousedown", 1, "mousemove", 80, 120, "mouseup", 1)
+    check([row[:4 * 78] for row in seen()] == [row[:4 * 78] for row in before], "other than before")
+    check([row[4 * 162:] for row in seen()] == right, "the camera moved with the divider")
+    window().do("mousedown", 1, "mousemove", 160, 120, "mouseup", 1)
+    changes("key", "c")
+    window().do("key", "c")
+    check(seen() == before, "does not come back to one picture")
+    return None
+
+
+def test_records_frame_and_path():
+    if missing():
+        return missing()
+    window().do("key", "r")
+    expected = STATE["folder"] / "expected.exr"
+    succeeds("render", "checkerboard", "--size", TEXT, "-o", expected, "--aov")
+    check(is_off(STATE["folder"] / "checkerboard-0000.exr", expected) == 0, "other than rendered")
+    window().do("key", "p")
+    found = sorted(path.name for path in STATE["folder"].glob("checkerboard-*.exr"))
+    check(found == [f"checkerboard-{number:04}.exr" for number in range(6)], str(found))
+    last = STATE["folder"] / "last.exr"
+    succeeds("render", "checkerboard", "--size", TEXT, "--path", "1", "-o", last)
+    check(is_off(STATE["folder"] / found[-1], last) == 0, "the path's end is another one")
+    window().do("key", "Home")
+    return None
+
+
+def test_plays_along_the_path():
+    if missing():
+        return missing()
+    before, _ = changes("key", "period", "key", "period")
+    window().do("key", "Home")
+    check(seen() == before, "Home does not lead home")
+    screen().do("key", "space")
+    views = set()
+    for _ in range(24):
+        views.add(b"".join(seen()))
+        time.sleep(0.05)
+    window().do("key", "space")
+    check(len(views) > 2, "does not play")
+    window().do("key", "Home")
+    check(seen() == before, "goes on playing")
+    return None
+
+
+def test_panel_takes_the_mouse():
+    if missing():
+        return missing()
+    before = seen()
+    window().do("key", "Tab")
+    # Down the choice of what is shown, to "normal".
+    changes("mousemove", 200, 64, "click", 1)
+    window().do("mousemove", 150, 99)
+    window().do("click", 1)
+    window().do("key", "Tab")
+    normals = seen()
+    check(part_that_differs(before, normals) > 0.3, "normals were not chosen")
+    window().do("key", "v", "key", "v")
+    check(seen() == before, "more than what is shown was changed")
+    return None
+
+
+def test_takes_another_size():
+    if missing():
+        return missing()
+    before = seen()
+    window().do("windowsize", window().number, 600, 450)
+    larger = seen(600, 450)
+    corner = [row[4 * 500:] for row in larger[400:]]
+    check(any(any(row) for row in corner), "the corner stays black")
+    window().do("windowunmap", window().number)
+    window().do("windowmap", window().number, "windowsize", window().number, *SIZE)
+    screen().do("windowmove", window().number, 0, 0, "windowfocus", window().number)
+    window().settle()
+    check(seen() == before, "looks other than before")
+    return None
+
+
+def test_closes():
+    if missing():
+        return missing()
+    status = window().close()
+    said = window().said()
+    check(status == 0 and "error" not in said and "Sanitizer" not in said, f"{status}: {said}")
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(tap.run(globals()))

@@ -1,0 +1,84 @@
+#ifndef THIRD_PARTY_IMGUI_H
+#define THIRD_PARTY_IMGUI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Panels of Dear ImGui, which is C++: their widgets are declared anew in each frame, and say at
+/// once whether the user changed something. There is one set of panels at a time, of one window.
+/// Drawing is the caller's business: a frame ends as triangles.
+
+/// The window of GLFW whose mouse and keys the panels hear of.
+struct GLFWwindow;
+
+/// A corner of a triangle.
+typedef struct imgui_vertex {
+    float position[2];            ///< pixels of the window's content, from the top left corner
+    float texture_coordinates[2]; ///< on the font's picture
+    uint32_t colour;              ///< R, G, B, A from the lowest byte on; sRGB, straight alpha
+} imgui_vertex;
+
+/// Triangles that are cut by one rectangle.
+typedef struct imgui_batch {
+    uint32_t first, count; ///< vertices; three a triangle
+    float clip[4];         ///< left, top, right, bottom in pixels
+} imgui_batch;
+
+/// Starts the panels. `scale`: of text and widgets, 1 for 96 dots an inch. Callbacks that the
+/// window has go on being called. False: out of memory.
+bool imgui_open(struct GLFWwindow *window, float scale);
+void imgui_close(void);
+
+/// The font's picture, one byte of coverage a texel; lives until imgui_close.
+const uint8_t *imgui_font(uint32_t *width, uint32_t *height);
+
+void imgui_begin_frame(void);
+/// The triangles of this frame, valid until the next one begins. Returns how many batches.
+size_t imgui_end_frame(const imgui_vertex **vertices, size_t *vertex_count,
+                       const imgui_batch **batches);
+
+/// The mouse is over a panel, or holds something of one.
+bool imgui_takes_mouse(void);
+/// A number is being typed.
+bool imgui_takes_keys(void);
+
+// ---------------------------------------------------------------------------------------------
+// Widgets. A name shows in front of its widget, and must differ within a section.
+
+/// A panel at a place in pixels; `size` of 0: as large as its content. End it in any case.
+void imgui_begin_panel(const char *name, const float place[2], const float size[2]);
+void imgui_end_panel(void);
+/// Widgets until the end may have names that others have, too. Nested.
+void imgui_begin_group(const char *name);
+void imgui_end_group(void);
+/// A heading by which the widgets below fold away; false: they are folded.
+bool imgui_section(const char *title, bool open);
+
+void imgui_text(const char *text);       ///< broken into lines at the panel's edge
+void imgui_faint_text(const char *text); ///< the same
+/// A line of a table: text to the left, and to the right.
+void imgui_line(const char *left, const char *right);
+/// A name, and beside it in a column what it means.
+void imgui_term(const char *name, const char *meaning);
+void imgui_space(void);
+/// What shows while the mouse rests on the widget before.
+void imgui_tooltip(const char *text);
+
+bool imgui_button(const char *name);
+bool imgui_checkbox(const char *name, bool *value);
+bool imgui_choice(const char *name, const char *const *choices, size_t count, size_t *index);
+bool imgui_number(const char *name, double minimum, double maximum, double *value);
+bool imgui_integer(const char *name, int minimum, int maximum, int *value);
+/// The next widget stands in the same line.
+void imgui_same_line(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

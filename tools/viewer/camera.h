@@ -1,0 +1,21 @@
+#ifndef TOOLS_VIEWER_CAMERA_H
+#define TOOLS_VIEWER_CAMERA_H
+
+#include <lobe/scene.h>
+
+/// How a hand moves a camera. Its up vector is what stays upright: eyes turn around it, and never
+/// come to look along it.
+
+/// Turns the eye around the target: to the right, and upwards; radians.
+void viewer_camera_orbit(lobe_camera *camera, double right, double up);
+/// Turns the view around the eye: to the right, and upwards; radians.
+void viewer_camera_look(lobe_camera *camera, double right, double up);
+/// Moves eye and target across the view: to the right, and upwards; parts of the picture's height,
+/// measured where the target is.
+void viewer_camera_pan(lobe_camera *camera, double right, double up);
+/// Moves eye and target: to the right, upwards, forwards; parts of the distance between them.
+void viewer_camera_fly(lobe_camera *camera, const double steps[3]);
+/// Multiplies the distance between eye and target by a factor above 0.
+void viewer_camera_zoom(lobe_camera *camera, double factor);
+
+#endif

@@ -1,0 +1,116 @@
+#include "tools/viewer/opening.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "tools/output_file.h"
+#include "tools/viewer/viewer.h"
+
+// ---------------------------------------------------------------------------------------------
+// Wishes
+
+static void wish(char **place, const char *text) {
+    char *copy = strdup(text);
+    if (!copy)
+        return;
+    free(*place);
+    *place = copy;
+}
+
+void viewer_light(viewer *v, const char *environment) {
+    wish(&v->wanted_environment, environment);
+}
+
+void viewer_drop(viewer *v, const char *path) {
+    if (output_file_has_ending(path, ".hdr") || output_file_has_ending(path, ".exr"))
+        viewer_light(v, path);
+    else
+        wish(&v->wanted_scene, path);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Scenes
+
+static void set_title(const viewer *v) {
+    char title[256];
+    snprintf(title, sizeof title, "lobe - %s", v->scene->name);
+    glfwSetWindowTitle(v->window, title);
+}
+
+lobe_result viewer_open_first_scene(viewer *v) {
+    const viewer_request *request = v->request;
+    lobe_result result =
+        scene_options_open(&v->opening, request->scene, request->size, &v->log, &v->scene);
+    if (result != LOBE_OK)
+        return result;
+    if (!view_options_apply(&request->view, request->lights, v->scene))
+        return lobe_log_fail(&v->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "camera: eye and target are the same point, it looks nowhere");
+    v->view.scene = v->scene;
+    v->view.camera = v->scene->camera;
+    return LOBE_OK;
+}
+
+static lobe_result give_scene(viewer *v, const lobe_scene *scene) {
+    v->view.scene = scene;
+    lobe_result result = LOBE_OK;
+    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+        result = viewer_side_set_scene(&v->view, &v->sides[i]);
+    return result;
+}
+
+static lobe_result replace_scene(viewer *v, const char *name) {
+    const uint32_t size[2] = {v->view.width, v->view.height};
+    lobe_scene *scene = NULL;
+    if (scene_options_open(&v->opening, name, size, &v->log, &scene) != LOBE_OK)
+        return LOBE_OK;
+    if (give_scene(v, scene) != LOBE_OK) {
+        lobe_scene_destroy(&scene);
+        return give_scene(v, v->scene);
+    }
+    lobe_scene_destroy(&v->scene);
+    v->scene = scene;
+    v->path_frame = 0;
+    v->plays = v->records_path = false;
+    set_title(v);
+    viewer_reset_camera(v);
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Environments
+
+static lobe_result replace_environment(viewer *v, const char *name) {
+    lobe_environment *environment = NULL;
+    if (strcmp(name, "none") != 0 && lobe_environment_open(name, &v->log, &environment) != LOBE_OK)
+        return LOBE_OK;
+    lobe_scene_set_environment(v->scene, environment);
+    v->scene->environment_visible = environment != NULL;
+    wish(&v->environment, name);
+    v->opening = (scene_options){.assets = v->request->opening.assets,
+                                 .environment = v->environment,
+                                 .intensity = 1,
+                                 .background = environment != NULL};
+    lobe_result result = LOBE_OK;
+    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+        result = lobe_renderer_update_scene(v->sides[i].renderer,
+                                            &(lobe_scene_changes){.environment = true});
+    viewer_changed(v);
+    return result;
+}
+
+lobe_result viewer_open_wanted(viewer *v) {
+    lobe_result result = LOBE_OK;
+    if (v->wanted_environment)
+        result = replace_environment(v, v->wanted_environment);
+    if (result == LOBE_OK && v->wanted_scene)
+        result = replace_scene(v, v->wanted_scene);
+    free(v->wanted_environment);
+    free(v->wanted_scene);
+    v->wanted_environment = v->wanted_scene = NULL;
+    return result;
+}

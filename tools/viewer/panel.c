@@ -1,0 +1,248 @@
+#include "tools/viewer/viewer.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "third_party/imgui.h"
+#include "tools/viewer/keys.h"
+#include "tools/viewer/panel.h"
+
+#define MAXIMUM_CHOICES 64
+
+// ---------------------------------------------------------------------------------------------
+// Scene
+
+static void choose_scene(viewer *v) {
+    const char *names[MAXIMUM_CHOICES] = {v->scene->name};
+    size_t count = 1, chosen = 0;
+    for (size_t i = 0; i < lobe_builtin_scene_count() && count < MAXIMUM_CHOICES; ++i)
+        if (strcmp(lobe_builtin_scene_get(i)->name, v->scene->name) != 0)
+            names[count++] = lobe_builtin_scene_get(i)->name;
+    if (imgui_choice("scene", names, count, &chosen))
+        viewer_drop(v, names[chosen]);
+    imgui_tooltip("or drop a glTF file, or a folder of maps, onto the window");
+}
+
+static void choose_environment(viewer *v) {
+    const lobe_environment *environment = v->scene->environment;
+    const char *names[] = {environment ? environment->name : "none", "sky", "none"};
+    size_t chosen = 0;
+    // The first is what there is: of the others, those that differ from it.
+    if (!environment)
+        names[2] = names[1];
+    else if (strcmp(environment->name, "sky") == 0)
+        names[1] = names[2];
+    const size_t count = environment && strcmp(environment->name, "sky") != 0 ? 3 : 2;
+    if (imgui_choice("light", names, count, &chosen))
+        viewer_light(v, names[chosen]);
+    imgui_tooltip("light from all around: drop an .hdr or .exr file onto the window");
+    if (!environment)
+        return;
+    bool visible = v->scene->environment_visible;
+    if (imgui_checkbox("background", &visible)) {
+        v->scene->environment_visible = visible;
+        viewer_changed(v);
+    }
+    imgui_tooltip("shows the environment behind the scene");
+}
+
+// ---------------------------------------------------------------------------------------------
+// Filter and knobs
+
+static bool choose_filter(viewer_side *side) {
+    const char *names[MAXIMUM_CHOICES];
+    size_t count = 0, chosen = 0;
+    for (; count < lobe_filter_count() && count < MAXIMUM_CHOICES; ++count) {
+        names[count] = lobe_filter_name(lobe_filter_get(count));
+        if (lobe_filter_get(count) == side->filter)
+            chosen = count;
+    }
+    bool changed = imgui_choice("filter", names, count, &chosen);
+    imgui_tooltip(lobe_filter_summary(side->filter));
+    if (changed)
+        viewer_set_filter(side, lobe_filter_get(chosen));
+    return changed;
+}
+
+static bool set_choice(const lobe_knob *knob, double *value) {
+    size_t count = 0, chosen = (size_t)*value;
+    while (knob->choices[count])
+        ++count;
+    const bool changed = imgui_choice(knob->name, knob->choices, count, &chosen);
+    *value = (double)chosen;
+    return changed;
+}
+
+static bool set_integer(const lobe_knob *knob, double *value) {
+    int number = (int)*value;
+    const bool changed = imgui_integer(knob->name, (int)knob->minimum, (int)knob->maximum, &number);
+    *value = number;
+    return changed;
+}
+
+static bool set_knob(const lobe_knob *knob, double *value) {
+    switch (knob->kind) {
+    case LOBE_KNOB_CHOICE:
+        return set_choice(knob, value);
+    case LOBE_KNOB_INTEGER:
+        return set_integer(knob, value);
+    default:
+        return imgui_number(knob->name, knob->minimum, knob->maximum, value);
+    }
+}
+
+static void set_side(const char *group, viewer_side *side) {
+    imgui_begin_group(group);
+    bool changed = choose_filter(side);
+    for (size_t i = 0; !changed && i < lobe_filter_knob_count(side->filter); ++i) {
+        const lobe_knob *knob = lobe_filter_knob(side->filter, i);
+        if (set_knob(knob, &side->settings.values[i]))
+            changed = true;
+        imgui_tooltip(knob->summary);
+    }
+    side->stale |= changed;
+    side->failed &= !changed;
+    imgui_end_group();
+}
+
+// ---------------------------------------------------------------------------------------------
+// Picture
+
+static void choose_output(viewer *v) {
+    static const char *const outputs[] = {"radiance", "normal", "depth"};
+    size_t chosen = (size_t)v->sides[0].output;
+    if (imgui_choice("show", outputs, 3, &chosen)) {
+        for (int i = 0; i < 2; ++i)
+            v->sides[i].output = (viewer_output)chosen;
+        viewer_changed(v);
+    }
+    imgui_tooltip("radiance: or what the filter's knob 'view' asks for");
+    imgui_number("exposure", -10, 10, &v->look.exposure);
+    imgui_tooltip("stops by which the picture is brightened");
+}
+
+static void show_samples(const viewer *v) {
+    char text[64];
+    for (int i = 0; i < 2; ++i) {
+        if (!lobe_filter_supersamples(v->sides[i].filter) ||
+            (i == 1 && v->look.comparison == VIEWER_SINGLE))
+            continue;
+        snprintf(text, sizeof text, "%u of %u", v->sides[i].samples, v->view.maximum_samples);
+        imgui_line("samples of the reference", text);
+    }
+}
+
+static void choose_comparison(viewer *v) {
+    static const char *const comparisons[] = {"one picture", "split view", "difference"};
+    size_t chosen = (size_t)v->look.comparison;
+    if (imgui_choice("compare", comparisons, 3, &chosen))
+        viewer_set_comparison(v, (viewer_comparison)chosen);
+    imgui_tooltip("with a second filter: by a divider that can be dragged, or as a heat map of "
+                  "the relative error against it");
+    if (v->look.comparison == VIEWER_ERROR) {
+        imgui_number("error", 0.01, 2, &v->look.error_maximum);
+        imgui_tooltip("the relative error that is shown brightest");
+    }
+    show_samples(v);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Passes
+
+static void show_passes(const viewer_side *side) {
+    char text[64];
+    snprintf(text, sizeof text, "%.2f ms", side->milliseconds);
+    imgui_line(lobe_filter_name(side->filter), text);
+    for (size_t i = 0; i < side->pass_count; ++i) {
+        const viewer_pass *pass = &side->passes[i];
+        if (pass->run == 0)
+            continue;
+        snprintf(text, sizeof text, "%.2f", pass->milliseconds);
+        imgui_line(pass->name, text);
+    }
+    for (size_t i = 0; i < side->pass_count; ++i) {
+        const viewer_pass *pass = &side->passes[i];
+        if (pass->skipped == 0)
+            continue;
+        snprintf(text, sizeof text, "%s: skipped", pass->name);
+        imgui_faint_text(text);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Path
+
+static void show_path(viewer *v) {
+    char text[64];
+    snprintf(text, sizeof text, "%u of %u", v->path_frame, v->request->path_frames);
+    imgui_line("frame of the path", text);
+    if (imgui_button(v->plays ? "pause" : "play"))
+        v->plays = !v->plays;
+    imgui_same_line();
+    if (imgui_button("step"))
+        v->steps = true;
+    imgui_same_line();
+    if (imgui_button("record"))
+        v->records_frame = true;
+    imgui_same_line();
+    if (imgui_button(v->records_path ? "stop" : "record path"))
+        viewer_record_path(v, !v->records_path);
+}
+
+// ---------------------------------------------------------------------------------------------
+// All
+
+static float scale_of(const viewer *v) {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(v->window, &x, &y);
+    return x;
+}
+
+static void show_panel(viewer *v) {
+    const float scale = scale_of(v), margin = 8 * scale;
+    const float size[2] = {300 * scale, (float)v->swapchain.height - 2 * margin};
+    imgui_begin_panel("panel", (float[2]){margin, margin}, size);
+    choose_scene(v);
+    choose_environment(v);
+    choose_output(v);
+    choose_comparison(v);
+    imgui_space();
+    const bool compares = v->look.comparison != VIEWER_SINGLE;
+    if (imgui_section(compares ? "First filter" : "Filter", true))
+        set_side("first", &v->sides[0]);
+    if (compares && imgui_section("Second filter", true))
+        set_side("second", &v->sides[1]);
+    if (imgui_section("Passes", true)) {
+        show_passes(&v->sides[0]);
+        if (compares)
+            show_passes(&v->sides[1]);
+    }
+    if (imgui_section("Path of the camera", true))
+        show_path(v);
+    imgui_space();
+    imgui_faint_text("F1: keys   Tab: hides the panel");
+    if (v->message[0])
+        imgui_text(v->message);
+    imgui_end_panel();
+}
+
+/// Beside the panel, or over it in a window that has no room for both.
+static void show_help(const viewer *v) {
+    const float scale = scale_of(v), margin = 8 * scale;
+    const bool beside = v->shows_panel && (float)v->swapchain.width >= 780 * scale;
+    const float place[2] = {beside ? 2 * margin + 300 * scale : margin, margin};
+    imgui_begin_panel("keys", place, (float[2]){0, 0});
+    for (size_t i = 0; i < viewer_key_count; ++i)
+        imgui_term(viewer_keys[i].name, viewer_keys[i].summary);
+    imgui_end_panel();
+}
+
+void viewer_panel(viewer *v) {
+    if (v->shows_panel)
+        show_panel(v);
+    if (v->shows_help)
+        show_help(v);
+}

@@ -1,0 +1,103 @@
+#include "tools/viewer/recording.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tools/capture.h"
+#include "tools/timing.h"
+#include "tools/viewer/viewer.h"
+
+/// The scene's name without folders and ending.
+static void stem_of(const char *name, char stem[NAME_MAX]) {
+    size_t length = strlen(name);
+    while (length > 1 && name[length - 1] == '/')
+        --length;
+    size_t start = length;
+    while (start > 0 && name[start - 1] != '/')
+        --start;
+    snprintf(stem, NAME_MAX - 16, "%.*s", (int)(length - start), name + start);
+    char *dot = strrchr(stem, '.');
+    if (dot && dot != stem)
+        *dot = '\0';
+}
+
+/// False: all numbers are taken.
+static bool choose_path(const viewer *v, char path[PATH_MAX]) {
+    char stem[NAME_MAX];
+    stem_of(v->scene->name, stem);
+    for (unsigned number = 0; number < 1000000; ++number) {
+        const int length =
+            snprintf(path, PATH_MAX, "%s/%s-%04u.exr", v->request->folder, stem, number);
+        if (length < PATH_MAX && access(path, F_OK) != 0)
+            return true;
+    }
+    return false;
+}
+
+/// A reference is as good as it has become by now.
+static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
+    return lobe_renderer_render(side->renderer,
+                                &(lobe_render_parameters){
+                                    .filter = side->filter,
+                                    .settings = &side->settings,
+                                    .camera = &v->view.camera,
+                                    .width = v->view.width,
+                                    .height = v->view.height,
+                                    .samples = side->samples > 0 ? side->samples : 1,
+                                    .arbitrary_output_variables = true,
+                                },
+                                frame);
+}
+
+static lobe_result write_file(const viewer *v, const viewer_side *side, const lobe_frame *frame,
+                              const lobe_profile_summary *times, const char *path) {
+    const lobe_environment *environment = v->scene->environment;
+    return capture_write_exr(
+        path,
+        &(capture){
+            .frame = frame,
+            .scene = v->scene->name,
+            .environment = environment ? environment->name : NULL,
+            .filter = side->filter,
+            .settings = &side->settings,
+            .samples = lobe_filter_supersamples(side->filter) && side->samples ? side->samples : 1,
+            .device = lobe_device_describe(v->device.lobe),
+            .times = times,
+            .depth = LOBE_EXR_HALF,
+        },
+        &v->log);
+}
+
+static lobe_result record(viewer *v, viewer_side *side, const char *path) {
+    lobe_frame frame = {0};
+    lobe_profile *profile = NULL;
+    lobe_profile_summary times;
+    lobe_result result = lobe_profile_create(&v->log, &profile);
+    if (result == LOBE_OK)
+        result = draw(v, side, &frame);
+    if (result == LOBE_OK)
+        result = timing_add(profile, &frame, &v->log);
+    if (result == LOBE_OK)
+        result = lobe_profile_statistics(profile, &times);
+    if (result == LOBE_OK)
+        result = write_file(v, side, &frame, &times, path);
+    lobe_frame_free(&frame);
+    lobe_profile_destroy(&profile);
+    return result;
+}
+
+void viewer_record(viewer *v) {
+    char path[PATH_MAX], text[PATH_MAX + 32];
+    v->records_frame = false;
+    if (!choose_path(v, path))
+        lobe_log_print(&v->log, LOBE_LOG_ERROR, "%s: no name is free for a recorded frame",
+                       v->request->folder);
+    else if (record(v, &v->sides[0], path) == LOBE_OK) {
+        snprintf(text, sizeof text, "recorded %s", path);
+        viewer_say(v, text);
+        return;
+    }
+    viewer_record_path(v, false);
+}

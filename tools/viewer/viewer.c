@@ -1,0 +1,349 @@
+#include "tools/viewer/viewer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "engine/vulkan_check.h"
+#include "third_party/imgui.h"
+#include "tools/viewer/camera.h"
+#include "tools/viewer/keys.h"
+#include "tools/viewer/opening.h"
+#include "tools/viewer/panel.h"
+#include "tools/viewer/recording.h"
+#include "tools/viewer/window.h"
+
+/// Panels need a frame to see the mouse, one to act, one to show what came of it.
+#define REDRAWS 3
+/// Device losses in a row after which it is given up.
+#define MAXIMUM_LOSSES 3
+
+// ---------------------------------------------------------------------------------------------
+// What keys and panels ask for
+
+void viewer_touched(viewer *v) {
+    v->redraws = REDRAWS;
+}
+
+void viewer_changed(viewer *v) {
+    for (int i = 0; i < 2; ++i) {
+        v->sides[i].stale = true;
+        v->sides[i].failed = false;
+    }
+    viewer_touched(v);
+}
+
+void viewer_say(viewer *v, const char *text) {
+    snprintf(v->message, sizeof v->message, "%s", text);
+    viewer_touched(v);
+}
+
+void viewer_reset_camera(viewer *v) {
+    v->view.camera = v->scene->camera;
+    viewer_changed(v);
+}
+
+void viewer_set_filter(viewer_side *side, const lobe_filter *filter) {
+    const lobe_filter *old_filter = side->filter;
+    const lobe_settings old = side->settings;
+    side->filter = filter;
+    side->stale = true;
+    side->failed = false;
+    lobe_settings_default(filter, &side->settings);
+    for (size_t i = 0; i < lobe_filter_knob_count(old_filter); ++i) {
+        char value[64], assignment[128];
+        const lobe_knob *knob = lobe_filter_knob(old_filter, i);
+        if (old.values[i] == knob->initial)
+            continue;
+        lobe_settings_print(old_filter, &old, i, value, sizeof value);
+        snprintf(assignment, sizeof assignment, "%s=%s", knob->name, value);
+        (void)lobe_settings_set(filter, &side->settings, assignment, NULL);
+    }
+}
+
+void viewer_set_comparison(viewer *v, viewer_comparison comparison) {
+    v->look.comparison = comparison;
+    viewer_touched(v);
+}
+
+void viewer_record_path(viewer *v, bool on) {
+    if (on)
+        v->path_frame = 0;
+    v->records_path = on;
+    v->plays = false;
+}
+
+/// Keeps the last line for the window, where it is more than a remark.
+static void write_log(void *user, lobe_log_level level, const char *message) {
+    viewer *v = user;
+    v->console.write(v->console.user, level, message);
+    if (level <= LOBE_LOG_WARNING)
+        viewer_say(v, message);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Opening and closing
+
+static lobe_result resize(viewer *v) {
+    int width = 0, height = 0;
+    lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
+    glfwGetFramebufferSize(v->window, &width, &height);
+    if (result == LOBE_OK)
+        result = VULKAN_CHECK(&v->log, vkDeviceWaitIdle(v->device.vulkan.device), "window");
+    if (result == LOBE_OK)
+        result =
+            viewer_swapchain_renew(&v->device, (uint32_t)width, (uint32_t)height, &v->swapchain);
+    if (result != LOBE_OK || v->swapchain.count == 0)
+        return result;
+    v->swapchain_is_stale = false;
+    if (v->view.width == v->swapchain.width && v->view.height == v->swapchain.height)
+        return LOBE_OK;
+    v->view.width = v->swapchain.width;
+    v->view.height = v->swapchain.height;
+    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+        result = viewer_side_resize(&v->view, &v->sides[i]);
+    return result;
+}
+
+static lobe_result open_device(viewer *v) {
+    lobe_result result = viewer_device_open(&v->request->device, v->window, &v->log, &v->device);
+    if (result == LOBE_OK)
+        result = viewer_frame_open(&v->device, &v->frame);
+    if (result == LOBE_OK)
+        result = viewer_display_open(&v->device, &v->display);
+    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+        result = viewer_side_open(&v->view, &v->sides[i]);
+    v->view.width = v->view.height = 0; // images are made with the swapchain
+    v->swapchain_is_stale = true;
+    return result;
+}
+
+static void close_device(viewer *v) {
+    if (v->device.vulkan.device)
+        vkDeviceWaitIdle(v->device.vulkan.device);
+    viewer_frame_close(&v->device, &v->frame);
+    for (int i = 0; i < 2; ++i)
+        viewer_side_close(&v->view, &v->sides[i]);
+    viewer_display_close(&v->display);
+    viewer_swapchain_destroy(&v->device, &v->swapchain);
+    viewer_device_close(&v->device);
+}
+
+static void prepare(const viewer_request *request, const lobe_log *console, viewer *v) {
+    const lobe_filter *reference = NULL;
+    for (size_t i = 0; i < lobe_filter_count() && !reference; ++i)
+        if (lobe_filter_supersamples(lobe_filter_get(i)))
+            reference = lobe_filter_get(i);
+    *v = (viewer){
+        .request = request,
+        .console = *console,
+        .log = {write_log, v},
+        .opening = request->opening,
+        .look = {.exposure = request->exposure, .divider = 0.5, .error_maximum = 0.5},
+        .sides = {{.filter = request->filter, .settings = request->settings},
+                  {.filter = reference}},
+        .shows_panel = true,
+        .redraws = REDRAWS,
+    };
+    v->view.device = &v->device;
+    v->view.log = &v->log;
+    v->view.maximum_samples = request->samples;
+    lobe_settings_default(reference, &v->sides[1].settings);
+}
+
+static void clean_up(viewer *v) {
+    close_device(v);
+    viewer_window_close(v);
+    lobe_scene_destroy(&v->scene);
+    free(v->wanted_scene);
+    free(v->wanted_environment);
+    free(v->environment);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Time
+
+/// One step along the path. The last one ends playing.
+static void advance(viewer *v) {
+    const uint32_t last = v->request->path_frames - 1;
+    v->path_frame = v->path_frame < last ? v->path_frame + 1 : 0;
+    v->steps = false;
+}
+
+static void stand_on_path(viewer *v) {
+    lobe_scene_path(v->scene, (double)v->path_frame / (v->request->path_frames - 1),
+                    &v->view.camera);
+    viewer_changed(v);
+}
+
+static void move(viewer *v) {
+    const double now = glfwGetTime(), seconds = fmin(now - v->last_time, 0.1);
+    double steps[3];
+    v->last_time = now;
+    if (v->plays || v->steps) {
+        advance(v);
+        stand_on_path(v);
+    }
+    if (v->records_path)
+        stand_on_path(v);
+    if (!imgui_takes_keys() && viewer_keys_fly(v, seconds, steps)) {
+        viewer_camera_fly(&v->view.camera, steps);
+        viewer_changed(v);
+    }
+}
+
+/// After a frame: writes what is to be recorded.
+static void record(viewer *v) {
+    if (v->records_frame || v->records_path)
+        viewer_record(v);
+    if (!v->records_path)
+        return;
+    if (v->path_frame + 1 == v->request->path_frames)
+        viewer_record_path(v, false);
+    else
+        advance(v);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Frames
+
+static bool has_work(const viewer *v) {
+    const int count = v->look.comparison == VIEWER_SINGLE ? 1 : 2;
+    double steps[3];
+    bool work = v->redraws > 0 || v->plays || v->steps || v->records_path || v->records_frame ||
+                v->wanted_scene || v->wanted_environment || v->swapchain_is_stale ||
+                v->frames_drawn < v->request->frames || viewer_keys_fly(v, 0, steps);
+    for (int i = 0; i < count; ++i)
+        work = work || viewer_side_has_work(&v->view, &v->sides[i]);
+    return work;
+}
+
+static bool is_hidden(const viewer *v) {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(v->window, &width, &height);
+    return width == 0 || height == 0 || glfwGetWindowAttrib(v->window, GLFW_ICONIFIED);
+}
+
+/// Sleeps while there is nothing to do.
+static void wait_for_events(viewer *v) {
+    if (is_hidden(v) || !has_work(v)) {
+        glfwWaitEvents();
+        v->last_time = glfwGetTime();
+    } else {
+        glfwPollEvents();
+    }
+}
+
+static lobe_result refine(viewer *v) {
+    const int count = v->look.comparison == VIEWER_SINGLE ? 1 : 2;
+    for (int i = 0; i < count; ++i) {
+        const lobe_result result = viewer_side_refine(&v->view, &v->sides[i]);
+        if (result == LOBE_ERROR_DEVICE_LOST)
+            return result;
+    }
+    return LOBE_OK;
+}
+
+/// What comes of showing: the swapchain, and the surface, may have to be made anew.
+static lobe_result judge(viewer *v, viewer_shown shown, lobe_result result) {
+    if (shown == VIEWER_SHOWN)
+        return LOBE_OK;
+    if (shown == VIEWER_FAILED)
+        return result;
+    v->swapchain_is_stale = true;
+    if (shown == VIEWER_OUT_OF_DATE)
+        return LOBE_OK;
+    result = viewer_frame_finish(&v->device, &v->frame, v->sides);
+    viewer_swapchain_destroy(&v->device, &v->swapchain);
+    return result == LOBE_OK ? viewer_device_renew_surface(&v->device, v->window) : result;
+}
+
+static lobe_result show(viewer *v) {
+    lobe_result result;
+    viewer_shown shown = viewer_swapchain_acquire(&v->device, &v->swapchain, &result);
+    if (shown != VIEWER_SHOWN)
+        return judge(v, shown, result);
+    imgui_begin_frame();
+    viewer_panel(v);
+    result = viewer_frame_draw(&v->view, &v->frame, &v->display, &v->look, v->sides, &v->swapchain);
+    if (result != LOBE_OK)
+        return result;
+    shown = viewer_swapchain_present(&v->device, &v->swapchain, &result);
+    v->frames_drawn += v->frames_drawn < UINT32_MAX;
+    v->losses = 0;
+    return judge(v, shown, result);
+}
+
+static lobe_result draw_frame(viewer *v) {
+    lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
+    if (result == LOBE_OK)
+        result = viewer_open_wanted(v);
+    if (result == LOBE_OK && v->swapchain_is_stale)
+        result = resize(v);
+    if (result != LOBE_OK || v->swapchain.count == 0)
+        return result;
+    if (v->redraws > 0)
+        v->redraws--;
+    move(v);
+    result = refine(v);
+    if (result == LOBE_OK)
+        result = show(v);
+    if (result == LOBE_OK && (v->records_frame || v->records_path)) {
+        result = viewer_frame_finish(&v->device, &v->frame, v->sides);
+        if (result == LOBE_OK)
+            record(v);
+    }
+    return result;
+}
+
+/// A lost device is opened again, with all that was on it.
+static lobe_result recover(viewer *v) {
+    if (++v->losses > MAXIMUM_LOSSES)
+        return LOBE_ERROR_DEVICE_LOST;
+    lobe_log_print(&v->log, LOBE_LOG_WARNING, "the device was lost; it is opened again");
+    close_device(v);
+    return open_device(v);
+}
+
+static bool is_done(const viewer *v) {
+    return glfwWindowShouldClose(v->window) ||
+           (v->request->exit && v->frames_drawn >= v->request->frames);
+}
+
+static lobe_result show_until_closed(viewer *v) {
+    lobe_result result = LOBE_OK;
+    while (result == LOBE_OK && !is_done(v)) {
+        wait_for_events(v);
+        if (is_hidden(v) || !has_work(v))
+            continue;
+        result = draw_frame(v);
+        if (result == LOBE_ERROR_DEVICE_LOST)
+            result = recover(v);
+    }
+    return result;
+}
+
+static lobe_result check_faults(const viewer *v) {
+    const unsigned long long count = v->device.fault_count;
+    return count == 0 ? LOBE_OK
+                      : lobe_log_fail(&v->log, LOBE_ERROR_UNSUPPORTED,
+                                      "the validation layer found %llu faults", count);
+}
+
+lobe_result viewer_run(const viewer_request *request, const lobe_log *console) {
+    viewer v;
+    prepare(request, console, &v);
+    lobe_result result = viewer_open_first_scene(&v);
+    if (result == LOBE_OK)
+        result = viewer_window_open(&v);
+    if (result == LOBE_OK)
+        result = open_device(&v);
+    if (result == LOBE_OK)
+        result = show_until_closed(&v);
+    clean_up(&v);
+    return result == LOBE_OK ? check_faults(&v) : result;
+}

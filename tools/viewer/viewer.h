@@ -1,0 +1,102 @@
+#ifndef TOOLS_VIEWER_VIEWER_H
+#define TOOLS_VIEWER_VIEWER_H
+
+#include <stdbool.h>
+
+#include <lobe/lobe.h>
+
+#include "tools/device_options.h"
+#include "tools/scene_options.h"
+#include "tools/view_options.h"
+#include "tools/viewer/display.h"
+#include "tools/viewer/frame.h"
+
+/// What the command line asks for.
+typedef struct viewer_request {
+    const char *scene;
+    const lobe_filter *filter;
+    lobe_settings settings;
+    uint32_t size[2];
+    uint32_t frames; ///< to draw at least, before the window may rest
+    bool exit;       ///< after those
+    uint32_t samples, path_frames;
+    double exposure;
+    const char *folder; ///< of recorded frames
+    scene_options opening;
+    view_options view;
+    lobe_light *lights; ///< NULL: the scene's
+    device_options device;
+} viewer_request;
+
+/// What the mouse does while a button is held.
+typedef enum viewer_drag {
+    VIEWER_DRAG_NONE,
+    VIEWER_DRAG_ORBIT,
+    VIEWER_DRAG_PAN,
+    VIEWER_DRAG_LOOK,
+    VIEWER_DRAG_DIVIDER,
+} viewer_drag;
+
+#define VIEWER_MESSAGE_SIZE 512
+
+/// The whole program, from open to close.
+typedef struct viewer {
+    const viewer_request *request;
+    lobe_log console;
+    lobe_log log; ///< to the console, and the last line into `message`
+    char message[VIEWER_MESSAGE_SIZE];
+    struct GLFWwindow *window;
+    viewer_device device;
+    viewer_swapchain swapchain;
+    viewer_display display;
+    viewer_frame frame;
+    viewer_view view;
+    viewer_look look;
+    viewer_side sides[2];
+    lobe_scene *scene;
+    char *wanted_scene;       ///< to open before the next frame; NULL: none
+    char *wanted_environment; ///< the same
+    scene_options opening;    ///< how scenes are lit
+    char *environment;        ///< what the user lights scenes with; NULL: what was asked for first
+    bool shows_panel, shows_help;
+    bool swapchain_is_stale;
+    bool waits;            ///< the last frame found nothing more to do
+    unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
+    uint32_t frames_drawn; ///< up to the number asked for
+    // Mouse and keys.
+    viewer_drag drag;
+    double cursor[2]; ///< pixels of the window's content
+    double last_time; ///< of the last frame, seconds
+    // The camera's path.
+    bool plays, records_path, records_frame, steps;
+    uint32_t path_frame;
+    unsigned losses; ///< of the device, since a frame was last shown
+} viewer;
+
+/// Opens the window, shows the scene until the window is closed. Returns after a line on the log
+/// where something is in the way.
+lobe_result viewer_run(const viewer_request *request, const lobe_log *console);
+
+// ---------------------------------------------------------------------------------------------
+// What keys and panels ask for
+
+/// The next frame draws the scene again: camera, knobs or light have changed.
+void viewer_changed(viewer *v);
+/// The next frames draw the panels again.
+void viewer_touched(viewer *v);
+/// Shows a line in the window.
+void viewer_say(viewer *v, const char *text);
+/// The scene's own camera.
+void viewer_reset_camera(viewer *v);
+/// Another filter on one side, with its default knobs but for those of the same name.
+void viewer_set_filter(viewer_side *side, const lobe_filter *filter);
+void viewer_set_comparison(viewer *v, viewer_comparison comparison);
+/// Opens a scene (a name, a file or a folder), or an environment where the name ends so, before the
+/// next frame. Copied.
+void viewer_drop(viewer *v, const char *path);
+/// Lights the scene by a file, "sky" or "none" before the next frame. Copied.
+void viewer_light(viewer *v, const char *environment);
+/// Starts or ends recording the camera's path.
+void viewer_record_path(viewer *v, bool on);
+
+#endif
