@@ -54,21 +54,40 @@ static lobe_resource no_harmonics(lobe_graph *graph) {
     return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);
 }
 
+static environment_maps_request request_of(const filter_context *context) {
+    bool prefiltered = method_of(context) == ENVIRONMENT_PREFILTERED;
+    environment_maps_request request = {
+        .environment = context->scene->scene->environment,
+        .texture = context->scene->environment,
+        .size = 16u << (uint32_t)filter_setting(context, "env_size"),
+        .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
+                   [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
+        .parts = context->environment_parts,
+    };
+    request.stored = environment_store_cubes(&context->environment->store, &request);
+    return request;
+}
+
+/// Of those that the folder of kept cubes lacks, as soon as they are finished.
+static void read_back_lacking(const filter_context *context, const environment_maps *maps) {
+    environment_state *state = context->environment;
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (!environment_store_lacks(&state->store, maps, map))
+            continue;
+        lobe_graph_read_back(context->graph, maps->cubes[map], (lobe_range){0});
+        state->reads_back = true;
+    }
+}
+
 /// The cubes; filtered ones may not be complete yet, and then means over texels take their place.
 static environment_maps build_cubes(const filter_context *context, environment_light *light) {
     bool prefiltered = light->method == ENVIRONMENT_PREFILTERED;
-    environment_maps maps = environment_maps_declare(
-        context->graph,
-        &(environment_maps_request){
-            .environment = context->scene->scene->environment,
-            .texture = context->scene->environment,
-            .size = 16u << (uint32_t)filter_setting(context, "env_size"),
-            .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
-                       [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
-            .parts = context->environment_parts,
-        },
-        &context->environment->progress);
+    environment_maps_request request = request_of(context);
+    environment_maps maps =
+        environment_maps_declare(context->graph, &request, &context->environment->progress);
     context->environment->last = maps;
+    if (context->keeps_environment && maps.up_to_date)
+        read_back_lacking(context, &maps);
     if (prefiltered && !maps.complete)
         light->method = ENVIRONMENT_MIP;
     light->cube = maps.cubes[LOBE_ENVIRONMENT_RADIANCE];
@@ -92,6 +111,35 @@ static void build_maps(const filter_context *context, environment_light *light) 
                                  : no_harmonics(context->graph);
 }
 
+lobe_result environment_light_look(const filter_context *context, lobe_device *device) {
+    if (!context->environment_cache || !context->scene->environment)
+        return LOBE_OK;
+    environment_maps_request request = request_of(context);
+    return environment_store_look(&context->environment->store, device, context->environment_cache,
+                                  &request, context->log);
+}
+
+void environment_light_keep(const filter_context *context) {
+    environment_state *state = context->environment;
+    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (environment_store_lacks(&state->store, &state->last, map))
+            environment_store_keep(&state->store, context->environment_cache, context->graph,
+                                   &state->last, map, context->log);
+    }
+    state->reads_back = false;
+}
+
+void environment_light_change(environment_state *state) {
+    environment_maps_renew(&state->last, &state->progress);
+    environment_store_forget(&state->store);
+    state->reads_back = false;
+}
+
+void environment_light_forget(environment_state *state) {
+    environment_store_forget(&state->store);
+    *state = (environment_state){0};
+}
+
 environment_light environment_light_build(const filter_context *context) {
     environment_light light = {.method = method_of(context)};
     light.present = context->scene->environment != NULL;
@@ -101,7 +149,7 @@ environment_light environment_light_build(const filter_context *context) {
     if (split || scatters(context))
         build_albedo(context, &light);
     if (!light.present) {
-        *context->environment = (environment_state){0};
+        environment_light_forget(context->environment);
         return light;
     }
     build_maps(context, &light);

@@ -23,6 +23,19 @@ typedef struct environment_light {
     lobe_resource albedo[DISTRIBUTION_COUNT];
 } environment_light;
 
+/// Looks for what this frame needs in the folder of kept maps, if there is one; before the frame is
+/// begun. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+lobe_result environment_light_look(const filter_context *context, lobe_device *device);
+
+/// Keeps in that folder what the last frame read back for it (`reads_back`). The device must have
+/// finished that frame, and the next must not have begun.
+void environment_light_keep(const filter_context *context);
+
+/// The scene's environment has changed.
+void environment_light_change(environment_state *state);
+/// There is no environment any more, or no scene.
+void environment_light_forget(environment_state *state);
+
 /// Adds the passes that make the maps.
 environment_light environment_light_build(const filter_context *context);
 

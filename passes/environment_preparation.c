@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/environment_cache.h"
 #include "passes/environment_maps.h"
-#include "passes/environment_prefiltering.h"
+#include "passes/environment_store.h"
 #include "passes/pass_times.h"
 
 struct lobe_environment_maps {
@@ -20,9 +19,8 @@ struct lobe_environment_maps {
     void *user;
     lobe_frame times;
     lobe_environment_maps_information information;
-    char *cache;                               ///< NULL: none
-    uint64_t keys[LOBE_ENVIRONMENT_MAP_COUNT]; ///< of this environment's cubes in the cache
-    stored_cube stored[LOBE_ENVIRONMENT_MAP_COUNT];
+    char *cache; ///< NULL: none
+    environment_store store;
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -87,69 +85,31 @@ static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
 // ---------------------------------------------------------------------------------------------
 // Keeping them
 
-static bool is_filtered_and_wanted(const lobe_environment_maps *maps, uint32_t map) {
-    return map != LOBE_ENVIRONMENT_RADIANCE && maps->request.wanted[map];
-}
-
-static void forget_stored(lobe_environment_maps *maps) {
-    maps->request.stored = NULL;
-    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map)
-        stored_cube_free(&maps->stored[map]);
-}
-
-/// False where the cache has no such cube.
-static lobe_result take_stored(lobe_environment_maps *maps, uint32_t map, bool *found) {
-    cube_image cube;
-    *found = environment_cache_load(maps->cache, maps->keys[map],
-                                    prefiltered_width(maps->request.size), &maps->log, &cube);
-    if (!*found)
-        return LOBE_OK;
-    lobe_result result = stored_cube_create(maps->device, &cube, &maps->stored[map]);
-    cube_image_free(&cube);
-    return result;
-}
-
-/// Takes all cubes that are wanted from the cache, or none.
 static lobe_result look_into_cache(lobe_environment_maps *maps,
                                    const lobe_environment *environment) {
-    bool found = maps->cache != NULL, any = false;
+    environment_maps_request request = maps->request;
+    request.environment = environment;
+    environment_store_forget(&maps->store);
     lobe_result result = LOBE_OK;
-    forget_stored(maps);
-    for (uint32_t map = 0; maps->cache && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (!is_filtered_and_wanted(maps, map))
-            continue;
-        any = true;
-        maps->keys[map] =
-            environment_cache_key(environment, maps->request.size, (lobe_environment_map)map);
-        if (found && result == LOBE_OK)
-            result = take_stored(maps, map, &found);
-    }
-    if (result == LOBE_OK && found && any)
-        maps->request.stored = maps->stored;
-    else
-        forget_stored(maps);
+    if (maps->cache)
+        result =
+            environment_store_look(&maps->store, maps->device, maps->cache, &request, &maps->log);
+    maps->request.stored = environment_store_cubes(&maps->store, &maps->request);
     return result;
 }
 
-static lobe_result keep_cube(lobe_environment_maps *maps, uint32_t map) {
-    environment_maps cubes;
-    lobe_graph *graph = environment_maps_begin(maps, &cubes);
-    lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
-    lobe_result result = lobe_graph_execute(graph);
-    if (result != LOBE_OK)
-        return result;
-    // Only looked at.
-    const cube_image cube = {cubes.width[map], cubes.levels[map],
-                             (float *)lobe_graph_data(graph, cubes.cubes[map], NULL)};
-    environment_cache_store(maps->cache, maps->keys[map], &cube, &maps->log);
-    return LOBE_OK;
-}
-
+/// One cube after the other: the host need not hold all at once.
 static lobe_result keep_in_cache(lobe_environment_maps *maps) {
     lobe_result result = LOBE_OK;
     for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (is_filtered_and_wanted(maps, map))
-            result = keep_cube(maps, map);
+        environment_maps cubes;
+        lobe_graph *graph = environment_maps_begin(maps, &cubes);
+        if (!environment_store_lacks(&maps->store, &cubes, map))
+            continue;
+        lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
+        result = lobe_graph_execute(graph);
+        if (result == LOBE_OK)
+            environment_store_keep(&maps->store, maps->cache, graph, &cubes, map, &maps->log);
     }
     return result;
 }
@@ -160,9 +120,8 @@ static lobe_result prepare(lobe_environment_maps *maps, const lobe_environment *
     lobe_result result = look_into_cache(maps, environment);
     if (result == LOBE_OK)
         result = make(maps, stopped);
-    if (result == LOBE_OK && maps->cache && !maps->request.stored && !*stopped)
-        result = keep_in_cache(maps);
-    return result;
+    bool lacking = maps->cache && !maps->request.stored;
+    return result == LOBE_OK && lacking && !*stopped ? keep_in_cache(maps) : result;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -242,7 +201,7 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
     if (!maps || !*maps)
         return;
     lobe_graph_destroy(&(*maps)->graph);
-    forget_stored(*maps);
+    environment_store_forget(&(*maps)->store);
     free((*maps)->cache);
     lobe_texture_destroy(&(*maps)->texture);
     lobe_frame_free(&(*maps)->times);

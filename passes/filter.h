@@ -6,7 +6,7 @@
 #include <lobe/scene.h>
 
 #include "passes/device_scene.h"
-#include "passes/environment_maps.h"
+#include "passes/environment_store.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
 #define FILTER_MAXIMUM_SPECIALISATIONS 40
@@ -31,6 +31,8 @@ typedef struct filtered_images {
 typedef struct environment_state {
     environment_maps_progress progress;
     environment_maps last; ///< of the last frame
+    environment_store store;
+    bool reads_back; ///< the last frame delivers cubes that are to be kept
 } environment_state;
 
 /// What a filter may use to build its maps.
@@ -43,7 +45,9 @@ typedef struct filter_context {
     uint32_t width, height; ///< of the picture, pixels
     filtered_images *images;
     environment_state *environment;
-    uint32_t environment_parts; ///< of the work on its maps to do in this frame at most; 0: all
+    uint32_t environment_parts;    ///< of the work on its maps to do in this frame at most; 0: all
+    const char *environment_cache; ///< folder of kept maps; NULL: none
+    bool keeps_environment;        ///< adds to it
     const lobe_log *log;
 } filter_context;
 

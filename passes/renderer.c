@@ -61,7 +61,7 @@ static void forget_scene(lobe_renderer *renderer) {
     renderer->appearances = NULL;
     renderer->filtered_images = NULL;
     renderer->warned = NULL;
-    renderer->environment = (environment_state){0};
+    environment_light_forget(&renderer->environment);
 }
 
 void lobe_renderer_destroy(lobe_renderer **renderer) {
@@ -101,7 +101,7 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->warned = NULL;
     if (result == LOBE_OK && changes->environment)
-        environment_maps_renew(&renderer->environment.last, &renderer->environment.progress);
+        environment_light_change(&renderer->environment);
     if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
         result != LOBE_ERROR_MALFORMED)
         forget_scene(renderer);
@@ -210,6 +210,7 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
     lobe_result result = host_frame_run(r->renderer->graph, r->parameters);
     if (result != LOBE_OK || r->parameters->submission)
         return result;
+    environment_light_keep(&r->context);
     return pass_times_add(frame, lobe_graph_describe(r->renderer->graph)) ? LOBE_OK
                                                                           : out_of_memory(r);
 }
@@ -375,6 +376,13 @@ static lobe_result check(const rendering *r) {
     return LOBE_OK;
 }
 
+/// What a frame reads back is there when the next is begun, unless more are in flight: of those in
+/// commands of the host, only the host knows when they are finished.
+static bool keeps_environment(const lobe_render_parameters *parameters) {
+    return parameters->environment_cache &&
+           (!parameters->submission || parameters->frames_in_flight <= 1);
+}
+
 static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters *parameters,
                            rendering *r) {
     *r = (rendering){
@@ -411,9 +419,24 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .images = &r->images,
         .environment = &renderer->environment,
         .environment_parts = parameters->environment_parts,
+        .environment_cache = parameters->environment_cache,
+        .keeps_environment = keeps_environment(parameters),
         .log = &renderer->log,
     };
     return LOBE_OK;
+}
+
+/// Keeps what a submitted frame read back, for which nobody has waited yet, and looks for what this
+/// frame needs.
+static lobe_result tend_environment(rendering *r) {
+    environment_state *state = r->context.environment;
+    lobe_result result = LOBE_OK;
+    if (state->reads_back)
+        result = lobe_graph_wait(r->context.graph);
+    if (result == LOBE_OK && r->context.keeps_environment)
+        environment_light_keep(&r->context);
+    state->reads_back = false;
+    return result == LOBE_OK ? environment_light_look(&r->context, r->renderer->device) : result;
 }
 
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
@@ -423,13 +446,18 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     lobe_result result = prepare(renderer, parameters, &r);
     if (result != LOBE_OK)
         return result;
+    result = tend_environment(&r);
+    if (result != LOBE_OK)
+        return result;
     warn_of_limits(&r);
     if (parameters->rebuild)
         lobe_graph_invalidate(renderer->graph);
     result = r.context.filter->supersamples
                  ? render_reference(&r, frame)
                  : render_once(&r, parameters->arbitrary_output_variables, frame);
-    if (result != LOBE_OK)
+    if (result != LOBE_OK) {
+        renderer->environment.reads_back = false;
         lobe_frame_free(frame);
+    }
     return result;
 }

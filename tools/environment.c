@@ -3,7 +3,7 @@
 
 #include <lobe/lobe.h>
 
-#include "tools/cache_folder.h"
+#include "tools/cache_options.h"
 #include "tools/console.h"
 #include "tools/device_options.h"
 #include "tools/environment_check.h"
@@ -16,10 +16,11 @@ static const uint32_t checked_faces[] = {128, 256};
 #define CHECKED_FACES 2
 
 typedef struct environment_request {
-    const char *file, *output, *json, *cache;
+    const char *file, *output, *json;
     uint32_t face, kernel, directions;
     double kappa;
-    bool check, no_cache, has_face, has_directions, has_kappa;
+    bool check, has_face, has_directions, has_kappa;
+    cache_options cache;
     device_options device;
 } environment_request;
 
@@ -42,11 +43,9 @@ static int check_usage(const option_table *table, const environment_request *req
         return options_usage_error(table, "--directions: nothing is measured without --check");
     if (request->has_kappa && !request->check)
         return options_usage_error(table, "--kappa: nothing is measured without --check");
-    if (request->cache && request->no_cache)
-        return options_usage_error(table, "--cache: not together with --no-cache");
     if (request->output && !output_file_has_ending(request->output, ".exr"))
         return options_usage_error(table, "-o: '%s' does not end in .exr", request->output);
-    return 0;
+    return cache_options_check(table, &request->cache);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -69,9 +68,7 @@ static lobe_result prepare(const environment_request *request, environment_state
         .log = &state->log,
     };
     parameters.wanted[output.map] = true;
-    if (!request->no_cache)
-        parameters.cache =
-            request->cache ? request->cache : cache_folder_find("environments", folder);
+    parameters.cache = cache_options_find(&request->cache, folder);
     progress_step(&state->progress, "%s: preparing", state->environment->name);
     lobe_result result = lobe_environment_maps_create(state->device, &parameters, &output.maps);
     progress_end(&state->progress);
@@ -208,16 +205,8 @@ static int run(int argc, char **argv) {
          .minimum = 0.01,
          .maximum = 100,
          .given = &request.has_kappa},
-        {.name = "cache",
-         .kind = OPTION_TEXT,
-         .argument = "DIR",
-         .summary = "the folder where filtered cubes are kept for the next time (default: "
-                    "lobe/environments in the user's cache folder)",
-         .target = &request.cache},
-        {.name = "no-cache",
-         .kind = OPTION_FLAG,
-         .summary = "neither looks for a cube that was kept nor keeps one",
-         .target = &request.no_cache},
+        cache_option_folder(&request.cache),
+        cache_option_off(&request.cache),
         device_option_select(&request.device),
         device_option_validation(&request.device),
     };

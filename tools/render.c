@@ -4,6 +4,7 @@
 #include <lobe/lobe.h>
 
 #include "tools/budget.h"
+#include "tools/cache_options.h"
 #include "tools/capture.h"
 #include "tools/console.h"
 #include "tools/device_options.h"
@@ -33,6 +34,7 @@ typedef struct render_request {
     scene_options opening;
     view_options view;
     lobe_light *lights;
+    cache_options cache;
     device_options device;
 
     const lobe_filter *filter; ///< NULL until it is picked by the budget
@@ -50,6 +52,8 @@ typedef struct render_state {
     lobe_profile *profile;
     lobe_profile_summary times;
     progress progress;
+    const char *cache; ///< where filtered environments are kept; NULL: nowhere
+    char cache_folder[CACHE_FOLDER_SIZE];
 } render_state;
 
 // ---------------------------------------------------------------------------------------------
@@ -101,6 +105,8 @@ static int check_usage(const option_table *table, const render_request *request)
         return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
                                    request->size[1]);
     int status = check_budget(table, request);
+    if (status == 0)
+        status = cache_options_check(table, &request->cache);
     return status == 0 ? check_outputs(table, request) : status;
 }
 
@@ -172,6 +178,8 @@ static lobe_result open_renderer(render_request *request, render_state *state) {
         result = pick_filter(request, state);
     if (result == LOBE_OK)
         result = lobe_renderer_create(state->device, &state->log, &state->renderer);
+    if (state->scene->environment)
+        state->cache = cache_options_find(&request->cache, state->cache_folder);
     if (result == LOBE_OK)
         result = lobe_renderer_set_scene(state->renderer, state->scene);
     return result;
@@ -191,6 +199,7 @@ static lobe_result render_frame(const render_request *request, render_state *sta
             .width = request->size[0],
             .height = request->size[1],
             .samples = request->samples,
+            .environment_cache = state->cache,
             .arbitrary_output_variables = request->layers && writes(request, false),
             .progress = progress_part,
             .user = &state->progress,
@@ -408,6 +417,8 @@ static int run(int argc, char **argv) {
         scene_option_intensity(&request.opening),
         scene_option_background(&request.opening),
         scene_option_no_lights(&request.opening),
+        cache_option_folder(&request.cache),
+        cache_option_off(&request.cache),
         {.name = "depth",
          .kind = OPTION_CHOICE,
          .argument = "DEPTH",

@@ -103,6 +103,15 @@ typedef struct lobe_render_parameters {
     /// in this frame at most; until all is done, frames are lit by the maps of the environment
     /// before, or else by its plain MIP chain. 0: all at once.
     uint32_t environment_parts;
+    /// An existing folder where the environment's filtered maps are kept, as OpenEXR files named
+    /// after what they were made from: it is looked into when maps are first needed, and again when
+    /// the environment has changed. Those that are there are not made; others are added in the
+    /// frame in which they are complete, which takes longer for it (with `submission`: in the next
+    /// one; never where frames are recorded into the host's commands). A damaged or foreign file is
+    /// passed over with a notice and replaced; a folder that takes no files is told in a warning.
+    /// Files may be removed at any time. Pictures are the same with and without. Read during the
+    /// call. NULL: none.
+    const char *environment_cache;
     /// Also deliver depth, normal, lobe count and level (one sample, at the pixel's centre).
     bool arbitrary_output_variables;
     /// Build every map again, as if the scene had changed.

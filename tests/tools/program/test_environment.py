@@ -77,6 +77,41 @@ def test_what_is_no_environment():
                        says=f"--environment-{option}")
 
 
+def test_filtered_light_is_kept_for_the_next_time():
+    """What `lobe environment` has prepared serves the renderer, and what that adds is the same."""
+    folder = fresh_folder("kept")
+    user = fresh_folder("kept-user")
+    light = write_hdr(folder / "light.hdr", 32, 16, (90, 200, 150, 129))
+
+    def draw(name, *arguments, found, **environment):
+        result = succeeds("render", "bumps", *DIRECT, "--set", "env_size=16", "--set", "base=lobe",
+                          "--environment", light, *arguments, "-o", folder / name, **environment)
+        check(("environment_restoring" in result.stdout) == found, report(result))
+        check(("environment_prefiltering" in result.stdout) != found, report(result))
+        return result
+
+    draw("plain.png", "--no-cache", found=False)
+    succeeds("environment", light, "--face", "16", XDG_CACHE_HOME=user)
+    draw("found.png", XDG_CACHE_HOME=user, found=True)
+    kept = list((user / "lobe" / "environments").iterdir())
+    check(len(kept) == 1, f"{kept}")
+    whole = kept[0].read_bytes()
+    kept[0].write_bytes(whole[:-100])
+    result = draw("anew.png", "--cache", kept[0].parent, found=False)
+    check("made again" in result.stderr, report(result))
+    check(kept[0].read_bytes() == whole, "the damaged file was not replaced")
+    pictures = [png_read(folder / name) for name in ("plain.png", "found.png", "anew.png")]
+    check(pictures[0] == pictures[1] == pictures[2], "pictures differ")
+
+
+def test_what_needs_no_filtered_light_keeps_none():
+    folder = fresh_folder("unlit-cache")
+    cache = fresh_folder("unlit-user")
+    succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", XDG_CACHE_HOME=cache)
+    check(not (cache / "lobe/environments").exists(), "a folder was made without an environment")
+    is_wrong_usage("render", "bumps", "--no-cache", "--cache", "a", "-o", "a.exr", says="--cache")
+
+
 def test_a_material_is_lit_too():
     folder = fresh_folder("material")
     maps = folder / "maps"
