@@ -16,6 +16,7 @@ void engine_dependency_graph_free(engine_dependency_graph *graph) {
     free(graph->cycle);
     free(graph->barriers);
     free(graph->end_layouts);
+    engine_arena_free(&graph->scratch);
     *graph = (engine_dependency_graph){0};
 }
 
@@ -30,6 +31,7 @@ void engine_dependency_graph_reset(engine_dependency_graph *graph) {
     graph->cycle_count = 0;
     graph->barrier_count = 0;
     graph->subresource_count = 0;
+    engine_arena_reset(&graph->scratch);
     graph->fault = (engine_dependency_fault){0};
 }
 

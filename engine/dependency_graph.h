@@ -7,6 +7,7 @@
 
 #include <lobe/graph.h>
 
+#include "engine/arena.h"
 #include "engine/stamp.h"
 
 /// Which pass must come before which, what need not run, and which barriers lie between: the
@@ -161,6 +162,7 @@ typedef struct engine_dependency_graph {
     uint32_t cycle_count, cycle_capacity;
     uint32_t barrier_count, barrier_capacity;
     uint32_t subresource_count, end_layout_capacity;
+    engine_arena scratch; ///< of the steps
 
     engine_dependency_fault fault; ///< the first
 } engine_dependency_graph;

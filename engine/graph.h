@@ -179,9 +179,12 @@ typedef struct engine_graph_flight {
     engine_allocation upload_memory;
     uint64_t upload_size;
     engine_staging read_back;
-    engine_graph_view *views; ///< of imported images
+    engine_graph_view *views; ///< of images of the host
     VkDescriptorPool descriptors;
-    uint32_t descriptor_capacity[5]; ///< sets, then as ENGINE_GRAPH_DESCRIPTOR_TYPES
+    uint32_t descriptor_capacity[5]; ///< sets, then by type
+    VkDescriptorSet *sets;           ///< of the pool, in the order of the commands
+    uint32_t set_capacity;
+    engine_stamp set_plan; ///< of their layouts; NONE: there are no sets
     VkQueryPool timestamps;
     uint32_t timestamp_capacity;
 } engine_graph_flight;

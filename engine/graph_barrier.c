@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/growing_array.h"
+#include "engine/sort.h"
 
 /// What one pass does to one subresource, all its accesses united.
 typedef struct subresource_use {
@@ -26,7 +27,7 @@ typedef struct subresource_tracker {
 typedef struct barrier_builder {
     engine_dependency_graph *graph;
     subresource_use *uses; ///< sorted by position, resource, subresource
-    uint32_t use_count, use_capacity;
+    uint32_t use_count;
     subresource_tracker *trackers; ///< by subresource
     bool *started;                 ///< by resource: something has used it
     uint32_t *slots;   ///< by subresource: its use by the pass at hand, where that is one of its
@@ -36,11 +37,8 @@ typedef struct barrier_builder {
 // ---------------------------------------------------------------------------------------------
 // What each pass does to each subresource
 
-static bool append_use(barrier_builder *builder, uint32_t position,
+static void append_use(barrier_builder *builder, uint32_t position,
                        const engine_dependency_access *access, uint32_t subresource) {
-    if (!engine_array_reserve((void **)&builder->uses, &builder->use_capacity,
-                              (uint64_t)builder->use_count + 1, sizeof *builder->uses))
-        return false;
     builder->uses[builder->use_count++] =
         (subresource_use){.position = position,
                           .resource = access->resource,
@@ -48,34 +46,31 @@ static bool append_use(barrier_builder *builder, uint32_t position,
                           .writes = access->kind != ENGINE_ACCESS_READ,
                           .modifies = access->kind == ENGINE_ACCESS_MODIFY,
                           .state = access->state};
-    return true;
 }
 
 /// Unites this with what the pass does to the subresource already. Two reads may want different
 /// layouts; then all reads of the resource by the pass are to make do with the general one.
-static bool add_use(barrier_builder *builder, uint32_t position, uint32_t first,
+static void add_use(barrier_builder *builder, uint32_t position, uint32_t first,
                     const engine_dependency_access *access, uint32_t subresource) {
     const engine_dependency_resource *resource = &builder->graph->resources[access->resource];
     uint32_t *slot = &builder->slots[resource->first_subresource + subresource];
     if (*slot < first || *slot >= builder->use_count) {
         *slot = builder->use_count;
-        return append_use(builder, position, access, subresource);
+        append_use(builder, position, access, subresource);
+        return;
     }
     engine_access_state *state = &builder->uses[*slot].state;
     state->stages |= access->state.stages;
     state->access |= access->state.access;
     if (state->layout != access->state.layout)
         builder->general[access->resource] = position + 1;
-    return true;
 }
 
-static bool add_uses_of_access(barrier_builder *builder, uint32_t position, uint32_t first,
+static void add_uses_of_access(barrier_builder *builder, uint32_t position, uint32_t first,
                                const engine_dependency_access *access) {
     for (uint32_t n = 0; n < engine_access_size(access); n++)
-        if (!add_use(builder, position, first, access,
-                     engine_access_subresource(builder->graph, access, n)))
-            return false;
-    return true;
+        add_use(builder, position, first, access,
+                engine_access_subresource(builder->graph, access, n));
 }
 
 /// Gives the reads of resources that were marked so the general layout.
@@ -101,29 +96,26 @@ static int compare_uses(const void *a, const void *b) {
     return first->subresource < second->subresource ? -1 : first->subresource > second->subresource;
 }
 
-static bool list_uses(barrier_builder *builder) {
+static void list_uses(barrier_builder *builder) {
     const engine_dependency_graph *graph = builder->graph;
     for (uint32_t position = 0; position < graph->running_count; position++) {
         const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
         uint32_t first = builder->use_count;
         for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
              n = graph->accesses[n].next)
-            if (!add_uses_of_access(builder, position, first, &graph->accesses[n]))
-                return false;
+            add_uses_of_access(builder, position, first, &graph->accesses[n]);
         unite_layouts(builder, position, first);
         // Neighbours come to stand together, to share a barrier.
-        if (builder->use_count > first)
-            qsort(builder->uses + first, builder->use_count - first, sizeof *builder->uses,
-                  compare_uses);
+        engine_sort(builder->uses + first, builder->use_count - first, sizeof *builder->uses,
+                    compare_uses);
     }
-    return true;
 }
 
 /// Backwards: a barrier for the first of several reads makes the content visible to all of them.
 static bool group_reads(barrier_builder *builder) {
     const engine_dependency_graph *graph = builder->graph;
-    size_t count = graph->subresource_count ? graph->subresource_count : 1;
-    const subresource_use **next = calloc(count, sizeof *next);
+    const subresource_use **next =
+        engine_arena_allocate(&builder->graph->scratch, graph->subresource_count * sizeof *next);
     if (!next)
         return false;
     for (uint32_t n = builder->use_count; n-- > 0;) {
@@ -138,7 +130,6 @@ static bool group_reads(barrier_builder *builder) {
         }
         *after = use;
     }
-    free(next);
     return true;
 }
 
@@ -411,33 +402,35 @@ static void record_end_layouts(barrier_builder *builder) {
 
 static bool builder_create(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
-    size_t subresources = graph->subresource_count ? graph->subresource_count : 1;
-    builder->trackers = calloc(subresources, sizeof *builder->trackers);
-    builder->started = calloc(graph->resource_count + 1, sizeof *builder->started);
-    builder->slots = malloc(subresources * sizeof *builder->slots);
+    engine_arena *scratch = &graph->scratch;
+    const size_t subresources = graph->subresource_count, resources = graph->resource_count;
+    // Each subresource of an access has a source; each is one use at most.
+    builder->uses = engine_arena_allocate(scratch, graph->source_count * sizeof *builder->uses);
+    builder->trackers = engine_arena_allocate(scratch, subresources * sizeof *builder->trackers);
+    builder->started = engine_arena_allocate(scratch, resources * sizeof *builder->started);
+    builder->slots = engine_arena_allocate(scratch, subresources * sizeof *builder->slots);
     if (builder->slots)
         memset(builder->slots, 0xff, subresources * sizeof *builder->slots); // no use at all
-    builder->general = calloc(graph->resource_count + 1, sizeof *builder->general);
-    return builder->trackers && builder->started && builder->slots && builder->general &&
+    builder->general = engine_arena_allocate(scratch, resources * sizeof *builder->general);
+    return builder->uses && builder->trackers && builder->started && builder->slots &&
+           builder->general &&
            engine_array_reserve((void **)&graph->end_layouts, &graph->end_layout_capacity,
-                                subresources, sizeof *graph->end_layouts);
+                                subresources + 1, sizeof *graph->end_layouts);
 }
 
 bool engine_dependency_barriers(engine_dependency_graph *graph) {
     barrier_builder builder = {.graph = graph};
     graph->barrier_count = 0;
-    bool fine = builder_create(&builder) && list_uses(&builder) && group_reads(&builder) &&
-                derive(&builder) && restore_imports(&builder) && return_borrowed(&builder);
+    bool fine = builder_create(&builder);
+    if (fine)
+        list_uses(&builder);
+    fine = fine && group_reads(&builder) && derive(&builder) && restore_imports(&builder) &&
+           return_borrowed(&builder);
     if (fine) {
         extend_levels(graph);
         record_end_layouts(&builder);
     } else {
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
     }
-    free(builder.uses);
-    free(builder.trackers);
-    free(builder.started);
-    free(builder.slots);
-    free(builder.general);
     return fine;
 }

@@ -1,9 +1,8 @@
 #include "engine/graph_descriptor.h"
 
-#include <string.h>
-
 #include "engine/graph_binding.h"
 #include "engine/graph_object.h"
+#include "engine/growing_array.h"
 #include "engine/vulkan_check.h"
 
 static const VkDescriptorType types[] = {
@@ -34,41 +33,67 @@ VkImageLayout engine_graph_vulkan_layout(engine_layout layout) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// The pool
+// Which commands need a set
 
 /// Commands of running passes that have a pipeline, one after the other. Start with zero.
 typedef struct command_walk {
     uint32_t position;
     lobe_pass *pass;
     engine_graph_command *command;
+    bool shares_set; ///< with the one before
 } command_walk;
 
+/// Draws that follow one another with the same pipeline and no bindings of their own share a set.
+static bool can_share_set(const engine_graph_command *command, const engine_graph_command *before) {
+    return before->pipeline == command->pipeline && !before->bindings.first &&
+           !command->bindings.first;
+}
+
 static bool next_command(const lobe_graph *graph, command_walk *walk) {
-    if (walk->command)
-        walk->command = walk->command->next;
-    while (!walk->command || !walk->command->pipeline) {
-        if (walk->command) {
-            walk->command = walk->command->next;
+    const engine_graph_command *before = walk->command;
+    engine_graph_command *command = before ? before->next : NULL;
+    while (!command || !command->pipeline) {
+        if (command) {
+            command = command->next;
             continue;
         }
         if (walk->position == graph->dependencies.running_count)
             return false;
         walk->pass = graph->passes[graph->dependencies.running[walk->position++]];
-        walk->command = walk->pass->first_command;
+        command = walk->pass->first_command;
+        before = NULL;
     }
+    walk->command = command;
+    walk->shares_set = before && can_share_set(command, before);
     return true;
 }
 
-static void count_descriptors(const lobe_graph *graph, uint32_t counts[1 + TYPE_COUNT]) {
+/// What sets of this frame's commands take.
+typedef struct set_needs {
+    uint32_t counts[1 + TYPE_COUNT]; ///< sets, then descriptors by type
+    uint32_t variables;
+    engine_stamp plan; ///< of the layouts of the sets
+} set_needs;
+
+static set_needs count_needs(const lobe_graph *graph) {
+    set_needs needs = {.plan = engine_stamp_mix(ENGINE_STAMP_NONE, 0)};
     for (command_walk walk = {0}; next_command(graph, &walk);) {
         const engine_pipeline *pipeline = walk.command->pipeline;
-        counts[0]++;
+        if (walk.shares_set)
+            continue;
+        needs.counts[0]++;
+        needs.variables += (uint32_t)pipeline->binding_count;
+        needs.plan = engine_stamp_mix(needs.plan, (uint64_t)pipeline->set_layout);
         for (size_t n = 0; n < pipeline->binding_count; n++)
             for (size_t type = 0; type < TYPE_COUNT; type++)
                 if (pipeline->bindings[n].type == types[type])
-                    counts[1 + type] += pipeline->bindings[n].count;
+                    needs.counts[1 + type] += pipeline->bindings[n].count;
     }
+    return needs;
 }
+
+// ---------------------------------------------------------------------------------------------
+// The pool
 
 static lobe_result create_pool(lobe_graph *graph) {
     lobe_device *device = graph->device;
@@ -91,119 +116,153 @@ static lobe_result create_pool(lobe_graph *graph) {
 }
 
 /// Empties the pool; makes a larger one where it is too small for this frame.
-static lobe_result prepare_pool(lobe_graph *graph) {
+static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
     lobe_device *device = graph->device;
-    uint32_t counts[1 + TYPE_COUNT] = {0};
-    bool large_enough = graph->flight->descriptors != VK_NULL_HANDLE;
-    count_descriptors(graph, counts);
+    engine_graph_flight *flight = graph->flight;
+    bool large_enough = flight->descriptors != VK_NULL_HANDLE;
     for (size_t n = 0; n < 1 + TYPE_COUNT; n++)
-        if (counts[n] > graph->flight->descriptor_capacity[n]) {
-            graph->flight->descriptor_capacity[n] = counts[n];
+        if (needs->counts[n] > flight->descriptor_capacity[n]) {
+            flight->descriptor_capacity[n] = needs->counts[n];
             large_enough = false;
         }
-    if (large_enough || counts[0] == 0)
-        return graph->flight->descriptors == VK_NULL_HANDLE
-                   ? LOBE_OK
-                   : VULKAN_CHECK(
-                         &device->log,
-                         vkResetDescriptorPool(device->vulkan, graph->flight->descriptors, 0),
-                         "render graph");
-    vkDestroyDescriptorPool(device->vulkan, graph->flight->descriptors, device->callbacks);
-    graph->flight->descriptors = VK_NULL_HANDLE;
+    if (large_enough)
+        return VULKAN_CHECK(&device->log,
+                            vkResetDescriptorPool(device->vulkan, flight->descriptors, 0),
+                            "render graph");
+    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
+    flight->descriptors = VK_NULL_HANDLE;
     return create_pool(graph);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Sets
 
-static lobe_result allocate_set(lobe_graph *graph, engine_graph_command *command) {
+static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
+    engine_graph_flight *flight = graph->flight;
+    uint32_t filled = 0;
+    VkDescriptorSetLayout *layouts = engine_arena_allocate(&graph->arena, count * sizeof *layouts);
+    if (!layouts || !engine_array_reserve((void **)&flight->sets, &flight->set_capacity, count,
+                                          sizeof *flight->sets))
+        return engine_graph_fail_memory(graph);
+    for (command_walk walk = {0}; next_command(graph, &walk);)
+        if (!walk.shares_set)
+            layouts[filled++] = walk.command->pipeline->set_layout;
     const VkDescriptorSetAllocateInfo allocate = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = graph->flight->descriptors,
-        .descriptorSetCount = 1,
-        .pSetLayouts = &command->pipeline->set_layout,
+        .descriptorPool = flight->descriptors,
+        .descriptorSetCount = count,
+        .pSetLayouts = layouts,
     };
     return VULKAN_CHECK(&graph->device->log,
-                        vkAllocateDescriptorSets(graph->device->vulkan, &allocate, &command->set),
-                        "render graph, '%s'", command->pipeline->name);
+                        vkAllocateDescriptorSets(graph->device->vulkan, &allocate, flight->sets),
+                        "render graph");
 }
 
-static lobe_result write_block(lobe_graph *graph, const engine_graph_resource *resource,
-                               const engine_shader_binding *variable, VkWriteDescriptorSet *write) {
+/// The sets of the flight's last frame serve where this one needs the very same.
+static lobe_result prepare_sets(lobe_graph *graph, const set_needs *needs) {
+    if (graph->flight->set_plan == needs->plan || needs->counts[0] == 0)
+        return LOBE_OK;
+    graph->flight->set_plan = ENGINE_STAMP_NONE;
+    lobe_result result = prepare_pool(graph, needs);
+    if (result == LOBE_OK)
+        result = allocate_sets(graph, needs->counts[0]);
+    if (result == LOBE_OK)
+        graph->flight->set_plan = needs->plan;
+    return result;
+}
+
+static void assign_sets(const lobe_graph *graph) {
+    uint32_t next = 0;
+    for (command_walk walk = {0}; next_command(graph, &walk);) {
+        next += !walk.shares_set;
+        walk.command->set = graph->flight->sets[next - 1];
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Their content
+
+/// What is written to all sets of a frame at once; each write has an image or a buffer.
+typedef struct write_batch {
+    VkWriteDescriptorSet *writes;
+    VkDescriptorImageInfo *images;
+    VkDescriptorBufferInfo *buffers;
+    uint32_t count;
+} write_batch;
+
+static bool create_batch(engine_arena *arena, uint32_t count, write_batch *batch) {
+    *batch = (write_batch){.writes = engine_arena_allocate(arena, count * sizeof *batch->writes),
+                           .images = engine_arena_allocate(arena, count * sizeof *batch->images),
+                           .buffers = engine_arena_allocate(arena, count * sizeof *batch->buffers)};
+    return batch->writes && batch->images && batch->buffers;
+}
+
+static VkDescriptorBufferInfo describe_block(const engine_graph_resource *resource,
+                                             const engine_shader_binding *variable) {
     // Uniform blocks are limited in size, the buffers they lie in are not.
     bool uniform = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    const VkDescriptorBufferInfo buffer = {.buffer = resource->object->buffer,
-                                           .offset = resource->offset,
-                                           .range = uniform ? variable->size : resource->size};
-    write->pBufferInfo = &buffer;
-    vkUpdateDescriptorSets(graph->device->vulkan, 1, write, 0, NULL);
-    return LOBE_OK;
+    return (VkDescriptorBufferInfo){.buffer = resource->object->buffer,
+                                    .offset = resource->offset,
+                                    .range = uniform ? variable->size : resource->size};
 }
 
-static lobe_result write_image(lobe_graph *graph, const engine_graph_resource *resource,
-                               const engine_graph_binding *binding,
-                               const engine_shader_binding *variable, VkWriteDescriptorSet *write) {
+static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource *resource,
+                                  const engine_graph_binding *binding,
+                                  const engine_shader_binding *variable,
+                                  VkDescriptorImageInfo *image) {
     const engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
-    VkDescriptorImageInfo image = {.imageLayout = engine_graph_vulkan_layout(access->state.layout)};
+    image->imageLayout = engine_graph_vulkan_layout(access->state.layout);
     lobe_result result = engine_graph_view_of(graph->device, resource, variable->view,
-                                              &access->range, &image.imageView);
+                                              &access->range, &image->imageView);
     if (result == LOBE_OK && variable->type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
-        result = engine_sampler(graph->device, &binding->sampler, &image.sampler);
-    if (result != LOBE_OK)
-        return result;
-    write->pImageInfo = &image;
-    vkUpdateDescriptorSets(graph->device->vulkan, 1, write, 0, NULL);
-    return LOBE_OK;
+        result = engine_sampler(graph->device, &binding->sampler, &image->sampler);
+    return result;
 }
 
-static lobe_result write_variable(lobe_graph *graph, const lobe_pass *pass,
-                                  const engine_graph_command *command,
-                                  const engine_shader_binding *variable) {
-    const engine_graph_binding *binding = engine_graph_bound(pass, command, variable->name);
+static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
+                                const engine_shader_binding *variable, write_batch *batch) {
+    const engine_graph_binding *binding =
+        engine_graph_bound(walk->pass, walk->command, variable->name);
     if (!binding)
         return LOBE_OK; // no code of the shader refers to it
     const engine_graph_resource *resource =
         &graph->resources[graph->dependencies.accesses[binding->access].resource];
-    VkWriteDescriptorSet write = {
+    uint32_t n = batch->count++;
+    batch->writes[n] = (VkWriteDescriptorSet){
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-        .dstSet = command->set,
+        .dstSet = walk->command->set,
         .dstBinding = variable->binding,
         .descriptorCount = 1,
         .descriptorType = variable->type,
+        .pImageInfo = &batch->images[n],
+        .pBufferInfo = &batch->buffers[n],
     };
-    bool block = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
-                 variable->type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    return block ? write_block(graph, resource, variable, &write)
-                 : write_image(graph, resource, binding, variable, &write);
+    if (resource->is_image)
+        return describe_image(graph, resource, binding, variable, &batch->images[n]);
+    batch->buffers[n] = describe_block(resource, variable);
+    return LOBE_OK;
 }
 
-/// Draws that follow one another with the same pipeline and no bindings of their own share a set.
-static bool shares_set(const engine_graph_command *command, const engine_graph_command *before) {
-    return before && before->pipeline == command->pipeline && !before->bindings.first &&
-           !command->bindings.first;
-}
-
-static lobe_result write_set(lobe_graph *graph, const lobe_pass *pass,
-                             engine_graph_command *command) {
-    lobe_result result = allocate_set(graph, command);
-    for (size_t n = 0; result == LOBE_OK && n < command->pipeline->binding_count; n++)
-        result = write_variable(graph, pass, command, &command->pipeline->bindings[n]);
-    return result;
+static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {
+    write_batch batch;
+    lobe_result result = LOBE_OK;
+    if (!create_batch(&graph->arena, variables, &batch))
+        return engine_graph_fail_memory(graph);
+    for (command_walk walk = {0}; next_command(graph, &walk);)
+        for (size_t n = 0; !walk.shares_set && n < walk.command->pipeline->binding_count; n++) {
+            result = add_variable(graph, &walk, &walk.command->pipeline->bindings[n], &batch);
+            if (result != LOBE_OK)
+                return result;
+        }
+    vkUpdateDescriptorSets(graph->device->vulkan, batch.count, batch.writes, 0, NULL);
+    return LOBE_OK;
 }
 
 lobe_result engine_graph_write_descriptors(lobe_graph *graph) {
-    lobe_result result = prepare_pool(graph);
-    const lobe_pass *pass = NULL;
-    const engine_graph_command *before = NULL;
-    for (command_walk walk = {0}; result == LOBE_OK && next_command(graph, &walk);) {
-        if (walk.pass != pass)
-            before = NULL;
-        if (shares_set(walk.command, before))
-            walk.command->set = before->set;
-        else
-            result = write_set(graph, walk.pass, walk.command);
-        pass = walk.pass;
-        before = walk.command;
-    }
-    return result;
+    const set_needs needs = count_needs(graph);
+    lobe_result result = prepare_sets(graph, &needs);
+    if (result != LOBE_OK)
+        return result;
+    assign_sets(graph);
+    return write_sets(graph, needs.variables);
 }

@@ -89,8 +89,19 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
     return LOBE_OK;
 }
 
+/// One that lives as long as the image, whoever made it; none where there is no such view.
+static VkImageView lasting_view(const engine_graph_resource *resource, VkImageViewType type) {
+    const lobe_texture *texture = resource->texture;
+    if (!texture)
+        return VK_NULL_HANDLE;
+    return type == VK_IMAGE_VIEW_TYPE_2D ? texture->view : texture->array_view;
+}
+
 lobe_result engine_graph_view_of(lobe_device *device, const engine_graph_resource *resource,
                                  VkImageViewType type, const lobe_range *range, VkImageView *view) {
+    *view = lasting_view(resource, type);
+    if (*view)
+        return LOBE_OK;
     for (const engine_graph_view *known = resource->object->views; known; known = known->next)
         if (known->type == type && memcmp(&known->range, range, sizeof *range) == 0) {
             *view = known->view;

@@ -102,7 +102,7 @@ static bool fail_cycle(engine_dependency_graph *graph, const uint32_t *waiting) 
 }
 
 bool engine_dependency_order(engine_dependency_graph *graph) {
-    uint32_t *waiting = calloc(graph->pass_count ? graph->pass_count : 1, sizeof *waiting);
+    uint32_t *waiting = engine_arena_allocate(&graph->scratch, graph->pass_count * sizeof *waiting);
     bool fine = waiting && reserve(graph);
     if (!fine)
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
@@ -118,6 +118,5 @@ bool engine_dependency_order(engine_dependency_graph *graph) {
         graph->order[graph->order_count++] = pass;
         release_successors(graph, pass, waiting);
     }
-    free(waiting);
     return fine;
 }

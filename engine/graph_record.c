@@ -17,26 +17,34 @@ static engine_graph_resource *resource_at(const lobe_graph *graph, uint32_t acce
 // ---------------------------------------------------------------------------------------------
 // Dispatches and draws
 
+/// `before`: the pass's command before this one, or NULL; what it has bound is still bound.
 static void bind_command(lobe_graph *graph, const engine_graph_command *command,
-                         const void *constants, size_t constants_size) {
+                         const engine_graph_command *before, const void *constants,
+                         size_t constants_size) {
     const engine_pipeline *pipeline = command->pipeline;
-    vkCmdBindPipeline(graph->commands, pipeline->bind_point, pipeline->pipeline);
-    vkCmdBindDescriptorSets(graph->commands, pipeline->bind_point, pipeline->layout, 0, 1,
-                            &command->set, 0, NULL);
+    const bool bound = before && before->pipeline == pipeline;
+    if (!bound)
+        vkCmdBindPipeline(graph->commands, pipeline->bind_point, pipeline->pipeline);
+    if (!bound || before->set != command->set)
+        vkCmdBindDescriptorSets(graph->commands, pipeline->bind_point, pipeline->layout, 0, 1,
+                                &command->set, 0, NULL);
     if (constants_size > 0)
         vkCmdPushConstants(graph->commands, pipeline->layout, pipeline->push_constant_stages, 0,
                            (uint32_t)constants_size, constants);
 }
 
-static void record_dispatch(lobe_graph *graph, const engine_graph_command *command) {
-    bind_command(graph, command, command->dispatch.constants, command->dispatch.constants_size);
+static void record_dispatch(lobe_graph *graph, const engine_graph_command *command,
+                            const engine_graph_command *before) {
+    bind_command(graph, command, before, command->dispatch.constants,
+                 command->dispatch.constants_size);
     vkCmdDispatch(graph->commands, command->group_count[0], command->group_count[1],
                   command->group_count[2]);
 }
 
-static void record_draw(lobe_graph *graph, const engine_graph_command *command) {
+static void record_draw(lobe_graph *graph, const engine_graph_command *command,
+                        const engine_graph_command *before) {
     const lobe_draw *draw = &command->draw;
-    bind_command(graph, command, draw->constants, draw->constants_size);
+    bind_command(graph, command, before, draw->constants, draw->constants_size);
     if (command->index_access == ENGINE_DEPENDENCY_NONE) {
         vkCmdDraw(graph->commands, draw->index_count, draw->instance_count, draw->first_index, 0);
         return;
@@ -142,9 +150,9 @@ static lobe_result record_raster(lobe_graph *graph, const lobe_pass *pass) {
     const VkRect2D scissor = {.extent = pass->extent};
     vkCmdSetViewport(graph->commands, 0, 1, &viewport);
     vkCmdSetScissor(graph->commands, 0, 1, &scissor);
-    for (const engine_graph_command *command = pass->first_command; command;
-         command = command->next)
-        record_draw(graph, command);
+    for (const engine_graph_command *command = pass->first_command, *before = NULL; command;
+         before = command, command = command->next)
+        record_draw(graph, command, before);
     vkCmdEndRendering(graph->commands);
     return LOBE_OK;
 }
@@ -251,10 +259,11 @@ static void record_read_back(lobe_graph *graph, const engine_graph_command *comm
 
 // ---------------------------------------------------------------------------------------------
 
-static void record_command(lobe_graph *graph, const engine_graph_command *command) {
+static void record_command(lobe_graph *graph, const engine_graph_command *command,
+                           const engine_graph_command *before) {
     switch (command->kind) {
     case ENGINE_GRAPH_DISPATCH:
-        record_dispatch(graph, command);
+        record_dispatch(graph, command, before);
         break;
     case ENGINE_GRAPH_COPY:
         record_copy(graph, command);
@@ -276,9 +285,9 @@ lobe_result engine_graph_record_pass(lobe_graph *graph, lobe_pass *pass) {
     if (pass->kind == LOBE_PASS_RASTER)
         result = record_raster(graph, pass);
     else
-        for (const engine_graph_command *command = pass->first_command; command;
-             command = command->next)
-            record_command(graph, command);
+        for (const engine_graph_command *command = pass->first_command, *before = NULL; command;
+             before = command, command = command->next)
+            record_command(graph, command, before);
     engine_device_end_label(graph->device, graph->commands);
     return result;
 }

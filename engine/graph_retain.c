@@ -77,10 +77,12 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
         engine_graph_retained *kept = resource->retained;
         if (resource->origin != ENGINE_GRAPH_RETAINED)
             continue;
-        resource->usage = lasting_usage(graph, resource);
         resource->cube =
             resource->is_image && resource->layers % 6 == 0 && resource->width == resource->height;
-        if (!kept || (resource->usage & ~kept->usage) == 0)
+        if (kept && (resource->usage & ~kept->usage) == 0)
+            continue;
+        resource->usage = lasting_usage(graph, resource);
+        if (!kept)
             continue;
         engine_graph_finish_flights(graph);
         engine_graph_free_object(graph->device, &kept->object);

@@ -55,20 +55,26 @@ static engine_stamp sign_command(engine_stamp stamp, const engine_graph_command 
 }
 
 static engine_stamp sign_attachment(engine_stamp stamp, const engine_graph_attachment *attachment) {
-    stamp = engine_stamp_mix(stamp, attachment->access != ENGINE_DEPENDENCY_NONE);
-    stamp = engine_stamp_mix(stamp, attachment->load);
+    if (attachment->access == ENGINE_DEPENDENCY_NONE)
+        return engine_stamp_mix(stamp, 0);
+    stamp = engine_stamp_mix(stamp, 1 + (uint64_t)attachment->load);
     return engine_stamp_bytes(stamp, attachment->clear, sizeof attachment->clear);
+}
+
+static engine_stamp sign_attachments(engine_stamp stamp, const lobe_pass *pass) {
+    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++) {
+        stamp = sign_attachment(stamp, &pass->colour[n]);
+        stamp = sign_attachment(stamp, &pass->resolve[n]);
+    }
+    return sign_attachment(stamp, &pass->depth);
 }
 
 static engine_stamp sign_pass(const lobe_pass *pass) {
     engine_stamp stamp =
         engine_stamp_text(engine_stamp_mix(ENGINE_STAMP_NONE, pass->kind), pass->name);
     stamp = sign_bindings(stamp, &pass->bindings);
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++) {
-        stamp = sign_attachment(stamp, &pass->colour[n]);
-        stamp = sign_attachment(stamp, &pass->resolve[n]);
-    }
-    stamp = sign_attachment(stamp, &pass->depth);
+    if (pass->kind == LOBE_PASS_RASTER)
+        stamp = sign_attachments(stamp, pass);
     for (const engine_graph_command *command = pass->first_command; command;
          command = command->next)
         stamp = sign_command(stamp, command);

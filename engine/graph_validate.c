@@ -1,6 +1,6 @@
 #include "engine/dependency_graph.h"
 
-#include <stdlib.h>
+#include "engine/sort.h"
 
 /// What is known of one subresource while the accesses are walked in order of declaration.
 typedef struct subresource_history {
@@ -19,11 +19,11 @@ typedef struct history {
     uint32_t reader_count;
 } history;
 
-static bool history_create(const engine_dependency_graph *graph, history *past) {
-    size_t subresources = graph->subresource_count ? graph->subresource_count : 1;
-    size_t readers = graph->source_count ? graph->source_count : 1;
-    past->subresources = malloc(subresources * sizeof *past->subresources);
-    past->readers = malloc(readers * sizeof *past->readers);
+static bool history_create(engine_dependency_graph *graph, history *past) {
+    const size_t subresources = graph->subresource_count, readers = graph->source_count;
+    past->subresources =
+        engine_arena_allocate(&graph->scratch, subresources * sizeof *past->subresources);
+    past->readers = engine_arena_allocate(&graph->scratch, readers * sizeof *past->readers);
     past->reader_count = 0;
     if (!past->subresources || !past->readers)
         return false;
@@ -31,11 +31,6 @@ static bool history_create(const engine_dependency_graph *graph, history *past) 
         past->subresources[n] = (subresource_history){.writer = ENGINE_DEPENDENCY_NONE,
                                                       .first_reader = ENGINE_DEPENDENCY_NONE};
     return true;
-}
-
-static void history_free(history *past) {
-    free(past->subresources);
-    free(past->readers);
 }
 
 static bool fail(engine_dependency_graph *graph, engine_dependency_fault_kind kind,
@@ -158,7 +153,7 @@ static int compare_edges(const void *a, const void *b) {
 static void merge_edges(engine_dependency_graph *graph) {
     if (graph->edge_count == 0)
         return;
-    qsort(graph->edges, graph->edge_count, sizeof *graph->edges, compare_edges);
+    engine_sort(graph->edges, graph->edge_count, sizeof *graph->edges, compare_edges);
     uint32_t kept = 0;
     for (uint32_t n = 1; n < graph->edge_count; n++) {
         if (compare_edges(&graph->edges[kept], &graph->edges[n]) == 0)
@@ -179,7 +174,6 @@ bool engine_dependency_link(engine_dependency_graph *graph) {
         fine = access->pass == ENGINE_DEPENDENCY_NONE ? link_output(graph, &past, access)
                                                       : link_access(graph, &past, access);
     }
-    history_free(&past);
     if (fine)
         merge_edges(graph);
     return fine;

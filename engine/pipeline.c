@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine/device.h"
+#include "engine/growing_array.h"
 #include "engine/pipeline_cache.h"
 #include "engine/pipeline_layout.h"
 #include "engine/raster_pipeline.h"
@@ -31,6 +32,8 @@ struct engine_pipelines {
     engine_pipeline_cache cache;
     engine_sampler_cache samplers;
     cached_pipeline *pipelines;
+    lobe_specialisation *wanted; ///< of the key that is looked for
+    uint32_t wanted_capacity;
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -56,13 +59,19 @@ static void set_constant(pipeline_key *key, lobe_specialisation value) {
     key->specialisation[i] = value;
 }
 
+static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
+    return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+                         key->shaders[0]->name);
+}
+
 /// Orders the values by id; of several for one id the last counts.
 static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
                                        size_t count, pipeline_key *key) {
-    key->specialisation = calloc(count + 1, sizeof *key->specialisation);
-    if (!key->specialisation)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "pipeline '%s': no host memory", key->shaders[0]->name);
+    engine_pipelines *pipelines = device->pipelines;
+    if (!engine_array_reserve((void **)&pipelines->wanted, &pipelines->wanted_capacity,
+                              (uint64_t)count + 1, sizeof *pipelines->wanted))
+        return fail_memory(device, key);
+    key->specialisation = pipelines->wanted;
     for (size_t i = 0; i < count; i++)
         if (has_constant(key, values[i].id))
             set_constant(key, values[i]);
@@ -116,8 +125,7 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
     const size_t count = key->specialisation_count;
     created->entries = calloc(count + 1, sizeof *created->entries);
     if (!created->entries)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "pipeline '%s': no host memory", key->shaders[0]->name);
+        return fail_memory(device, key);
     for (size_t i = 0; i < count; i++)
         created->entries[i] = (VkSpecializationMapEntry){
             .constantID = key->specialisation[i].id,
@@ -218,19 +226,26 @@ static lobe_result create_vulkan(lobe_device *device, const engine_raster_parame
     return result;
 }
 
-/// Makes the pipeline of a key; takes the key over, in failure too.
+/// A key that does not change with the next one that is looked for; false without memory.
+static bool keep_key(const pipeline_key *key, pipeline_key *kept) {
+    const size_t size = key->specialisation_count * sizeof *key->specialisation;
+    *kept = *key;
+    kept->specialisation = malloc(size + 1);
+    if (kept->specialisation)
+        memcpy(kept->specialisation, key->specialisation, size);
+    return kept->specialisation != NULL;
+}
+
+/// Makes the pipeline of a key.
 static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
                        const pipeline_key *key, const engine_pipeline **pipeline) {
     cached_pipeline *cached = calloc(1, sizeof *cached);
     char *name = name_of(key);
-    if (!cached || !name) {
+    if (!cached || !name || !keep_key(key, &cached->key)) {
         free(cached);
         free(name);
-        free(key->specialisation);
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "pipeline '%s': no host memory", key->shaders[0]->name);
+        return fail_memory(device, key);
     }
-    cached->key = *key;
     cached->pipeline.name = name;
     cached->pipeline.bind_point =
         raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
@@ -247,12 +262,9 @@ static lobe_result add(lobe_device *device, const engine_raster_parameters *rast
 }
 
 static lobe_result find_or_add(lobe_device *device, const engine_raster_parameters *raster,
-                               pipeline_key *key, const engine_pipeline **pipeline) {
+                               const pipeline_key *key, const engine_pipeline **pipeline) {
     *pipeline = find(device->pipelines, key);
-    if (!*pipeline)
-        return add(device, raster, key, pipeline);
-    free(key->specialisation);
-    return LOBE_OK;
+    return *pipeline ? LOBE_OK : add(device, raster, key, pipeline);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -275,6 +287,7 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
     }
     engine_sampler_cache_destroy(device, &(*pipelines)->samplers);
     engine_pipeline_cache_destroy(device, &(*pipelines)->cache);
+    free((*pipelines)->wanted);
     free(*pipelines);
     *pipelines = NULL;
 }

@@ -19,6 +19,8 @@ struct lobe_texture {
     lobe_format format;
     uint32_t width, height; ///< texels; one level, one layer
     VkImage image;
+    VkImageView view;       ///< two-dimensional
+    VkImageView array_view; ///< of one layer
     engine_allocation allocation;
     uint64_t stamp; ///< of the content, see engine_device_stamp; changes on create and update
 };

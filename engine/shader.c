@@ -47,15 +47,18 @@ static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *
     return LOBE_OK;
 }
 
+static int compare_name(const void *name, const void *code) {
+    return strcmp(name, ((const engine_shader_code *)code)->name);
+}
+
 static const engine_shader_code *find_code(const engine_shaders *shaders, const char *name,
                                            const shader_table **of) {
-    for (const shader_table *table = shaders->tables; table; table = table->next)
-        for (size_t i = 0; i < table->count; i++)
-            if (!strcmp(table->codes[i].name, name)) {
-                *of = table;
-                return &table->codes[i];
-            }
-    return NULL;
+    const engine_shader_code *code = NULL;
+    for (const shader_table *table = shaders->tables; table && !code; table = table->next) {
+        *of = table;
+        code = bsearch(name, table->codes, table->count, sizeof *code, compare_name);
+    }
+    return code;
 }
 
 /// The first table added is the library's own.

@@ -53,7 +53,7 @@ typedef struct engine_shader_code {
     size_t size; ///< bytes
 } engine_shader_code;
 
-/// The shaders embedded in the library, from shaders/.
+/// The shaders embedded in the library, from shaders/; ordered by name.
 extern const engine_shader_code engine_embedded_shaders[];
 extern const size_t engine_embedded_shaders_count;
 
@@ -66,7 +66,8 @@ lobe_result engine_shaders_create(lobe_device *device, const char *folder,
 void engine_shaders_destroy(engine_shaders **shaders);
 
 /// Makes the shaders of a further table known to one device, before those it knows already: for
-/// tests, whose shaders are no part of the library. The table must outlive the device.
+/// tests, whose shaders are no part of the library. The table is ordered by name (as strcmp does)
+/// and must outlive the device.
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder);
 

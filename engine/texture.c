@@ -44,6 +44,26 @@ static lobe_result create_image(lobe_texture *texture) {
     return result;
 }
 
+static lobe_result create_view(lobe_texture *texture, VkImageViewType type, VkImageView *view) {
+    const engine_view_parameters parameters = {
+        .name = texture->name,
+        .image = texture->image,
+        .format = texture->format,
+        .type = type,
+        .level_count = 1,
+        .layer_count = 1,
+    };
+    return engine_view_create(texture->device, &parameters, view);
+}
+
+/// All the ways in which shaders can look at it: graphs of several threads find them made.
+static lobe_result create_views(lobe_texture *texture) {
+    lobe_result result = create_view(texture, VK_IMAGE_VIEW_TYPE_2D, &texture->view);
+    if (result == LOBE_OK)
+        result = create_view(texture, VK_IMAGE_VIEW_TYPE_2D_ARRAY, &texture->array_view);
+    return result;
+}
+
 lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
                                 lobe_texture **texture) {
     *texture = NULL;
@@ -63,6 +83,8 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
     result = create_image(*texture);
+    if (result == LOBE_OK)
+        result = create_views(*texture);
     if (result == LOBE_OK)
         result = lobe_texture_update(*texture, parameters->image);
     if (result != LOBE_OK)
@@ -95,6 +117,8 @@ void lobe_texture_destroy(lobe_texture **texture) {
     lobe_device *device = (*texture)->device;
     // A device that is lost has finished, too.
     (void)engine_device_wait_all(device);
+    vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
+    vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
     vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
     engine_memory_free(device->memory, &(*texture)->allocation);
     free((*texture)->name);

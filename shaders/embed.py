@@ -133,7 +133,9 @@ def main():
     arguments = parse_arguments()
     folders = [arguments.folder.resolve(), *(path.resolve() for path in arguments.include)]
     sources = [path for path in sorted(folders[0].iterdir()) if path.suffix in STAGES]
-    shaders = [shader for path in sources for shader in variants(folders[0], path)]
+    # The library finds them by halving.
+    shaders = sorted((shader for path in sources for shader in variants(folders[0], path)),
+                     key=lambda shader: shader.name)
     with tempfile.TemporaryDirectory() as scratch, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         futures = [pool.submit(compile_shader, arguments, folders[0], folders, shader,

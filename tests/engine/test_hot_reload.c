@@ -16,6 +16,7 @@
 static const char *const file_names[] = {"main.comp", "lib/value.glsl", "filters/plain.glsl"};
 
 static const engine_shader_code codes[] = {
+    {.name = "absent.comp", .source = "absent.comp", .definitions = "", .substitute = ""},
     {.name = "main_plain.comp",
      .source = "main.comp",
      .definitions = "",
@@ -24,7 +25,6 @@ static const engine_shader_code codes[] = {
      .source = "main.comp",
      .definitions = "WIDE EXTRA",
      .substitute = "filters/plain.glsl"},
-    {.name = "absent.comp", .source = "absent.comp", .definitions = "", .substitute = ""},
 };
 
 static log_recorder recorder;

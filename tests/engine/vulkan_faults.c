@@ -25,6 +25,17 @@ static bool fails(const char *name) {
             return faults.fault;                                                                   \
         VkResult result = REAL(name) arguments;                                                    \
         faults.alive += result == VK_SUCCESS;                                                      \
+        faults.made += result == VK_SUCCESS;                                                       \
+        return result;                                                                             \
+    }
+
+/// What is taken from a pool goes with it.
+#define TAKES(name, parameters, arguments)                                                         \
+    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
+        if (fails(#name))                                                                          \
+            return faults.fault;                                                                   \
+        VkResult result = REAL(name) arguments;                                                    \
+        faults.made += result == VK_SUCCESS;                                                       \
         return result;                                                                             \
     }
 
@@ -93,12 +104,12 @@ VKAPI_ATTR void VKAPI_CALL vkDestroyDevice(VkDevice gone, const VkAllocationCall
     REAL(vkDestroyDevice)(gone, callbacks);
 }
 
-FALLIBLE(vkAllocateCommandBuffers,
-         (VkDevice device, const VkCommandBufferAllocateInfo *allocate, VkCommandBuffer *made),
-         (device, allocate, made))
-FALLIBLE(vkAllocateDescriptorSets,
-         (VkDevice device, const VkDescriptorSetAllocateInfo *allocate, VkDescriptorSet *made),
-         (device, allocate, made))
+TAKES(vkAllocateCommandBuffers,
+      (VkDevice device, const VkCommandBufferAllocateInfo *allocate, VkCommandBuffer *made),
+      (device, allocate, made))
+TAKES(vkAllocateDescriptorSets,
+      (VkDevice device, const VkDescriptorSetAllocateInfo *allocate, VkDescriptorSet *made),
+      (device, allocate, made))
 FALLIBLE(vkBeginCommandBuffer, (VkCommandBuffer commands, const VkCommandBufferBeginInfo *begin),
          (commands, begin))
 FALLIBLE(vkEndCommandBuffer, (VkCommandBuffer commands), (commands))
