@@ -14,6 +14,7 @@
 #include "engine/graph_retain.h"
 #include "engine/graph_signature.h"
 #include "engine/graph_traffic.h"
+#include "engine/host_clock.h"
 #include "engine/vulkan_check.h"
 
 #define LINE_SIZE 1024
@@ -138,11 +139,13 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
 lobe_result lobe_graph_compile(lobe_graph *graph) {
     if (graph->phase != ENGINE_GRAPH_DECLARING || graph->result != LOBE_OK)
         return graph->result;
+    const double start = engine_host_milliseconds();
     for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
         lobe_result result = compile_steps[n](graph);
         if (result != LOBE_OK)
             return engine_graph_propagate(graph, result);
     }
+    graph->report.host_milliseconds = engine_host_milliseconds() - start;
     graph->phase = ENGINE_GRAPH_COMPILED;
     return LOBE_OK;
 }

@@ -9,6 +9,7 @@
 #include "engine/graph_memory.h"
 #include "engine/graph_report.h"
 #include "engine/graph_retain.h"
+#include "engine/host_clock.h"
 #include "engine/vulkan_check.h"
 
 /// Copies of images start at multiples of the texel size, of which this is the largest.
@@ -132,9 +133,11 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
 }
 
 lobe_result engine_graph_run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    const double start = engine_host_milliseconds();
     lobe_result result = prepare(graph);
     if (result == LOBE_OK)
         result = record(graph, submission ? submission->commands : VK_NULL_HANDLE);
+    graph->report.host_milliseconds += engine_host_milliseconds() - start;
     if (result == LOBE_OK)
         result = submit(graph, submission);
     graph->phase = result == LOBE_OK ? ENGINE_GRAPH_SUBMITTED : ENGINE_GRAPH_EXECUTED;

@@ -18,6 +18,22 @@ static bool is_placed(const lobe_graph *graph, uint32_t index) {
            graph->dependencies.resources[index].first_position != ENGINE_DEPENDENCY_NONE;
 }
 
+/// Which of the transients before this one are alive at some time when it is: all that the places
+/// of both depend on.
+static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, uint32_t index) {
+    const engine_dependency_resource *resources = graph->dependencies.resources;
+    uint32_t rank = 0;
+    for (uint32_t n = 0; n < index; n++) {
+        if (!is_placed(graph, n))
+            continue;
+        rank++;
+        if (resources[n].first_position <= resources[index].last_position &&
+            resources[index].first_position <= resources[n].last_position)
+            stamp = engine_stamp_mix(stamp, rank);
+    }
+    return stamp;
+}
+
 static engine_stamp plan_stamp(const lobe_graph *graph) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, 0);
     for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
@@ -29,8 +45,7 @@ static engine_stamp plan_stamp(const lobe_graph *graph) {
         stamp = engine_stamp_mix(stamp, dependency->identity);
         stamp = engine_stamp_mix(stamp, resource->usage);
         stamp = engine_stamp_mix(stamp, resource->cube);
-        stamp = engine_stamp_mix(stamp, dependency->first_position);
-        stamp = engine_stamp_mix(stamp, dependency->last_position);
+        stamp = mix_neighbours(stamp, graph, n);
     }
     return stamp;
 }

@@ -17,7 +17,7 @@ typedef struct time_series {
 
 struct lobe_profile {
     lobe_log log;
-    time_series frame;
+    time_series frame, host;
     time_series *passes;
     uint32_t pass_count, pass_capacity;
     lobe_profile_times *times; ///< of the passes, for the last summary
@@ -37,6 +37,7 @@ lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile) {
     if (log)
         (*profile)->log = *log;
     (*profile)->frame.name = "frame";
+    (*profile)->host.name = "host";
     return LOBE_OK;
 }
 
@@ -50,6 +51,7 @@ void lobe_profile_destroy(lobe_profile **profile) {
     }
     free(gone->passes);
     free(gone->frame.milliseconds);
+    free(gone->host.milliseconds);
     free(gone->times);
     free(gone->scratch);
     free(gone);
@@ -93,7 +95,7 @@ static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
     for (uint32_t n = 0; n < profile->pass_count; n++)
         if (!make_room_for_run(&profile->passes[n]))
             return false;
-    return make_room_for_run(&profile->frame);
+    return make_room_for_run(&profile->frame) && make_room_for_run(&profile->host);
 }
 
 static void add_time(time_series *series, double milliseconds) {
@@ -110,7 +112,8 @@ lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *rep
         if (report->passes[n].state == LOBE_PASS_RUN)
             add_time(find_pass(profile, report->passes[n].name), report->passes[n].milliseconds);
     add_time(&profile->frame, report->milliseconds);
-    profile->frame.running = false;
+    add_time(&profile->host, report->host_milliseconds);
+    profile->frame.running = profile->host.running = false;
     for (uint32_t n = 0; n < profile->pass_count; n++)
         profile->passes[n].running = false;
     return LOBE_OK;
@@ -156,7 +159,8 @@ static lobe_result reserve_results(lobe_profile *profile) {
 }
 
 lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary) {
-    *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name}};
+    *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name},
+                                      .host = {.name = profile->host.name}};
     if (profile->frame.runs == 0)
         return LOBE_OK;
     lobe_result result = reserve_results(profile);
@@ -168,5 +172,6 @@ lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary 
         if (profile->passes[n].runs > 0)
             profile->times[summary->pass_count++] = times_of(profile, &profile->passes[n], whole);
     summary->frame = times_of(profile, &profile->frame, whole);
+    summary->host = times_of(profile, &profile->host, 0.0);
     return LOBE_OK;
 }

@@ -21,6 +21,7 @@ static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name) {
 
 bool pass_times_add(lobe_frame *frame, const lobe_graph_report *report) {
     frame->milliseconds += report->milliseconds;
+    frame->host_milliseconds += report->host_milliseconds;
     ++frame->submissions;
     for (size_t i = 0; i < report->pass_count; ++i) {
         if (report->passes[i].state != LOBE_PASS_RUN)

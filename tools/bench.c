@@ -406,9 +406,10 @@ static int run(int argc, char **argv) {
         .operands = "SCENE...",
         .summary =
             "Measures filters in scenes: milliseconds of each pass, of frames in which every map\n"
-            "is built again and of frames that find their maps ready; memory; and the error\n"
-            "against a reference of many samples, once as the scene is, and once with its base\n"
-            "lobes turned into von Mises-Fisher lobes, which leaves the error of filtering alone.\n"
+            "is built again and of frames that find their maps ready; CPU time of the host to\n"
+            "compile and record a frame; memory; and the error against a reference of many\n"
+            "samples, once as the scene is, and once with its base lobes turned into von\n"
+            "Mises-Fisher lobes, which leaves the error of filtering alone.\n"
             "Frames of the filters take turns. Where the filter reference is measured itself, it\n"
             "takes 64 samples a pixel. Scenes whose assets are missing are left out.",
         .options = options,

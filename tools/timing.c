@@ -10,8 +10,10 @@ lobe_result timing_add(lobe_profile *profile, const lobe_frame *frame, const lob
         passes[i] = (lobe_pass_report){.name = frame->passes[i].name,
                                        .state = LOBE_PASS_RUN,
                                        .milliseconds = frame->passes[i].milliseconds};
-    const lobe_graph_report report = {
-        .passes = passes, .pass_count = frame->pass_count, .milliseconds = frame->milliseconds};
+    const lobe_graph_report report = {.passes = passes,
+                                      .pass_count = frame->pass_count,
+                                      .milliseconds = frame->milliseconds,
+                                      .host_milliseconds = frame->host_milliseconds};
     const lobe_result result = lobe_profile_add(profile, &report);
     free(passes);
     return result;

@@ -3,54 +3,70 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <lobe/vulkan.h>
 
+#include "engine/host_clock.h"
 #include "tests/engine/graph_frame.h"
 #include "tests/engine/test_shaders.h"
 
-enum { BEGUN_AND_DECLARED, COMPILED, SUBMITTED, PARTS };
+#define SETTLING 10 ///< frames that are not counted
+#define FRAMES   2000
 
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
-}
+enum { DECLARE, COMPILE, RECORD, SUBMIT, PARTS };
+static const char *const part_names[PARTS] = {"declare", "compile", "record", "submit"};
 
 static int compare(const void *a, const void *b) {
     double first = *(const double *)a, second = *(const double *)b;
     return (first > second) - (first < second);
 }
 
-int main(int argc, char **argv) {
-    static double parts[PARTS][100000];
-    const int frames = argc > 1 ? atoi(argv[1]) : 1000;
-    lobe_device *device;
-    graph_frame frame;
-    if (lobe_device_create(NULL, &device) || add_test_shaders(device) ||
-        graph_frame_open(device, &frame))
-        return 1;
-    for (int n = -10; n < frames; n++) {
-        double times[PARTS + 1] = {now()};
-        frame.time = (float)n;
-        graph_frame_declare(&frame);
-        times[1] = now();
-        if (lobe_graph_compile(frame.graph))
-            return 1;
-        times[2] = now();
-        if (lobe_graph_submit(frame.graph, &(lobe_vulkan_submission){0}))
-            return 1;
-        times[3] = now();
-        lobe_graph_wait(frame.graph);
+static lobe_result measure_frame(graph_frame *frame, double times[PARTS]) {
+    const lobe_graph_report *report = lobe_graph_describe(frame->graph);
+    const double start = engine_host_milliseconds();
+    graph_frame_declare(frame);
+    const double declared = engine_host_milliseconds();
+    lobe_result result = lobe_graph_compile(frame->graph);
+    const double compiled = engine_host_milliseconds();
+    times[DECLARE] = declared - start;
+    times[COMPILE] = report->host_milliseconds;
+    if (result == LOBE_OK)
+        result = lobe_graph_submit(frame->graph, &(lobe_vulkan_submission){0});
+    times[RECORD] = report->host_milliseconds - times[COMPILE];
+    times[SUBMIT] = engine_host_milliseconds() - compiled - times[RECORD];
+    return result == LOBE_OK ? lobe_graph_wait(frame->graph) : result;
+}
+
+static lobe_result measure(graph_frame *frame) {
+    static double times[PARTS][FRAMES];
+    lobe_result result = LOBE_OK;
+    for (int n = -SETTLING; result == LOBE_OK && n < FRAMES; n++) {
+        double parts[PARTS];
+        frame->time = (float)n;
+        result = measure_frame(frame, parts);
         for (int part = 0; n >= 0 && part < PARTS; part++)
-            parts[part][n] = times[part + 1] - times[part];
+            times[part][n] = parts[part];
     }
-    for (int part = 0; part < PARTS; part++)
-        qsort(parts[part], (size_t)frames, sizeof **parts, compare);
-    printf("declare %.3f ms, compile %.3f ms, record and submit %.3f ms\n", parts[0][frames / 2],
-           parts[1][frames / 2], parts[2][frames / 2]);
+    printf("%d passes, median of %d frames:", GRAPH_FRAME_PASSES, FRAMES);
+    for (int part = 0; part < PARTS; part++) {
+        qsort(times[part], FRAMES, sizeof **times, compare);
+        printf(" %s %.3f ms", part_names[part], times[part][FRAMES / 2]);
+    }
+    printf("\n");
+    return result;
+}
+
+int main(void) {
+    lobe_device *device;
+    graph_frame frame = {0};
+    lobe_result result = lobe_device_create(NULL, &device);
+    if (result == LOBE_OK)
+        result = add_test_shaders(device);
+    if (result == LOBE_OK)
+        result = graph_frame_open(device, &frame);
+    if (result == LOBE_OK)
+        result = measure(&frame);
     graph_frame_close(&frame);
     lobe_device_destroy(&device);
-    return 0;
+    return result != LOBE_OK;
 }

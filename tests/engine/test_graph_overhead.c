@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "engine/growing_array.h"
+#include "engine/host_clock.h"
 #include "tests/engine/graph_frame.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/test_shaders.h"
@@ -141,6 +141,17 @@ static void frames_in_flight_take_nothing(void **state) {
     check_steady(&f->frame, 1.0f);
 }
 
+static void the_times_of_the_host_are_its_own(void **state) {
+    fixture *f = *state;
+    const lobe_graph_report *report = lobe_graph_describe(f->frame.graph);
+    for (int n = 0; n < 2; n++) {
+        double start = engine_host_milliseconds();
+        run_frame(&f->frame, (float)n);
+        assert_true(report->host_milliseconds > 0.0);
+        assert_true(report->host_milliseconds < engine_host_milliseconds() - start);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_first_frame_is_counted, open_fixture, close_fixture),
@@ -149,6 +160,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(frames_of_the_same_content_take_nothing, open_fixture,
                                         close_fixture),
         cmocka_unit_test_setup_teardown(frames_in_flight_take_nothing, open_fixture, close_fixture),
+        cmocka_unit_test_setup_teardown(the_times_of_the_host_are_its_own, open_fixture,
+                                        close_fixture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

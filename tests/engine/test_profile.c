@@ -17,8 +17,10 @@ static int destroy(void **state) {
 }
 
 static void add(const lobe_pass_report *passes, size_t count, double milliseconds) {
-    const lobe_graph_report report = {
-        .passes = passes, .pass_count = count, .milliseconds = milliseconds};
+    const lobe_graph_report report = {.host_milliseconds = 0.75 * milliseconds,
+                                      .passes = passes,
+                                      .pass_count = count,
+                                      .milliseconds = milliseconds};
     assert_int_equal(lobe_profile_add(profile, &report), LOBE_OK);
 }
 
@@ -28,6 +30,7 @@ static void no_frame_no_statistics(void **state) {
     assert_int_equal(lobe_profile_statistics(profile, &summary), LOBE_OK);
     assert_int_equal(summary.frame.runs, 0);
     assert_true(summary.frame.median_milliseconds == 0.0);
+    assert_int_equal(summary.host.runs, 0);
     assert_int_equal(summary.pass_count, 0);
 }
 
@@ -47,6 +50,9 @@ static void median_and_percentile_of_a_known_series(void **state) {
     assert_true(summary.frame.median_milliseconds == 101.0);
     assert_true(summary.frame.p95_milliseconds == 190.0);
     assert_float_equal(summary.frame.share, 1.0, 1e-12);
+    assert_true(summary.host.median_milliseconds == 0.75 * 101.0);
+    assert_true(summary.host.p95_milliseconds == 0.75 * 190.0);
+    assert_int_equal(summary.host.runs, 100);
 }
 
 static void one_frame_is_its_own_median(void **state) {

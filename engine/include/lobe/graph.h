@@ -17,8 +17,10 @@ extern "C" {
 /// A render graph: the passes of one frame and the resources they read and write.
 ///
 /// Each frame is declared anew: lobe_graph_begin, resources, passes, outputs, then
-/// lobe_graph_execute. Declaring is cheap; pipelines, descriptor layouts, memory and retained
-/// resources are kept from frame to frame. The first mistake in a declaration is remembered, its
+/// lobe_graph_execute. Declaring is cheap; pipelines, descriptor sets, memory and retained
+/// resources are kept from frame to frame: one that is declared like the last, whatever it uploads,
+/// takes no memory of the host and makes nothing of Vulkan's, but for views of images of the host.
+/// The first mistake in a declaration is remembered, its
 /// line (naming pass and resource) goes to the log, later declarations become no-ops, and
 /// compile or execute return its code: call sites need not check each step.
 ///
@@ -294,7 +296,10 @@ typedef struct lobe_pass_report {
 typedef struct lobe_graph_report {
     const lobe_pass_report *passes; ///< in order of execution, then those that did not run
     size_t pass_count;
-    double milliseconds;      ///< device time of the whole frame, first to last timestamp
+    double milliseconds; ///< device time of the whole frame, first to last timestamp
+    /// CPU time of the calling thread to compile the frame and to record its commands; waiting does
+    /// not count.
+    double host_milliseconds;
     uint64_t transient_bytes; ///< memory of transient resources, aliased
     uint64_t transient_bytes_without_aliasing;
     uint64_t retained_bytes;

@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/// Device times of passes over many frames, gathered from the reports of executed graphs.
+/// Times of frames and their passes over many frames, gathered from the reports of executed graphs:
+/// of the device, but for `host`.
 /// Not thread-safe: one profile, one thread.
 typedef struct lobe_profile lobe_profile;
 
@@ -39,6 +40,7 @@ typedef struct lobe_profile_summary {
     const lobe_profile_times *passes; ///< all that ran at least once, in order of appearance
     size_t pass_count;
     lobe_profile_times frame; ///< whole frames
+    lobe_profile_times host;  ///< CPU time to compile and record whole frames; no share
 } lobe_profile_summary;
 
 /// Statistics of all frames so far; with none, all is 0. Pointers live until the next call with

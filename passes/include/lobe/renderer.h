@@ -156,9 +156,10 @@ typedef struct lobe_frame {
     /// RG32_FLOAT: lobes evaluated, and MIP level of the filtered maps (0: the maps themselves).
     /// Empty unless asked for.
     lobe_image lobes_level;
-    double milliseconds;    ///< device time of all submissions
-    uint32_t submissions;   ///< how many frames of the graph it took
-    lobe_pass_time *passes; ///< those that ran, in order of their first run
+    double milliseconds;      ///< device time of all submissions
+    double host_milliseconds; ///< CPU time to compile and record them: see lobe_graph_report
+    uint32_t submissions;     ///< how many frames of the graph it took
+    lobe_pass_time *passes;   ///< those that ran, in order of their first run
     size_t pass_count;
     /// Size of the maps that the filter built: device bytes, and texels of the base maps they
     /// stand for. Their ratio is the memory a filter costs a texel.

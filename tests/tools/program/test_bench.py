@@ -34,15 +34,17 @@ def check_error(error):
 
 
 def check_result(result):
-    check_keys(result, "scene", "filter", "size", "knobs", "passes", "rebuilt_ms", "retained_ms",
+    times = ("rebuilt_ms", "retained_ms", "rebuilt_host_ms", "retained_host_ms")
+    check_keys(result, "scene", "filter", "size", "knobs", "passes", *times,
                "memory_bytes", "bytes_per_texel", "error", "error_lobe_base")
     check(result["size"] == [48, 32], str(result["size"]))
     check(result["passes"], "no passes")
     for one in result["passes"]:
         check(sorted(one) == ["median_ms", "name", "p95_ms"], str(one))
         check_quantiles(one, "median_ms", "p95_ms")
-    for name in ("rebuilt_ms", "retained_ms"):
+    for name in times:
         check(sorted(result[name]) == ["median", "p95"], str(result[name]))
+        check(result[name]["median"] > 0, f"{name} takes no time")
         check_quantiles(result[name], "median", "p95")
     check(is_number(result["memory_bytes"], 1), "memory")
     check(is_number(result["bytes_per_texel"]), "bytes per texel")
