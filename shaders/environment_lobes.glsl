@@ -126,7 +126,8 @@ float mean_half_cosine(direction_lobe lobe, vec3 outgoing) {
     float spread = a * a + b * b;
     // A broad lobe's mean direction is shorter than one: R(kappa), 1 - 1/(2 kappa) - ... each way.
     float resultant = mean_resultant_length(1.0 / max(lobe_variance(lobe), 1e-8));
-    return mean_above_zero(resultant * dot(lobe.axis, outgoing), sqrt(spread));
+    // No direction's height varies by more than that of all directions.
+    return mean_above_zero(resultant * dot(lobe.axis, outgoing), sqrt(min(spread, 1.0 / 3.0)));
 }
 
 vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) {
@@ -144,10 +145,18 @@ vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) 
 // ---------------------------------------------------------------------------------------------
 // Microfacets, about a normal of their own
 
+// Where the lobe is broader than base lobes of this parameter, it is that by normals which point
+// apart. With both Gaussian, the mean normal of those that reflect about a half vector lies between
+// the axis and that: [0, 1].
+float spread_of_normals(direction_lobe lobe, float parameter) {
+    float base = 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
+    return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
+}
+
 vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                          float parameter) {
-    vec3 normal = lobe.shape.axis;
-    float outgoing_cosine = max(dot(normal, surface.outgoing), 1e-3);
+    float spread = spread_of_normals(lobe.shape, parameter);
+    float mean_cosine = dot(lobe.shape.axis, surface.outgoing);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
@@ -155,6 +164,8 @@ vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, v
             half_vector_sample point = sample_of(lobe, j, k);
             float half_cosine = dot(surface.outgoing, point.half_vector);
             vec3 incoming = 2.0 * half_cosine * point.half_vector - surface.outgoing;
+            vec3 normal = normalize(mix(lobe.shape.axis, point.half_vector, spread));
+            float outgoing_cosine = max(dot(normal, surface.outgoing), 1e-3);
             float visible = masking_shadowing(DISTRIBUTION, dot(normal, incoming), outgoing_cosine,
                                               parameter);
             float scale = max(half_cosine, 0.0) /
@@ -165,7 +176,7 @@ vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, v
             weights += point.weight;
         }
     }
-    return sum * (scattering_scale(f0, outgoing_cosine, parameter) / weights);
+    return sum * (scattering_scale(f0, mean_cosine, parameter) / weights);
 }
 
 // Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, what is reflected of

@@ -236,6 +236,38 @@ static void the_reference_is_unbiased(void **state) {
     }
 }
 
+/// A mirror, lobes as broad as can be and as sharp, normals that lean far: never more light than
+/// the environment has, nor anything that is no number.
+static void extreme_lobes_stay_finite(void **state) {
+    static const char *const filters[] = {"direct", "lobes", "moments"};
+    static const float widths[] = {0, 1, 1e6f};
+    for (int i = 0; i < 5; i++) {
+        bool microfacets = i < 2;
+        lobe_material material = microfacets
+                                     ? metal((float)i)
+                                     : half_vector_material(LOBE_DISTRIBUTION_VMF, widths[i - 2]);
+        lobe_scene *scene = scene_begin();
+        material.normal_map = scene_add_map(scene, random_normal_map(8, 8, 1.5, 3));
+        scene_add_square(scene, &material, 4, NULL);
+        scene_surround(scene, 16, white);
+        scene_look_from(scene, (double[]){1, 0.15, 0}, 0.3);
+        scene_end(scene);
+        for (int filter = 0; filter < 3; filter++) {
+            for (int method = PREFILTERED; method < METHODS; method++) {
+                lobe_frame frame =
+                    draw_by(*state, scene, filters[filter], methods[method], NULL, 4);
+                // Half-vector lobes reflect up to four times what they see.
+                double most = microfacets ? 1.1 : 4.1;
+                if (!all_finite(&frame.radiance) || largest_value(&frame.radiance) > most)
+                    fail_msg("material %d, %s, %s: up to %g", i, filters[filter], methods[method],
+                             largest_value(&frame.radiance));
+                lobe_frame_free(&frame);
+            }
+        }
+        lobe_scene_destroy(&scene);
+    }
+}
+
 // ---------------------------------------------------------------------------------------------
 // Knobs
 
@@ -444,6 +476,7 @@ int main(void) {
         cmocka_unit_test(microfacets_agree_with_the_exact_sum),
         cmocka_unit_test(half_vector_lobes_agree_with_the_exact_sum),
         cmocka_unit_test(the_reference_is_unbiased),
+        cmocka_unit_test(extreme_lobes_stay_finite),
         cmocka_unit_test(rotation_turns_the_environment),
         cmocka_unit_test(nothing_comes_from_below_the_horizon),
         cmocka_unit_test(occlusion_takes_its_part),
