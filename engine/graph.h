@@ -179,7 +179,7 @@ typedef struct engine_graph_flight {
     engine_allocation upload_memory;
     uint64_t upload_size;
     engine_staging read_back;
-    engine_graph_view *views; ///< of images of the host
+    engine_graph_view *views; ///< of images of the host that came without
     VkDescriptorPool descriptors;
     uint32_t descriptor_capacity[5]; ///< sets, then by type
     VkDescriptorSet *sets;           ///< of the pool, in the order of the commands

@@ -5,6 +5,8 @@
 
 #include "engine/vulkan_check.h"
 
+#include <lobe/vulkan.h>
+
 static lobe_result create_image(lobe_device *device, const engine_graph_resource *resource,
                                 engine_graph_object *object, VkMemoryRequirements *requirements) {
     engine_image_parameters parameters = {
@@ -89,17 +91,21 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
     return LOBE_OK;
 }
 
-/// One that lives as long as the image, whoever made it; none where there is no such view.
-static VkImageView lasting_view(const engine_graph_resource *resource, VkImageViewType type) {
-    const lobe_texture *texture = resource->texture;
-    if (!texture)
-        return VK_NULL_HANDLE;
-    return type == VK_IMAGE_VIEW_TYPE_2D ? texture->view : texture->array_view;
+/// The view that came with an image from outside; none where it has no such view.
+static VkImageView given_view(const engine_graph_resource *resource, VkImageViewType type,
+                              const lobe_range *range) {
+    const lobe_range first = {.level_count = 1, .layer_count = 1};
+    bool plain = type == VK_IMAGE_VIEW_TYPE_2D;
+    if (resource->texture)
+        return plain ? resource->texture->view : resource->texture->array_view;
+    if (resource->host && plain && memcmp(range, &first, sizeof first) == 0)
+        return resource->host->view;
+    return VK_NULL_HANDLE;
 }
 
 lobe_result engine_graph_view_of(lobe_device *device, const engine_graph_resource *resource,
                                  VkImageViewType type, const lobe_range *range, VkImageView *view) {
-    *view = lasting_view(resource, type);
+    *view = given_view(resource, type, range);
     if (*view)
         return LOBE_OK;
     for (const engine_graph_view *known = resource->object->views; known; known = known->next)

@@ -182,6 +182,14 @@ static lobe_resource draw_all(graph_frame *frame) {
     return last;
 }
 
+static void draw_into_target(graph_frame *frame) {
+    lobe_resource target = lobe_graph_import_image(frame->graph, frame->target);
+    lobe_pass *pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_RASTER, "target");
+    target = lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = target});
+    draw_triangles(frame, pass);
+    lobe_graph_output(frame->graph, target);
+}
+
 // ---------------------------------------------------------------------------------------------
 
 void graph_frame_declare(graph_frame *frame) {
@@ -193,4 +201,6 @@ void graph_frame_declare(graph_frame *frame) {
     lobe_graph_output(graph, build_chain(frame, "kept chain", true));
     lobe_graph_output(graph, sum_textures(frame));
     lobe_graph_read_back(graph, draw_all(frame), (lobe_range){0});
+    if (frame->target)
+        draw_into_target(frame);
 }

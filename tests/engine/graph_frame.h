@@ -2,7 +2,7 @@
 #define TESTS_GRAPH_FRAME_H
 
 #include <lobe/device.h>
-#include <lobe/graph.h>
+#include <lobe/vulkan.h>
 
 /// A frame such as a renderer declares, of everything that a graph has: compute passes along MIP
 /// chains and from buffer to buffer, sums over frames, raster passes of many draws, transfers; on
@@ -17,8 +17,9 @@ typedef struct graph_frame {
     lobe_graph *graph;
     lobe_texture *textures[GRAPH_FRAME_TEXTURES];
     lobe_buffer *vertices, *indices;
-    float time;         ///< uploaded: what depends on it is computed anew
-    lobe_resource mean; ///< read back: a buffer of 64 floats, `time` + 16 + n
+    const lobe_vulkan_image *target; ///< where one more pass draws; NULL: none
+    float time;                      ///< uploaded: what depends on it is computed anew
+    lobe_resource mean;              ///< read back: a buffer of 64 floats, `time` + 16 + n
 } graph_frame;
 
 lobe_result graph_frame_open(lobe_device *device, graph_frame *frame);

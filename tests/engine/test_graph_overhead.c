@@ -7,6 +7,7 @@
 
 #include "engine/host_clock.h"
 #include "tests/engine/graph_frame.h"
+#include "tests/engine/host_device.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/test_shaders.h"
 #include "tests/engine/vulkan_faults.h"
@@ -141,6 +142,56 @@ static void frames_in_flight_take_nothing(void **state) {
     check_steady(&f->frame, 1.0f);
 }
 
+static void images_of_the_host_with_views_take_nothing(void **state) {
+    fixture *f = *state;
+    host_device host = {0};
+    lobe_vulkan_export_device(f->device, &host.vulkan);
+    host_image image = host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, 8, 8,
+                                         VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    const VkImageViewCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image.image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = image.format,
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+    };
+    lobe_vulkan_image target = {.image = image.image,
+                                .format = image.format,
+                                .width = 8,
+                                .height = 8,
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
+    assert_int_equal(vkCreateImageView(host.vulkan.device, &create, NULL, &target.view), 0);
+    f->frame.target = &target;
+    check_steady(&f->frame, 1.0f);
+    vkDestroyImageView(host.vulkan.device, target.view, NULL);
+    host_image_destroy(&host, &image);
+}
+
+/// A retained pass that comes and goes before them moves transients in time, but not in memory.
+static void what_lies_the_same_way_is_kept(void **state) {
+    fixture *f = *state;
+    lobe_graph *graph = f->frame.graph;
+    for (int n = 0; n < SETTLING + STEADY; n++) {
+        if (n == SETTLING)
+            faults.made = 0;
+        const float half = (float)(n / 2);
+        lobe_graph_begin(graph);
+        lobe_resource kept = lobe_graph_buffer(
+            graph, &(lobe_buffer_description){.name = "kept", .size = 16, .retained = true});
+        lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "retained");
+        kept = lobe_pass_fill(pass, kept, (lobe_range){0}, (float[4]){half});
+        lobe_resource copy =
+            lobe_graph_buffer(graph, &(lobe_buffer_description){.name = "copy", .size = 16});
+        pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "copy");
+        copy = lobe_pass_copy(pass, kept, (lobe_range){0}, copy, (lobe_range){0});
+        lobe_graph_read_back(graph, copy, (lobe_range){0});
+        assert_int_equal(lobe_graph_execute(graph), LOBE_OK);
+        assert_int_equal(count_passes(graph, LOBE_PASS_SKIPPED), n % 2);
+        assert_true(*(const float *)lobe_graph_data(graph, copy, NULL) == half);
+    }
+    assert_int_equal(faults.made, 0);
+}
+
 static void the_times_of_the_host_are_its_own(void **state) {
     fixture *f = *state;
     const lobe_graph_report *report = lobe_graph_describe(f->frame.graph);
@@ -160,6 +211,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(frames_of_the_same_content_take_nothing, open_fixture,
                                         close_fixture),
         cmocka_unit_test_setup_teardown(frames_in_flight_take_nothing, open_fixture, close_fixture),
+        cmocka_unit_test_setup_teardown(images_of_the_host_with_views_take_nothing, open_fixture,
+                                        close_fixture),
+        cmocka_unit_test_setup_teardown(what_lies_the_same_way_is_kept, open_fixture,
+                                        close_fixture),
         cmocka_unit_test_setup_teardown(the_times_of_the_host_are_its_own, open_fixture,
                                         close_fixture),
     };

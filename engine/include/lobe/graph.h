@@ -19,7 +19,8 @@ extern "C" {
 /// Each frame is declared anew: lobe_graph_begin, resources, passes, outputs, then
 /// lobe_graph_execute. Declaring is cheap; pipelines, descriptor sets, memory and retained
 /// resources are kept from frame to frame: one that is declared like the last, whatever it uploads,
-/// takes no memory of the host and makes nothing of Vulkan's, but for views of images of the host.
+/// takes no memory of the host and makes nothing of Vulkan's, but for views of images of the host
+/// that come without.
 /// The first mistake in a declaration is remembered, its
 /// line (naming pass and resource) goes to the log, later declarations become no-ops, and
 /// compile or execute return its code: call sites need not check each step.

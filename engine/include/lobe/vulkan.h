@@ -139,6 +139,9 @@ struct lobe_vulkan_image {
     VkImageLayout final_layout;
     VkPipelineStageFlags2 final_stages;
     VkAccessFlags2 final_access;
+    /// Two-dimensional, of level 0 of layer 0, in the image's format and with all its usages; alive
+    /// as long as the image must be. VK_NULL_HANDLE: lobe makes one in every frame.
+    VkImageView view;
 };
 
 /// lobe's name of a format; LOBE_FORMAT_NONE where it has none.
