@@ -93,13 +93,22 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
     return LOBE_OK;
 }
 
+/// The content is still there to be read; only no longer what any pass would write.
+static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
+    for (uint32_t n = 0; n < kept->subresource_count; n++)
+        if (kept->stamps[n] != ENGINE_STAMP_NONE)
+            kept->stamps[n] = engine_stamp_mix(kept->stamps[n], engine_device_stamp(graph->device));
+}
+
 void lobe_graph_invalidate(lobe_graph *graph) {
-    // The content is still there to be read; only no longer what any pass would write.
     for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
-        for (uint32_t n = 0; n < kept->subresource_count; n++)
-            if (kept->stamps[n] != ENGINE_STAMP_NONE)
-                kept->stamps[n] =
-                    engine_stamp_mix(kept->stamps[n], engine_device_stamp(graph->device));
+        invalidate(graph, kept);
+}
+
+void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
+    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+        if (strncmp(kept->name, prefix, strlen(prefix)) != 0)
+            invalidate(graph, kept);
 }
 
 // ---------------------------------------------------------------------------------------------

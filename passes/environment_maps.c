@@ -82,7 +82,7 @@ static reduced_map declare_filtered(lobe_graph *graph, part_kind kind, uint32_t 
                                     uint32_t size) {
     static const char *const names[] = {"lobes", "lobes in between", "GGX lobes"};
     char name[64];
-    snprintf(name, sizeof name, "environment filtered with %s, %u", names[kind], set);
+    snprintf(name, sizeof name, ENVIRONMENT_MAP_PREFIX "filtered with %s, %u", names[kind], set);
     return declare_cube(graph, name, prefiltered_width(size));
 }
 
@@ -93,7 +93,7 @@ static void give(environment_maps *maps, lobe_environment_map map, const reduced
 }
 
 static reduced_map declare_radiance(lobe_graph *graph, const environment_maps_request *request) {
-    reduced_map cube = declare_cube(graph, "environment", request->size);
+    reduced_map cube = declare_cube(graph, ENVIRONMENT_MAP_PREFIX "radiance", request->size);
     cube.resource = environment_cube(graph, request->environment, request->texture, cube.resource,
                                      request->size);
     environment_reduction(graph, &cube);

@@ -7,6 +7,9 @@
 
 #include "passes/environment_restoring.h"
 
+/// What the names of all retained maps of an environment begin with.
+#define ENVIRONMENT_MAP_PREFIX "environment "
+
 /// What to make of an environment.
 typedef struct environment_maps_request {
     const lobe_environment *environment; ///< only its layout and the image's extent are looked at

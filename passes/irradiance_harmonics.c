@@ -56,7 +56,7 @@ static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32
         constants.band_factors[degree] =
             (float)(cosine_factor[degree] / (1 + lambda * squared_eigenvalue(degree)));
     lobe_resource harmonics = lobe_graph_buffer(
-        graph, &(lobe_buffer_description){"irradiance harmonics",
+        graph, &(lobe_buffer_description){"environment irradiance harmonics",
                                           sizeof(struct irradiance_harmonics), .retained = true});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "irradiance_harmonics_sum");
     lobe_pass_read(pass, &(lobe_binding){.name = "group_sums_block", .resource = sums});

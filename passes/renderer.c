@@ -5,6 +5,7 @@
 
 #include "passes/accumulation.h"
 #include "passes/device_scene.h"
+#include "passes/environment_maps.h"
 #include "passes/filter.h"
 #include "passes/host_frame.h"
 #include "passes/pass_times.h"
@@ -450,7 +451,9 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     if (result != LOBE_OK)
         return result;
     warn_of_limits(&r);
-    if (parameters->rebuild)
+    if (parameters->rebuild && parameters->keep_environment)
+        lobe_graph_invalidate_except(renderer->graph, ENVIRONMENT_MAP_PREFIX);
+    else if (parameters->rebuild)
         lobe_graph_invalidate(renderer->graph);
     result = r.context.filter->supersamples
                  ? render_reference(&r, frame)

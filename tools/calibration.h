@@ -19,8 +19,8 @@ typedef struct calibration {
 /// A short sweep of one scene: every filter over the values of its knobs, but none that
 /// supersamples; a few frames each. Says that it calibrates, and on a terminal how far it is.
 ///
-/// `*results` gets the size, samples and frames, and the rows with scene, filter, settings, times,
-/// memory and `error`, its relative L2 without the truth's noise; all else is empty. Free with
+/// `*results` gets the size, samples and frames, and the rows with scene, filter, settings, times
+/// and `error`, its relative L2 without the truth's noise; all else is empty. Free with
 /// sweep_results_free, after a failure too. Errors: LOBE_ERROR_OUT_OF_MEMORY, those of rendering.
 lobe_result calibrate(const calibration *calibration, sweep_results *results);
 

@@ -11,10 +11,19 @@
 
 enum { WIDTH = 560, HEIGHT = 400, LEFT = 62, RIGHT = 16, TOP = 12, BOTTOM = 44, LEGEND_LINE = 17 };
 
-static const double main_size = 5.2, small_size = 3.2, ring_size = 9;
+static const double main_size = 5.2, small_size = 3.2, kind_size = 4.2, ring_size = 9;
+
+static const plot_marker kind_markers[] = {PLOT_MARKER_HOLLOW, PLOT_MARKER_DOTTED,
+                                           PLOT_MARKER_BARRED};
 
 static bool is_main(const plot_scatter *plot, size_t index) {
     return plot->points[index].origin == index;
+}
+
+static double size_of_mark(const plot_scatter *plot, size_t index) {
+    if (is_main(plot, index))
+        return main_size;
+    return plot->points[index].kind > 0 ? kind_size : small_size;
 }
 
 /// What an axis can show.
@@ -38,6 +47,18 @@ static bool has_points(const plot_scatter *plot, size_t series) {
     return false;
 }
 
+/// In a line of their own.
+static void draw_kinds(FILE *page, const plot_scatter *plot, double y) {
+    double x = LEFT;
+    for (size_t i = 0; i < plot->kind_count; ++i) {
+        plot_draw_marker(page, 0, kind_markers[i], x + 6, y, kind_size);
+        fprintf(page, "<text x=\"%.2f\" y=\"%.2f\">", x + 16, y + 4);
+        html_text(page, plot->kinds[i]);
+        fputs("</text>\n", page);
+        x += legend_width(plot->kinds[i]);
+    }
+}
+
 /// Draws it unless `page` is NULL; returns its lines.
 static int draw_legend(FILE *page, const plot_scatter *plot) {
     double x = LEFT;
@@ -59,7 +80,11 @@ static int draw_legend(FILE *page, const plot_scatter *plot) {
         }
         x += width;
     }
-    return line + 1;
+    if (plot->kind_count == 0)
+        return line + 1;
+    if (page)
+        draw_kinds(page, plot, TOP + LEGEND_LINE * (line + 1));
+    return line + 2;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -88,9 +113,8 @@ static void draw_marks(FILE *page, const plot_scatter *plot, const plot_frame *f
         fputs("<g><title>", page);
         html_text(page, point->about);
         fputs("</title>", page);
-        plot_draw_marker(page, point->series, main ? PLOT_MARKER_FULL : PLOT_MARKER_HOLLOW,
-                         plot_x(frame, point->x), plot_y(frame, point->y),
-                         main ? main_size : small_size);
+        plot_draw_marker(page, point->series, main ? PLOT_MARKER_FULL : kind_markers[point->kind],
+                         plot_x(frame, point->x), plot_y(frame, point->y), size_of_mark(plot, i));
         fputs("</g>\n", page);
     }
 }
@@ -148,7 +172,7 @@ static void take_marks(plot_labels *labels, const plot_scatter *plot, const plot
         if (!is_shown(frame, point))
             continue;
         double x = plot_x(frame, point->x), y = plot_y(frame, point->y);
-        double size = is_main(plot, i) ? main_size : small_size;
+        double size = size_of_mark(plot, i);
         if (number_on_front(front, count, i))
             size = ring_size;
         plot_labels_take(labels, (plot_box){x - size, y - size, x + size, y + size});

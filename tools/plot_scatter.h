@@ -12,6 +12,7 @@ typedef struct plot_point {
     size_t series;     ///< index into the plot's
     size_t origin;     ///< the point it is a variation of; its own index: of none
     const char *about; ///< shown where a pointer rests on the mark
+    size_t kind;       ///< of a variation: index into the plot's, below 3
 } plot_point;
 
 typedef struct plot_scatter {
@@ -21,6 +22,8 @@ typedef struct plot_scatter {
     size_t series_count;
     const plot_point *points; ///< at most PLOT_MAXIMUM_POINTS
     size_t point_count;
+    const char *const *kinds; ///< names, told apart by what is in a variation's mark
+    size_t kind_count;        ///< 0: they are not
 } plot_scatter;
 
 #define PLOT_MAXIMUM_POINTS 1024

@@ -62,6 +62,12 @@ void plot_draw_marker(FILE *page, size_t series, plot_marker marker, double x, d
         fprintf(page, " fill=\"%s\" stroke=\"#fff\" stroke-width=\".8\"/>", colour);
     else
         fprintf(page, " fill=\"#fff\" stroke=\"%s\" stroke-width=\"1.2\"/>", colour);
+    if (marker == PLOT_MARKER_DOTTED)
+        fprintf(page, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\"/>", x, y, 0.4 * size,
+                colour);
+    if (marker == PLOT_MARKER_BARRED)
+        fprintf(page, "<path d=\"M%.2f %.2fh%.2f\" stroke=\"%s\" stroke-width=\"1.4\"/>", x - size,
+                y, 2 * size, colour);
 }
 
 void plot_draw_key(FILE *page, size_t series) {

@@ -20,6 +20,8 @@ const char *plot_dashes(size_t series);
 typedef enum plot_marker {
     PLOT_MARKER_FULL,
     PLOT_MARKER_HOLLOW,
+    PLOT_MARKER_DOTTED, ///< hollow, with a dot in the middle
+    PLOT_MARKER_BARRED, ///< hollow, with a bar across
 } plot_marker;
 
 /// Draws the series' mark about (x, y), `size` from its middle to its edge, in the plot's units.

@@ -43,6 +43,15 @@ static lobe_result find_filters(report *report) {
     return LOBE_OK;
 }
 
+static void leave_out_noise(sweep_results *results) {
+    for (size_t i = 0; i < results->row_count; ++i) {
+        sweep_row *row = &results->rows[i];
+        const sweep_scene *scene = sweep_results_scene(results, row->scene);
+        if (scene)
+            row->error.relative_l2 = sweep_error_without_noise(scene, row);
+    }
+}
+
 /// The page as text, to free() by the caller.
 static lobe_result write_text(report *report, char **text, size_t *size) {
     *text = NULL;
@@ -67,6 +76,7 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
     lobe_result result = sweep_results_read(request->results, &request->log, &results);
     if (result != LOBE_OK)
         return result;
+    leave_out_noise(&results);
     report report = {.results = &results,
                      .path = request->results,
                      .picture_width = request->picture_width,

@@ -17,10 +17,10 @@
 
 typedef struct report {
     FILE *page;
-    const sweep_results *results;
-    const char *path;       ///< of the results; pictures are named relative to it
-    time_t time;            ///< when the results were written
-    uint32_t picture_width; ///< pixels; wider pictures are reduced
+    const sweep_results *results; ///< errors (relative L2) without the references' noise
+    const char *path;             ///< of the results; pictures are named relative to it
+    time_t time;                  ///< when the results were written
+    uint32_t picture_width;       ///< pixels; wider pictures are reduced
     const char *filters[REPORT_MAXIMUM_FILTERS]; ///< in the order of their first rows
     size_t filter_count;
     const lobe_log *log;
@@ -43,6 +43,10 @@ void report_write_guide(const report *report);
 lobe_result report_write_pictures(const report *report, size_t scene);
 /// Errors: LOBE_ERROR_LIMIT (more rows than a plot has points), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result report_write_trade(const report *report, size_t scene);
+/// What lights the scene, where options say.
+void report_write_light(const report *report, size_t scene);
+/// Filters by methods of integrating the environment, where there is one.
+void report_write_methods(const report *report, size_t scene);
 void report_write_numbers(const report *report, size_t scene);
 void report_write_variations(const report *report, size_t scene);
 /// Errors: LOBE_ERROR_OUT_OF_MEMORY.

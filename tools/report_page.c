@@ -19,6 +19,7 @@ static lobe_result write_measured(const report *report, size_t scene) {
     if (result == LOBE_OK)
         result = report_write_pass_bars(report, scene);
     fputs("</div>\n", report->page);
+    report_write_methods(report, scene);
     report_write_numbers(report, scene);
     report_write_variations(report, scene);
     report_write_passes(report, scene);
@@ -37,6 +38,7 @@ static lobe_result write_scene(const report *report, size_t index) {
         fputs("</p>\n", report->page);
     } else {
         fprintf(report->page, "<p>%llu triangles.</p>\n", (unsigned long long)scene->triangles);
+        report_write_light(report, index);
         result = write_measured(report, index);
     }
     fputs("</section>\n", report->page);

@@ -84,6 +84,10 @@ static void draw(const report *report, size_t scene, pass_bars *bars) {
         plot_bars_draw(report->page, &plot);
     else
         fputs("<p>No passes were timed.</p>", report->page);
+    if (report->results->scenes[scene].environment)
+        fputs("<figcaption>Passes that prepare the environment are paid once, not in each frame; "
+              "retained frames have none of those that build.</figcaption>",
+              report->page);
     write_far(report, scene);
     fputs("</figure>\n", report->page);
 }
@@ -117,7 +121,9 @@ static void write_pass(const report *report, const sweep_pass *pass, const char 
     fputs("<tr>", page);
     report_filter_head(page, filter, index);
     report_text_cell(page, pass->name);
-    report_text_cell(page, pass->building ? "builds maps" : "each frame");
+    report_text_cell(page, pass->once       ? "prepares the environment, once"
+                           : pass->building ? "builds maps"
+                                            : "each frame");
     fprintf(page, "<td>%u</td>", pass->count);
     report_number_cell(page, pass->milliseconds, 4);
     report_number_cell(page, pass->bytes > 0 ? pass->bytes * 1e-6 : NAN, 4);

@@ -19,3 +19,14 @@ const char *report_varied_value(const sweep_row *row) {
     const char *value = sweep_row_value(row, row->varied);
     return value ? value : "?";
 }
+
+const char *const report_methods[REPORT_METHODS] = {"prefiltered", "mip", "sampled"};
+
+size_t report_method(const sweep_row *row) {
+    const char *value = sweep_row_value(row, "env");
+    for (size_t i = 0; value && i < REPORT_METHODS; ++i) {
+        if (strcmp(report_methods[i], value) == 0)
+            return i;
+    }
+    return 0;
+}

@@ -17,4 +17,11 @@ bool report_is_far(const char *filter);
 /// The value of the knob that a row varies; NULL in a row of the defaults.
 const char *report_varied_value(const sweep_row *row);
 
+/// Methods of integrating an environment that a sweep goes through, as the knob `env` calls them.
+#define REPORT_METHODS 3
+extern const char *const report_methods[REPORT_METHODS];
+
+/// A row's method as an index; 0 where it has none.
+size_t report_method(const sweep_row *row);
+
 #endif

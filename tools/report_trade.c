@@ -69,7 +69,8 @@ static void collect(const report *report, const char *scene, trade_rows *rows) {
     for (size_t i = 0; i < rows->count; ++i)
         rows->points[i] = (plot_point){.series = filter_index(report, rows->rows[i]->filter),
                                        .origin = find_origin(rows, i),
-                                       .about = rows->names[i]};
+                                       .about = rows->names[i],
+                                       .kind = report_method(rows->rows[i])};
 }
 
 static void write_front(const report *report, const trade *trade, const trade_rows *rows,
@@ -107,6 +108,7 @@ static void write_trade(const report *report, size_t scene, const trade *trade,
                         const trade_rows *rows) {
     char id[48];
     snprintf(id, sizeof id, "scene-%zu-%s", scene, trade->id);
+    const bool lit = report->results->scenes[scene].environment != NULL;
     const plot_scatter plot = {.id = id,
                                .title = trade->title,
                                .x_title = trade->x_title,
@@ -114,7 +116,9 @@ static void write_trade(const report *report, size_t scene, const trade *trade,
                                .series = report->filters,
                                .series_count = report->filter_count,
                                .points = rows->points,
-                               .point_count = rows->count};
+                               .point_count = rows->count,
+                               .kinds = report_methods,
+                               .kind_count = lit ? REPORT_METHODS : 0};
     for (size_t i = 0; i < rows->count; ++i) {
         rows->points[i].x = trade->cost(rows->rows[i]);
         rows->points[i].y = report_error(rows->rows[i]);

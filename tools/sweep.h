@@ -56,7 +56,7 @@ typedef struct sweep_job {
     const scene_options *opening;
     const char *knobs; ///< to go through, "a,b,c"; NULL: all
     uint32_t path_samples, stations;
-    /// Measures no more than times, memory and the error of the still picture against the truth: no
+    /// Measures no more than times and the error of the still picture against the truth: no
     /// pictures, no copies, no truth with converted base lobes; then `stations` is 0.
     bool brief;
     bool resume;

@@ -58,8 +58,7 @@ static double time_work(const sweep_job *job) {
     double work = 0;
     for (size_t i = 0; i < job->plan.count; ++i) {
         const sweep_variant *variant = &job->plan.variants[i];
-        uint32_t warm = sample_count(variant) == 1 ? 1 : 0;
-        work += bench_frames(&job->bench, &variant->filter) * (2.0 * sample_count(variant) + warm);
+        work += bench_frames(&job->bench, &variant->filter) * (2.0 * sample_count(variant) + 1);
     }
     return work;
 }
@@ -194,6 +193,7 @@ static lobe_result list_passes(const scene_run *run, const lobe_frame *built,
         sweep_pass *pass = &row->passes[i];
         snprintf(pass->name, sizeof pass->name, "%s", time->name);
         pass->count = time->count;
+        pass->milliseconds = time->milliseconds; // until its median is known
         pass->building = strcmp(time->name, "shading") != 0 && !find_pass(retained, time->name);
         // Which texels other passes fetch depends on the picture.
         pass->bytes = pass->building ? (double)(time->read_bytes + time->written_bytes) : 0;
@@ -208,8 +208,11 @@ static lobe_result measure_memory(const scene_run *run, const sweep_variant *var
     lobe_device_memory before, after;
     lobe_device_memory_reset_peak(bench->device);
     lobe_device_memory_query(bench->device, &before);
-    lobe_result result = open_renderer(run, quiet ? &run->errors : bench->log, renderer);
+    lobe_result result = LOBE_OK;
+    if (!*renderer)
+        result = open_renderer(run, quiet ? &run->errors : bench->log, renderer);
     lobe_render_parameters parameters = sweep_parameters(run->job, variant);
+    parameters.rebuild = parameters.keep_environment = true;
     parameters.samples = 1; // the memory does not depend on them
     if (result == LOBE_OK)
         result = lobe_renderer_render(*renderer, &parameters, built);
@@ -242,29 +245,30 @@ static lobe_result measure_error(const scene_run *run, const sweep_variant *vari
 }
 
 static lobe_result measure_still(const scene_run *run, const sweep_variant *variant,
-                                 sweep_row *row) {
-    lobe_renderer *renderer = NULL;
+                                 lobe_renderer **renderer, sweep_row *row) {
     lobe_frame built = {0}, still = {0};
     lobe_render_parameters parameters = sweep_parameters(run->job, variant);
     parameters.discard = false;
-    lobe_result result = measure_memory(run, variant, &renderer, row, &built);
+    lobe_result result = measure_memory(run, variant, renderer, row, &built);
     if (result == LOBE_OK)
-        result = lobe_renderer_render(renderer, &parameters, &still);
+        result = lobe_renderer_render(*renderer, &parameters, &still);
     if (result == LOBE_OK && !sweep_stopped(run->job))
         result = measure_error(run, variant, &still, row);
     if (result == LOBE_OK)
         result = list_passes(run, &built, &still, row);
     if (result == LOBE_OK)
         result =
-            sweep_path_flicker(run->job, run->scene, renderer, variant, &run->path, &row->flicker);
+            sweep_path_flicker(run->job, run->scene, *renderer, variant, &run->path, &row->flicker);
     lobe_frame_free(&still);
     lobe_frame_free(&built);
-    lobe_renderer_destroy(&renderer);
     return result;
 }
 
+/// To measure its memory each row has a renderer of its own. Brief sweeps have one for all, which
+/// prepares an environment once.
 static lobe_result measure_stills(const scene_run *run) {
     const sweep_job *job = run->job;
+    lobe_renderer *renderer = NULL;
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < job->plan.count && !sweep_stopped(job); ++i) {
         const sweep_variant *variant = &job->plan.variants[i];
@@ -272,8 +276,11 @@ static lobe_result measure_stills(const scene_run *run) {
                       job->brief ? "" : " and flicker", run->rows[i].filter, i + 1,
                       job->plan.count);
         progress_weigh(job->bench.progress, still_work(job, variant));
-        result = measure_still(run, variant, &run->rows[i]);
+        result = measure_still(run, variant, &renderer, &run->rows[i]);
+        if (!job->brief)
+            lobe_renderer_destroy(&renderer);
     }
+    lobe_renderer_destroy(&renderer);
     return result;
 }
 
@@ -307,6 +314,8 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
     const row_times *times = &run->times[index];
     lobe_render_parameters parameters = sweep_parameters(run->job, &run->job->plan.variants[index]);
     parameters.rebuild = rebuild;
+    parameters.keep_environment = true;
+    parameters.samples = keep ? parameters.samples : 1;
     lobe_frame frame;
     lobe_result result = lobe_renderer_render(renderer, &parameters, &frame);
     if (result == LOBE_OK && keep && !sweep_stopped(run->job)) {
@@ -321,13 +330,10 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
     return result;
 }
 
-/// Timed frames of one kind, after one that warms up. A supersampled frame needs none: most of it
-/// repeats itself.
+/// Timed frames of one kind, after one of one sample that warms up.
 static lobe_result time_frames(const scene_run *run, lobe_renderer *renderer, size_t index,
                                bool rebuild, uint32_t count) {
-    lobe_result result = LOBE_OK;
-    if (sample_count(&run->job->plan.variants[index]) == 1)
-        result = time_frame(run, renderer, index, rebuild, false);
+    lobe_result result = time_frame(run, renderer, index, rebuild, false);
     for (uint32_t i = 0; result == LOBE_OK && i < count; ++i)
         result = time_frame(run, renderer, index, rebuild, true);
     return result;
@@ -413,11 +419,73 @@ static lobe_result summarise(const row_times *times, sweep_row *row) {
     return result;
 }
 
+/// Passes of a frame that built all, of which frames that build maps of materials have none.
+static lobe_result mark_once(const row_times *times, sweep_row *row) {
+    lobe_profile_summary summary;
+    lobe_result result = lobe_profile_statistics(times->rebuilt, &summary);
+    for (size_t i = 0; result == LOBE_OK && i < row->pass_count; ++i) {
+        bool timed = false;
+        for (size_t k = 0; k < summary.pass_count; ++k)
+            timed = timed || strcmp(summary.passes[k].name, row->passes[i].name) == 0;
+        row->passes[i].once = row->passes[i].building && !timed;
+    }
+    return result;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+    const double first = *(const double *)a, second = *(const double *)b;
+    return (first > second) - (first < second);
+}
+
+/// Lists where rows keep the time of a pass that prepares the environment; returns how many do.
+static size_t list_once(const scene_run *run, const char *name, double **places) {
+    size_t count = 0;
+    for (size_t i = 0; i < run->job->plan.count; ++i) {
+        const sweep_row *row = &run->rows[i];
+        for (size_t k = 0; k < row->pass_count; ++k) {
+            if (row->passes[k].once && strcmp(row->passes[k].name, name) == 0)
+                places[count++] = &row->passes[k].milliseconds;
+        }
+    }
+    return count;
+}
+
+/// Rows prepare the environment alike: all get the median of them.
+static void share_median(const scene_run *run, const char *name, double **places, double *times) {
+    const size_t count = list_once(run, name, places);
+    for (size_t i = 0; i < count; ++i)
+        times[i] = *places[i];
+    qsort(times, count, sizeof *times, compare_numbers);
+    for (size_t i = 0; i < count; ++i)
+        *places[i] = 0.5 * (times[(count - 1) / 2] + times[count / 2]);
+}
+
+static lobe_result summarise_environment(const scene_run *run) {
+    double *times = calloc(run->job->plan.count, sizeof *times);
+    double **places = calloc(run->job->plan.count, sizeof *places);
+    for (size_t i = 0; times && places && i < run->job->plan.count; ++i) {
+        sweep_row *row = &run->rows[i];
+        for (size_t k = 0; k < row->pass_count; ++k) {
+            if (!row->passes[k].once)
+                continue;
+            share_median(run, row->passes[k].name, places, times);
+            row->environment_ms += row->passes[k].milliseconds;
+        }
+    }
+    const bool fits = times && places;
+    free(times);
+    free(places);
+    return fits ? LOBE_OK : out_of_memory(run);
+}
+
 static lobe_result summarise_rows(const scene_run *run) {
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; ++i) {
         result = summarise(&run->times[i], &run->rows[i]);
-    return result;
+        if (result == LOBE_OK)
+            result = mark_once(&run->times[i], &run->rows[i]);
+    }
+    return result == LOBE_OK ? summarise_environment(run) : result;
 }
 
 static lobe_result name_row(const scene_run *run, const sweep_variant *variant, const char *scene,

@@ -20,6 +20,7 @@ typedef enum member_kind {
     MEMBER_COUNT,           ///< uint32_t
     MEMBER_LONG_COUNT,      ///< uint64_t
     MEMBER_FLAG,            ///< bool
+    MEMBER_OPTIONAL_FLAG,   ///< likewise; false too where it is left out
     MEMBER_TEXT,            ///< char *, of its own
     MEMBER_OPTIONAL_TEXT,   ///< likewise; null or left out is NULL
     MEMBER_FIXED_TEXT,      ///< char[size]
@@ -68,6 +69,7 @@ static const member pass_members[] = {
     MEMBER(sweep_pass, milliseconds, MEMBER_NUMBER),
     MEMBER(sweep_pass, count, MEMBER_COUNT),
     MEMBER(sweep_pass, building, MEMBER_FLAG),
+    MEMBER(sweep_pass, once, MEMBER_OPTIONAL_FLAG),
     MEMBER(sweep_pass, bytes, MEMBER_NUMBER),
     MEMBER(sweep_pass, copy_milliseconds, MEMBER_NUMBER),
 };
@@ -94,6 +96,7 @@ static const member row_members[] = {
     MEMBER(sweep_row, retained_p95_ms, MEMBER_NUMBER),
     MEMBER(sweep_row, building_ms, MEMBER_NUMBER),
     MEMBER(sweep_row, shading_ms, MEMBER_NUMBER),
+    MEMBER(sweep_row, environment_ms, MEMBER_OPTIONAL_NUMBER),
     LIST(sweep_row, passes, pass_count, &pass_structure),
     MEMBER(sweep_row, memory_bytes, MEMBER_LONG_COUNT),
     MEMBER(sweep_row, bytes_per_texel, MEMBER_NUMBER),
@@ -202,6 +205,7 @@ static cJSON *describe_member(const member *member, const void *object) {
     case MEMBER_LONG_COUNT:
         return cJSON_CreateNumber((double)*(const uint64_t *)field);
     case MEMBER_FLAG:
+    case MEMBER_OPTIONAL_FLAG:
         return cJSON_CreateBool(*(const bool *)field);
     case MEMBER_FIXED_TEXT:
         return cJSON_CreateString(field);
@@ -356,6 +360,8 @@ static lobe_result read_member(reader *reader, const member *member, const cJSON
     char *field = (char *)object + member->offset;
     if (member->kind == MEMBER_OPTIONAL_TEXT && (!item || cJSON_IsNull(item)))
         return LOBE_OK;
+    if (member->kind == MEMBER_OPTIONAL_FLAG && !item)
+        return LOBE_OK;
     if (member->kind == MEMBER_OPTIONAL_NUMBER && !item) {
         *(double *)field = (double)NAN;
         return LOBE_OK;
@@ -371,6 +377,7 @@ static lobe_result read_member(reader *reader, const member *member, const cJSON
     case MEMBER_LONG_COUNT:
         return read_long_count(reader, item, (uint64_t *)field);
     case MEMBER_FLAG:
+    case MEMBER_OPTIONAL_FLAG:
         *(bool *)field = cJSON_IsTrue(item);
         return cJSON_IsBool(item) ? LOBE_OK : malformed(reader, "neither true nor false");
     case MEMBER_FIXED_TEXT:

@@ -22,6 +22,7 @@ typedef struct sweep_pass {
     double milliseconds; ///< median over the frames
     uint32_t count;
     bool building; ///< builds maps; else it is paid in every frame
+    bool once;     ///< prepares the environment: once, whatever maps are built
     /// Bytes that the pass must read and write, each texel once; 0 where that is not known.
     double bytes;
     /// A plain device copy that reads and writes as many bytes together, in the same run; 0: none.
@@ -43,9 +44,10 @@ typedef struct sweep_row {
     /// lobe_knob.sweep_with); "" in the row of the defaults.
     char varied[32];
     // Milliseconds, medians and 95th percentiles over the frames.
-    double rebuilt_ms, rebuilt_p95_ms;   ///< every map built in the frame
+    double rebuilt_ms, rebuilt_p95_ms;   ///< every map of materials built in the frame
     double retained_ms, retained_p95_ms; ///< no map built
     double building_ms, shading_ms;      ///< parts of rebuilt_ms: passes that build, all others
+    double environment_ms;               ///< passes that prepare the environment, in none of them
     sweep_pass *passes;                  ///< of a frame in which every map is built
     size_t pass_count;
     uint64_t memory_bytes;         ///< most device memory in use: scene, maps and frame

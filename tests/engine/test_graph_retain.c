@@ -111,6 +111,15 @@ static void invalidation_runs_all_again(void **state) {
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
 }
 
+static void invalidation_may_spare_some(void **state) {
+    graph_fixture *fixture = *state;
+    chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    lobe_graph_invalidate_except(fixture->graph, "kept");
+    assert_true(run_chain(fixture, &frame) == 7.0f);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_RUN, LOBE_PASS_SKIPPED);
+}
+
 static void what_is_not_declared_again_is_freed(void **state) {
     graph_fixture *fixture = *state;
     chain frame = {.source = {0, 5}};
@@ -358,6 +367,7 @@ int main(void) {
         TEST(unchanged_passes_are_skipped),
         TEST(only_dependents_of_a_change_run_again),
         TEST(invalidation_runs_all_again),
+        TEST(invalidation_may_spare_some),
         TEST(what_is_not_declared_again_is_freed),
         TEST(another_size_means_another_resource),
         TEST(imports_count_by_their_content),

@@ -371,6 +371,46 @@ static void rebuild_runs_everything(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+static void dusk(const double direction[3], float radiance[3]) {
+    for (int i = 0; i < 3; i++)
+        radiance[i] = (float)(1 + direction[i]);
+}
+
+static void rebuilding_materials_keeps_the_environment(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = varied_scene();
+    scene_surround(scene, 4, dusk);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    picture_request request = request_for("mipmap", "env_size=16");
+    lobe_frame frame = draw(f, &request);
+    const size_t all = count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN);
+    const char *const prepare[] = {"environment_cube",         "environment_reduction",
+                                   "environment_prefiltering", "environment_mixture",
+                                   "irradiance_harmonics",     "irradiance_harmonics_sum"};
+    size_t once = 0;
+    for (size_t i = 0; i < sizeof prepare / sizeof *prepare; i++)
+        once += count_passes(lobe_renderer_graph(f->renderer), prepare[i], LOBE_PASS_RUN);
+    lobe_frame_free(&frame);
+    const lobe_filter *filter;
+    lobe_settings settings;
+    assert_int_equal(lobe_filter_find("mipmap", NULL, &filter), LOBE_OK);
+    lobe_settings_default(filter, &settings);
+    assert_int_equal(lobe_settings_set(filter, &settings, "env_size=16", NULL), LOBE_OK);
+    lobe_render_parameters parameters = {.filter = filter,
+                                         .settings = &settings,
+                                         .width = extent,
+                                         .height = extent,
+                                         .rebuild = true,
+                                         .keep_environment = true};
+    assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
+    assert_true(once > 3 && all > once + 1);
+    assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN),
+                     all - once);
+    lobe_frame_free(&frame);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 /// A new scene with the same names does not get the maps of the old one.
 static void a_new_scene_gets_its_own_maps(void **state) {
     fixture *f = *state;
@@ -574,6 +614,7 @@ int main(void) {
         cmocka_unit_test(a_moved_camera_rebuilds_camera_space_only),
         cmocka_unit_test(knobs_of_shading_rebuild_nothing),
         cmocka_unit_test(rebuild_runs_everything),
+        cmocka_unit_test(rebuilding_materials_keeps_the_environment),
         cmocka_unit_test(a_new_scene_gets_its_own_maps),
         cmocka_unit_test(instances_share_what_they_can),
         cmocka_unit_test(absent_lights_are_compiled_out),

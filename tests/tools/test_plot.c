@@ -266,12 +266,13 @@ static void a_scatter_plot_draws_what_it_can_show(void **state) {
     const char *const series[] = {"<first>", "second", "unused"};
     const plot_point points[] = {
         {.x = 1, .y = 9, .series = 0, .origin = 0, .about = "a & b"},
-        {.x = 2, .y = 5, .series = 0, .origin = 0, .about = "c"},
+        {.x = 2, .y = 5, .series = 0, .origin = 0, .about = "c", .kind = 1},
         {.x = 3, .y = 6, .series = 1, .origin = 2, .about = "d"},
         {.x = NAN, .y = 6, .series = 1, .origin = 2, .about = "not there"},
         {.x = 3, .y = -1, .series = 1, .origin = 2, .about = "not there"},
     };
-    const plot_scatter plot = {"id", "title", "x", "y", series, 3, points, 5};
+    const char *const kinds[] = {"plain", "dotted"};
+    const plot_scatter plot = {"id", "title", "x", "y", series, 3, points, 5, kinds, 2};
     char *text;
     size_t size, front[5];
     FILE *page = open_memstream(&text, &size);
@@ -285,6 +286,8 @@ static void a_scatter_plot_draws_what_it_can_show(void **state) {
     assert_int_equal(count(text, "&lt;first&gt;"), 2);
     assert_int_equal(count(text, "not there"), 0);
     assert_int_equal(count(text, "unused"), 0);
+    assert_int_equal(count(text, ">plain<") + count(text, ">dotted<"), 2);
+    assert_int_equal(count(text, "r=\"1.68\""), 2); // of a point and in the legend
     free(text);
 }
 
@@ -292,7 +295,7 @@ static void nothing_to_show_draws_nothing(void **state) {
     (void)state;
     const char *const series[] = {"a"};
     const plot_point point = {.x = NAN, .y = 1, .about = ""};
-    const plot_scatter plot = {"id", "title", "x", "y", series, 1, &point, 1};
+    const plot_scatter plot = {"id", "title", "x", "y", series, 1, &point, 1, NULL, 0};
     char *text;
     size_t size, front[1];
     FILE *page = open_memstream(&text, &size);

@@ -15,8 +15,8 @@
 // Results to write
 
 static sweep_pass passes[] = {
-    {"lobe_clustering", 12.5, 3, true, 1048576, 1.25},
-    {"shading", 80.25, 1, false, 0, 0},
+    {"lobe_clustering", 12.5, 3, true, true, 1048576, 1.25},
+    {"shading", 80.25, 1, false, false, 0, 0},
 };
 static sweep_setting coarse[] = {{"epsilon0", "0.5"}, {"base", "own"}};
 static sweep_setting fine[] = {{"epsilon0", "0.9"}, {"base", "own"}};
@@ -158,7 +158,8 @@ static void assert_passes_equal(const sweep_row *a, const sweep_row *b) {
         const sweep_pass *pass = &a->passes[i], *expected = &b->passes[i];
         assert_string_equal(pass->name, expected->name);
         assert_true(pass->milliseconds == expected->milliseconds && pass->count == expected->count);
-        assert_true(pass->building == expected->building && pass->bytes == expected->bytes);
+        assert_true(pass->building == expected->building && pass->once == expected->once);
+        assert_true(pass->bytes == expected->bytes);
         assert_true(pass->copy_milliseconds == expected->copy_milliseconds);
     }
 }

@@ -274,6 +274,8 @@ const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, siz
 
 /// Forgets that retained content is up to date (its memory stays): all its passes run again.
 void lobe_graph_invalidate(lobe_graph *graph);
+/// The same for all whose names do not begin with `prefix`.
+void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
 
 // ---------------------------------------------------------------------------------------------
 // What happened

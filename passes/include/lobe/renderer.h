@@ -116,6 +116,8 @@ typedef struct lobe_render_parameters {
     bool arbitrary_output_variables;
     /// Build every map again, as if the scene had changed.
     bool rebuild;
+    /// With `rebuild`: but not those of the environment, as if the materials alone had changed.
+    bool keep_environment;
     /// Leave the result on the device: no image is delivered. For timing.
     bool discard;
     /// Called between submissions with the part done, [0, 1]; returning false stops the

@@ -309,6 +309,53 @@ def test_empty_results_make_a_page():
     check("0 filters" in root.all("header")[0].text(), root.all("header")[0].text())
 
 
+# Environments ----------------------------------------------------------------------------------
+
+def make_lit_results():
+    """The first scene in an environment, by three methods; its reference has noise."""
+    results = make_results()
+    scene = results["scenes"][0]
+    scene.update(scene="tablecloth", environment="maps/sun & sky.exr", lighting="no lights",
+                 noise=0.06)
+    rows = [row for row in results["rows"] if row["scene"] == SCENES[0] and not row["varied"]
+            and row["filter"] != "reference"]
+    for row in rows:
+        row["passes"].insert(0, {**one_pass("environment_cube", 900, True), "once": True})
+        row["environment_ms"] = 900
+        row["settings"].append({"name": "env", "value": "prefiltered"})
+        for factor, method in ((0.7, "mip"), (1.8, "sampled")):
+            other = copy.deepcopy(row)
+            other.update(varied="env", picture=None, shading_ms=factor * row["shading_ms"])
+            other["settings"][-1]["value"] = method
+            other["error"]["relative_l2"] = 0.5 * factor
+            results["rows"].append(other)
+    return results
+
+
+def test_filters_by_methods_of_an_environment():
+    results = make_lit_results()
+    text, root = make_report("lit", results)
+    section = page.by_id(root, "scene-0")
+    check("maps/sun & sky.exr; no lights" in section.text() and "sun & sky" not in text,
+          section.all("p")[0].text())
+    rows = {cells[0]: cells[1:] for cells in page.rows(section.all("table")[0])}
+    check(list(rows) == ["direct", "mipmap", "lobes", "moments"], str(rows))
+    for name, cells in rows.items():
+        shading = 0.75 * MILLISECONDS[name]
+        error = (GREY[name] - TRUTH) / TRUTH
+        wanted = [math.sqrt(error ** 2 - 0.06 ** 2), shading, 900,
+                  math.sqrt(0.35 ** 2 - 0.06 ** 2), 0.7 * shading, 900,
+                  math.sqrt(0.9 ** 2 - 0.06 ** 2), 1.8 * shading, 900]
+        check(all(map(near, cells, wanted)), f"{name}: {cells}, not {wanted}")
+    check("prepares the environment, once" in section.text(), "passes")
+    plot = section.all("svg", class_="plot")[0]
+    labels = [label.text() for label in plot.all("text")]
+    check({"prefiltered", "mip", "sampled"} <= set(labels), str(labels))
+    other = page.by_id(root, "scene-1")
+    check("Lit by" not in other.text(), "another scene")
+    check("prefiltered" not in [label.text() for label in other.all("text")], "another scene")
+
+
 # Pictures --------------------------------------------------------------------------------------
 
 def srgb(linear):
