@@ -290,6 +290,15 @@ static lobe_result find_shader(lobe_device *device, const char *name,
     return result;
 }
 
+size_t engine_shaders_stale(lobe_device *device) {
+    size_t count = 0;
+    pthread_mutex_lock(&device->found_mutex);
+    for (const loaded_shader *loaded = device->shaders->loaded; loaded; loaded = loaded->next)
+        count += find_loaded(device->shaders, loaded->code) == loaded && are_stale(loaded);
+    pthread_mutex_unlock(&device->found_mutex);
+    return count;
+}
+
 lobe_result engine_shader_find(lobe_device *device, const char *name,
                                const engine_shader **shader) {
     pthread_mutex_lock(&device->found_mutex);

@@ -71,6 +71,10 @@ void engine_shaders_destroy(engine_shaders **shaders);
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder);
 
+/// How many of the shaders in use have a source that changed since they were compiled; 0 without
+/// hot reload.
+size_t engine_shaders_stale(lobe_device *device);
+
 /// Finds a shader by name, ready for use. It lives as long as the device; with hot reload another
 /// one, with another version, is given once its source has changed. LOBE_ERROR_SHADER where there
 /// is none of that name or its source does not compile.

@@ -101,8 +101,7 @@ void imgui_begin_frame(void) {
     ImGui::NewFrame();
 }
 
-size_t imgui_end_frame(const imgui_vertex **vertices, size_t *vertex_count,
-                       const imgui_batch **batches) {
+void imgui_end_frame(void) {
     ImGui::Render();
     const ImDrawData *data = ImGui::GetDrawData();
     frame_vertices.clear();
@@ -111,6 +110,10 @@ size_t imgui_end_frame(const imgui_vertex **vertices, size_t *vertex_count,
         for (const ImDrawCmd &command : data->CmdLists[i]->CmdBuffer)
             if (!command.UserCallback && command.ElemCount > 0)
                 append_batch(data->CmdLists[i], command, data->DisplayPos);
+}
+
+size_t imgui_triangles(const imgui_vertex **vertices, size_t *vertex_count,
+                       const imgui_batch **batches) {
     *vertices = frame_vertices.data();
     *vertex_count = frame_vertices.size();
     *batches = frame_batches.data();
@@ -128,10 +131,18 @@ bool imgui_takes_keys(void) {
 // ---------------------------------------------------------------------------------------------
 // Widgets
 
+constexpr ImGuiWindowFlags FIXED = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+
+void imgui_begin_note(const char *name, const float place[2], float width) {
+    ImGui::SetNextWindowPos(ImVec2(place[0], place[1]), ImGuiCond_Always, ImVec2(0, 1));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 1e6f));
+    ImGui::Begin(name, nullptr, FIXED | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
 void imgui_begin_panel(const char *name, const float place[2], const float size[2]) {
-    ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                             ImGuiWindowFlags_NoFocusOnAppearing;
+    ImGuiWindowFlags flags = FIXED;
     if (size[0] > 0)
         flags &= ~ImGuiWindowFlags_NoScrollbar;
     else

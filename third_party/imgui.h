@@ -38,8 +38,11 @@ void imgui_close(void);
 const uint8_t *imgui_font(uint32_t *width, uint32_t *height);
 
 void imgui_begin_frame(void);
-/// The triangles of this frame, valid until the next one begins. Returns how many batches.
-size_t imgui_end_frame(const imgui_vertex **vertices, size_t *vertex_count,
+/// Each frame that was begun must be ended.
+void imgui_end_frame(void);
+/// The triangles of the frame that was ended last, valid until the next one is. Returns how many
+/// batches.
+size_t imgui_triangles(const imgui_vertex **vertices, size_t *vertex_count,
                        const imgui_batch **batches);
 
 /// The mouse is over a panel, or holds something of one.
@@ -52,6 +55,8 @@ bool imgui_takes_keys(void);
 
 /// A panel at a place in pixels; `size` of 0: as large as its content. End it in any case.
 void imgui_begin_panel(const char *name, const float place[2], const float size[2]);
+/// A panel as high as its content, whose lower left corner is at a place; pixels.
+void imgui_begin_note(const char *name, const float place[2], float width);
 void imgui_end_panel(void);
 /// Widgets until the end may have names that others have, too. Nested.
 void imgui_begin_group(const char *name);

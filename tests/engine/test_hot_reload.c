@@ -121,8 +121,10 @@ static void every_file_that_was_read_is_watched(void **state) {
     const engine_shader *shader = find("main_plain.comp");
     for (size_t i = 0; i < sizeof file_names / sizeof *file_names; i++) {
         write_file(file_names[i], texts[i]);
+        assert_int_equal(engine_shaders_stale(device), 1);
         const engine_shader *changed = find("main_plain.comp");
         assert_int_not_equal(changed->version, shader->version);
+        assert_int_equal(engine_shaders_stale(device), 0);
         assert_ptr_equal(find("main_plain.comp"), changed);
         shader = changed;
     }

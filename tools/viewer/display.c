@@ -125,7 +125,7 @@ static void draw_panels(viewer_display *display, const viewer_swapchain *swapcha
                         lobe_pass *pass) {
     const imgui_vertex *vertices;
     const imgui_batch *batches;
-    size_t vertex_count, count = imgui_end_frame(&vertices, &vertex_count, &batches);
+    size_t vertex_count, count = imgui_triangles(&vertices, &vertex_count, &batches);
     if (count == 0)
         return;
     const lobe_binding bindings[2] = {

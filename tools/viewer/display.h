@@ -11,6 +11,9 @@ typedef enum viewer_comparison {
     VIEWER_ERROR,  ///< a heat map of how far the first is from the second
 } viewer_comparison;
 
+/// Stops up and down.
+#define VIEWER_MAXIMUM_EXPOSURE 10.0
+
 typedef struct viewer_look {
     viewer_comparison comparison;
     double exposure;      ///< stops

@@ -1,5 +1,7 @@
 #include "tools/viewer/viewer.h"
 
+#include <math.h>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -60,11 +62,11 @@ static void turn_down(viewer *v) {
 }
 
 static void brighten(viewer *v) {
-    v->look.exposure += 0.5;
+    v->look.exposure = fmin(v->look.exposure + 0.5, VIEWER_MAXIMUM_EXPOSURE);
 }
 
 static void darken(viewer *v) {
-    v->look.exposure -= 0.5;
+    v->look.exposure = fmax(v->look.exposure - 0.5, -VIEWER_MAXIMUM_EXPOSURE);
 }
 
 static void play(viewer *v) {

@@ -45,11 +45,13 @@ lobe_result viewer_open_first_scene(viewer *v) {
     const viewer_request *request = v->request;
     lobe_result result =
         scene_options_open(&v->opening, request->scene, request->size, &v->log, &v->scene);
-    if (result != LOBE_OK)
+    if (result == LOBE_OK && !view_options_apply(&request->view, request->lights, v->scene))
+        result = lobe_log_fail(&v->log, LOBE_ERROR_INVALID_ARGUMENT,
+                               "camera: eye and target are the same point, it looks nowhere");
+    if (result != LOBE_OK) {
+        free(request->lights); // else they are the scene's now
         return result;
-    if (!view_options_apply(&request->view, request->lights, v->scene))
-        return lobe_log_fail(&v->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "camera: eye and target are the same point, it looks nowhere");
+    }
     v->view.scene = v->scene;
     v->view.camera = v->scene->camera;
     return LOBE_OK;

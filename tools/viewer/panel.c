@@ -120,7 +120,7 @@ static void choose_output(viewer *v) {
         viewer_changed(v);
     }
     imgui_tooltip("radiance: or what the filter's knob 'view' asks for");
-    imgui_number("exposure", -10, 10, &v->look.exposure);
+    imgui_number("exposure", -VIEWER_MAXIMUM_EXPOSURE, VIEWER_MAXIMUM_EXPOSURE, &v->look.exposure);
     imgui_tooltip("stops by which the picture is brightened");
 }
 
@@ -224,19 +224,29 @@ static void show_panel(viewer *v) {
         show_path(v);
     imgui_space();
     imgui_faint_text("F1: keys   Tab: hides the panel");
-    if (v->message[0])
-        imgui_text(v->message);
     imgui_end_panel();
 }
 
-/// Beside the panel, or over it in a window that has no room for both.
-static void show_help(const viewer *v) {
+/// Where there is room: beside the panel, or over it in a window that has none for both.
+static float left_of_room(const viewer *v) {
     const float scale = scale_of(v), margin = 8 * scale;
     const bool beside = v->shows_panel && (float)v->swapchain.width >= 780 * scale;
-    const float place[2] = {beside ? 2 * margin + 300 * scale : margin, margin};
-    imgui_begin_panel("keys", place, (float[2]){0, 0});
+    return beside ? 2 * margin + 300 * scale : margin;
+}
+
+static void show_help(const viewer *v) {
+    imgui_begin_panel("keys", (float[2]){left_of_room(v), 8 * scale_of(v)}, (float[2]){0, 0});
     for (size_t i = 0; i < viewer_key_count; ++i)
         imgui_term(viewer_keys[i].name, viewer_keys[i].summary);
+    imgui_end_panel();
+}
+
+/// At the lower edge.
+static void show_message(const viewer *v) {
+    const float margin = 8 * scale_of(v), left = left_of_room(v);
+    imgui_begin_note("message", (float[2]){left, (float)v->swapchain.height - margin},
+                     (float)v->swapchain.width - left - margin);
+    imgui_text(v->message);
     imgui_end_panel();
 }
 
@@ -245,4 +255,6 @@ void viewer_panel(viewer *v) {
         show_panel(v);
     if (v->shows_help)
         show_help(v);
+    if (v->message[0])
+        show_message(v);
 }

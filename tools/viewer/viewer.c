@@ -8,6 +8,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "engine/shader.h"
+#include "engine/shader_words.h"
 #include "engine/vulkan_check.h"
 #include "third_party/imgui.h"
 #include "tools/viewer/camera.h"
@@ -19,6 +21,8 @@
 
 /// Panels need a frame to see the mouse, one to act, one to show what came of it.
 #define REDRAWS 3
+/// How often saved shaders are looked for while the window rests.
+#define RELOAD_SECONDS 0.25
 /// Device losses in a row after which it is given up.
 #define MAXIMUM_LOSSES 3
 
@@ -228,14 +232,31 @@ static bool is_hidden(const viewer *v) {
     return width == 0 || height == 0 || glfwGetWindowAttrib(v->window, GLFW_ICONIFIED);
 }
 
+/// In a build with hot reload: draws again where a shader in use was saved. Others that were saved
+/// stay stale until they are used.
+static void look_at_shaders(viewer *v) {
+    const size_t stale = engine_shaders_stale(v->device.lobe);
+    if (stale > v->stale_shaders) {
+        v->message[0] = '\0';
+        viewer_changed(v);
+    }
+    v->stale_shaders = stale;
+}
+
 /// Sleeps while there is nothing to do.
 static void wait_for_events(viewer *v) {
-    if (is_hidden(v) || !has_work(v)) {
-        glfwWaitEvents();
-        v->last_time = glfwGetTime();
-    } else {
+    const bool reloads = engine_shader_words_folder() != NULL;
+    if (!is_hidden(v) && has_work(v)) {
         glfwPollEvents();
+        return;
     }
+    if (reloads)
+        glfwWaitEventsTimeout(RELOAD_SECONDS);
+    else
+        glfwWaitEvents();
+    v->last_time = glfwGetTime();
+    if (reloads)
+        look_at_shaders(v);
 }
 
 static lobe_result refine(viewer *v) {
@@ -269,6 +290,7 @@ static lobe_result show(viewer *v) {
         return judge(v, shown, result);
     imgui_begin_frame();
     viewer_panel(v);
+    imgui_end_frame();
     result = viewer_frame_draw(&v->view, &v->frame, &v->display, &v->look, v->sides, &v->swapchain);
     if (result != LOBE_OK)
         return result;

@@ -24,7 +24,7 @@ typedef struct viewer_request {
     const char *folder; ///< of recorded frames
     scene_options opening;
     view_options view;
-    lobe_light *lights; ///< NULL: the scene's
+    lobe_light *lights; ///< NULL: the scene's own; the viewer frees them
     device_options device;
 } viewer_request;
 
@@ -63,6 +63,7 @@ typedef struct viewer {
     bool waits;            ///< the last frame found nothing more to do
     unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
     uint32_t frames_drawn; ///< up to the number asked for
+    size_t stale_shaders;  ///< saved, but not drawn with since
     // Mouse and keys.
     viewer_drag drag;
     double cursor[2]; ///< pixels of the window's content

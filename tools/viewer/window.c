@@ -44,6 +44,8 @@ static viewer_drag drag_of(const viewer *v, int button, int modifiers) {
 
 static void on_button(GLFWwindow *window, int button, int action, int modifiers) {
     viewer *v = viewer_of(window);
+    if (action == GLFW_PRESS)
+        v->message[0] = '\0'; // it has been read
     v->drag = action == GLFW_PRESS ? drag_of(v, button, modifiers) : VIEWER_DRAG_NONE;
 }
 
@@ -99,6 +101,8 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
 static void on_key(GLFWwindow *window, int key, int code, int action, int modifiers) {
     viewer *v = viewer_of(window);
     (void)code, (void)modifiers;
+    if (action == GLFW_PRESS)
+        v->message[0] = '\0';
     if (action != GLFW_RELEASE && !imgui_takes_keys())
         viewer_keys_press(v, key);
 }

@@ -111,27 +111,95 @@ class Window:
         self.screen.do(*words)
         self.settle()
 
+    def drop(self, path):
+        """A file, from another program's window."""
+        with Client(self.screen.name) as client:
+            client.drop(self.number, path)
+        self.settle()
+
     def close(self):
         """As by the cross in the window's corner: the message that window managers send."""
-        close_window(self.screen.name, self.number)
-        return self.process.wait(timeout=60)
+        with Client(self.screen.name) as client:
+            client.close_window(self.number)
+            return self.process.wait(timeout=60)
 
 
-class ClientMessage(ctypes.Structure):
-    """Xlib's XClientMessageEvent, with what follows it in XEvent."""
+class Event(ctypes.Structure):
+    """Beginning of each of Xlib's events, in what any of them takes."""
     _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
                 ("display", ctypes.c_void_p), ("window", ctypes.c_ulong),
-                ("message_type", ctypes.c_ulong), ("format", ctypes.c_int),
-                ("data", ctypes.c_long * 5), ("rest", ctypes.c_long * 24)]
+                ("rest", ctypes.c_ulong * 24)]
 
 
-def close_window(name, number):
-    xlib = ctypes.CDLL("libX11.so.6")
-    xlib.XOpenDisplay.restype = ctypes.c_void_p
-    xlib.XInternAtom.restype = ctypes.c_ulong
-    display = ctypes.c_void_p(xlib.XOpenDisplay(name.encode()))
-    message = ClientMessage(type=33, window=number, format=32)
-    message.message_type = xlib.XInternAtom(display, b"WM_PROTOCOLS", 0)
-    message.data[0] = xlib.XInternAtom(display, b"WM_DELETE_WINDOW", 0)
-    xlib.XSendEvent(display, ctypes.c_ulong(number), 0, ctypes.c_long(0), ctypes.byref(message))
-    xlib.XCloseDisplay(display)
+# Numbers of X11/X.h.
+SELECTION_REQUEST, SELECTION_NOTIFY, CLIENT_MESSAGE = 30, 31, 33
+
+
+class Client:
+    """A program that sends the messages of window managers, and of those that files are dragged
+    from."""
+
+    def __init__(self, name):
+        self.xlib = ctypes.CDLL("libX11.so.6")
+        for function in ("XInternAtom", "XCreateSimpleWindow", "XDefaultRootWindow"):
+            getattr(self.xlib, function).restype = ctypes.c_ulong
+        self.xlib.XOpenDisplay.restype = ctypes.c_void_p
+        self.display = ctypes.c_void_p(self.xlib.XOpenDisplay(name.encode()))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.xlib.XCloseDisplay(self.display)
+
+    def atom(self, name):
+        return self.xlib.XInternAtom(self.display, name.encode(), 0)
+
+    def send(self, window, event):
+        self.xlib.XSendEvent(self.display, ctypes.c_ulong(window), 0, ctypes.c_long(0),
+                             ctypes.byref(event))
+        self.xlib.XFlush(self.display)
+
+    def message(self, window, kind, *data):
+        """XClientMessageEvent: its type, the format, and five words."""
+        event = Event(type=CLIENT_MESSAGE, window=window)
+        for i, word in enumerate((self.atom(kind), 32, *data)):
+            event.rest[i] = word
+        self.send(window, event)
+
+    def close_window(self, window):
+        self.message(window, "WM_PROTOCOLS", self.atom("WM_DELETE_WINDOW"))
+
+    def wait_for(self, kind):
+        """The next event of that type that comes within ten seconds."""
+        event = Event()
+        for _ in range(500):
+            if self.xlib.XCheckTypedEvent(self.display, kind, ctypes.byref(event)):
+                return event
+            time.sleep(0.02)
+        raise AssertionError(f"no event of type {kind}")
+
+    def drop(self, window, path):
+        """XDND, version 5: says that a file has come, where it is, and that it was let go; then
+        hands its name over when asked for it."""
+        root = ctypes.c_ulong(self.xlib.XDefaultRootWindow(self.display))
+        source = self.xlib.XCreateSimpleWindow(self.display, root, 700, 500, 9, 9, 0,
+                                               ctypes.c_ulong(0), ctypes.c_ulong(0))
+        selection, names = self.atom("XdndSelection"), self.atom("text/uri-list")
+        self.xlib.XSetSelectionOwner(self.display, ctypes.c_ulong(selection),
+                                     ctypes.c_ulong(source), ctypes.c_ulong(0))
+        self.message(window, "XdndEnter", source, 5 << 24, names)
+        self.message(window, "XdndPosition", source, 0, 100 << 16 | 100, 0,
+                     self.atom("XdndActionCopy"))
+        self.wait_for(CLIENT_MESSAGE)
+        self.message(window, "XdndDrop", source)
+        # XSelectionRequestEvent: requestor, selection, target, property, time
+        asked = self.wait_for(SELECTION_REQUEST).rest
+        text = f"file://{path}\r\n".encode()
+        self.xlib.XChangeProperty(self.display, ctypes.c_ulong(asked[0]), ctypes.c_ulong(asked[3]),
+                                  ctypes.c_ulong(asked[2]), 8, 0, text, len(text))
+        answer = Event(type=SELECTION_NOTIFY, window=asked[0])
+        for i in range(4):
+            answer.rest[i] = asked[i + 1]
+        self.send(asked[0], answer)
+        self.wait_for(CLIENT_MESSAGE)

@@ -2,12 +2,11 @@
 
 import json
 import shutil
-import struct
 import sys
 import time
-import zlib
 
 import tap
+from files import exr_write, gltf_triangle, gltf_write, png_read
 from program import check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
 from screen import Screen, Window
 
@@ -35,7 +34,7 @@ def window():
     if "window" not in STATE:
         STATE["folder"] = fresh_folder("recorded")
         STATE["window"] = Window(screen(), "checkerboard", "--size", TEXT, "--samples", 2,
-                                 "--path-frames", 5, "-o", STATE["folder"])
+                                 "--set", "env_size=16", "--path-frames", 5, "-o", STATE["folder"])
         STATE["window"].do("key", "Tab")
     return STATE["window"]
 
@@ -56,44 +55,10 @@ def part_that_differs(one, other):
 
 
 def png_rows(path):
-    """Of an opaque PNG of lobe's: rows of B, G, R, 0."""
-    data, position, packed = path.read_bytes(), 8, b""
-    while position < len(data):
-        size, kind = struct.unpack(">I4s", data[position:position + 8])
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", data[position + 8:position + 18])
-        if kind == b"IDAT":
-            packed += data[position + 8:position + 8 + size]
-        position += 12 + size
-    channels = {2: 3, 6: 4}[colour]
-    check(depth == 8, "8 bits a channel")
-    return [swizzled(row, channels) for row in unfiltered(zlib.decompress(packed), width, height,
-                                                          channels)]
-
-
-def unfiltered(data, width, height, channels):
-    """PNG, second edition, 9.2: filter types 0 to 4."""
-    stride, above = width * channels, bytes(width * channels)
-    for y in range(height):
-        kind, row = data[y * (stride + 1)], bytearray(data[y * (stride + 1) + 1:][:stride])
-        for i in range(stride):
-            a = row[i - channels] if i >= channels else 0
-            b, c = above[i], above[i - channels] if i >= channels else 0
-            row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth(a, b, c))[kind]) & 255
-        above = bytes(row)
-        yield above
-
-
-def paeth(a, b, c):
-    p = a + b - c
-    return min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-
-
-def swizzled(row, channels):
-    pixels = bytearray(len(row) // channels * 4)
-    for k, channel in ((0, 2), (1, 1), (2, 0)):
-        pixels[k::4] = row[channel::channels]
-    return bytes(pixels)
+    """A PNG as it would be seen: rows of B, G, R and another byte."""
+    width, height, pixels = png_read(path)
+    row_of = lambda y: pixels[y * width:(y + 1) * width]
+    return [b"".join(bytes((*pixel[::-1], 0)) for pixel in row_of(y)) for y in range(height)]
 
 
 def rendered(*options):
@@ -136,7 +101,8 @@ def test_no_display():
 def test_frames_and_exit_under_validation():
     if missing():
         return missing()
-    for options in (["--filter", "mipmap", "--environment", "sky"], ["--filter", "reference"]):
+    for options in (["--filter", "mipmap", "--environment", "sky", "--set", "env_size=16"],
+                    ["--filter", "reference"]):
         result = lobe("view", "checkerboard", "--size", "64x48", "--frames", 3, "--exit",
                       "--validation", *options, DISPLAY=screen().name)
         check(result.returncode == 0 and "validation" not in result.stderr, report(result))
@@ -317,12 +283,36 @@ def test_takes_another_size():
     return None
 
 
+def test_takes_what_is_dropped():
+    if missing():
+        return missing()
+    before = seen()
+    broken = STATE["folder"] / "broken.glb"
+    broken.write_text("no model")
+    window().drop(broken)
+    check("broken.glb" in window().said(), f"nothing about the broken file: {window().said()}")
+    window().do("key", "Home")  # the message goes
+    check(seen() == before, "the scene is another one")
+    model, light = STATE["folder"] / "triangle.gltf", STATE["folder"] / "light.exr"
+    gltf_write(model, gltf_triangle())
+    exr_write(light, 32, 16, lambda x, y: (x / 32, 0.5, y / 16))
+    window().drop(model)
+    window().drop(light)
+    expected = STATE["folder"] / "dropped.png"
+    succeeds("render", model, "--size", TEXT, "--environment", light, "--background",
+             "--set", "env_size=16", "-o", expected)
+    difference = largest_difference(seen(), png_rows(expected))
+    check(difference <= 1, f"differs by {difference} of 255")
+    return None
+
+
 def test_closes():
     if missing():
         return missing()
     status = window().close()
     said = window().said()
-    check(status == 0 and "error" not in said and "Sanitizer" not in said, f"{status}: {said}")
+    faults = [line for line in said.splitlines() if "error" in line and "broken.glb" not in line]
+    check(status == 0 and not faults and "Sanitizer" not in said, f"{status}: {said}")
     return None
 
 
