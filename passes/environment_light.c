@@ -23,6 +23,11 @@ static bool scatters(const filter_context *context) {
     return filter_setting(context, "scattering") > 0;
 }
 
+/// Whether lobes between levels are blends of two cubes.
+static bool blends(const filter_context *context) {
+    return filter_setting(context, "env_levels") > 0;
+}
+
 /// Whether an instance has microfacets of a distribution.
 static bool uses_distribution(const filter_context *context, uint32_t distribution) {
     const device_scene *scene = context->scene;
@@ -61,6 +66,7 @@ static environment_maps_request request_of(const filter_context *context) {
         .texture = context->scene->environment,
         .size = 16u << (uint32_t)filter_setting(context, "env_size"),
         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
+                   [LOBE_ENVIRONMENT_BETWEEN] = prefiltered && blends(context),
                    [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
         .parts = context->environment_parts,
     };
@@ -91,11 +97,13 @@ static environment_maps build_cubes(const filter_context *context, environment_l
     if (prefiltered && !maps.complete)
         light->method = ENVIRONMENT_MIP;
     light->cube = maps.cubes[LOBE_ENVIRONMENT_RADIANCE];
-    light->prefiltered = light->prefiltered_ggx = light->cube;
+    light->prefiltered = light->prefiltered_ggx = light->between = light->cube;
     if (light->method == ENVIRONMENT_PREFILTERED) {
         light->prefiltered = maps.cubes[LOBE_ENVIRONMENT_VON_MISES_FISHER];
         light->prefiltered_ggx =
             uses_ggx(context) ? maps.cubes[LOBE_ENVIRONMENT_GGX] : light->prefiltered;
+        light->between =
+            blends(context) ? maps.cubes[LOBE_ENVIRONMENT_BETWEEN] : light->prefiltered;
     }
     return maps;
 }
@@ -188,6 +196,10 @@ void environment_light_read(const environment_light *light, const filter_context
          .resource = light->prefiltered_ggx,
          .range = range,
          .sampler = trilinear},
+        {.name = "environment_between",
+         .resource = light->between,
+         .range = range,
+         .sampler = trilinear},
         {.name = "irradiance_block", .resource = light->harmonics},
         {.name = "environment_block",
          .resource =
@@ -212,6 +224,7 @@ void environment_light_specialise(const environment_light *light, const filter_c
     specialise(list, SPECIALISE_ENVIRONMENT_PROBES,
                (uint32_t)filter_setting(context, "env_probes"));
     specialise(list, SPECIALISE_ENVIRONMENT_GRID, (uint32_t)filter_setting(context, "env_grid"));
+    specialise(list, SPECIALISE_ENVIRONMENT_BLENDED, blends(context));
     specialise(list, SPECIALISE_HORIZON, (uint32_t)filter_setting(context, "horizon"));
 }
 

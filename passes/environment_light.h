@@ -17,7 +17,7 @@ typedef struct environment_light {
     uint32_t method;    ///< ENVIRONMENT_...
     lobe_resource cube; ///< radiance with all levels
     /// Filtered with lobes; none where nobody asks.
-    lobe_resource prefiltered, prefiltered_ggx;
+    lobe_resource prefiltered, prefiltered_ggx, between;
     lobe_resource harmonics; ///< of the irradiance
     /// Directional albedo, one a distribution of microfacets; none where no material needs it.
     lobe_resource albedo[DISTRIBUTION_COUNT];

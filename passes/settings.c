@@ -12,6 +12,7 @@ static const char *const bases[] = {"exact", "lobe", NULL};
 
 static const char *const methods[] = {"exact", "mip", "prefiltered", "sampled", NULL};
 static const char *const sizes[] = {"16", "32", "64", "128", "256", "512", "1024", "2048", NULL};
+static const char *const level_blends[] = {"trilinear", "blended", NULL};
 static const char *const horizons[] = {"ignored", "clipped", "faded", NULL};
 static const char *const scatterings[] = {"single", "multiple", NULL};
 
@@ -62,6 +63,16 @@ static const lobe_knob shared_knobs[] = {
         .maximum = 8,
         .initial = 2,
         .sweep = "1,4,8",
+        .environment = true,
+    },
+    {
+        .name = "env_levels",
+        .summary = "prefiltered: lobes between levels are blends of two levels, or nearer to what "
+                   "they are, of a level each of two cubes (but for GGX lobes)",
+        .kind = LOBE_KNOB_CHOICE,
+        .maximum = 1,
+        .choices = level_blends,
+        .sweep = "blended",
         .environment = true,
     },
     {

@@ -12,6 +12,7 @@ layout(constant_id = SPECIALISE_ENVIRONMENT_METHOD) const uint ENVIRONMENT_METHO
     ENVIRONMENT_PREFILTERED;
 layout(constant_id = SPECIALISE_ENVIRONMENT_PROBES) const uint ENVIRONMENT_PROBES = 4;
 layout(constant_id = SPECIALISE_ENVIRONMENT_GRID) const uint ENVIRONMENT_GRID = 5;
+layout(constant_id = SPECIALISE_ENVIRONMENT_BLENDED) const bool ENVIRONMENT_BLENDED = false;
 layout(constant_id = SPECIALISE_HORIZON) const uint HORIZON = HORIZON_CLIPPED;
 
 // Levels hold means over texels; the same without interpolation, and as an array of faces, to read
@@ -22,6 +23,8 @@ layout(set = 0, binding = 25) uniform sampler2DArray environment_faces;
 // Levels hold the environment seen through broader and broader lobes.
 layout(set = 0, binding = 26) uniform samplerCube prefiltered_environment;
 layout(set = 0, binding = 27) uniform samplerCube prefiltered_environment_ggx;
+// The same levels of lobes twice as concentrated.
+layout(set = 0, binding = 31) uniform samplerCube environment_between;
 layout(set = 0, binding = 28, std140) uniform environment_block {
     environment_constants environment;
 };
@@ -62,11 +65,30 @@ vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axi
                       mip_level(environment_width(), exponent)).rgb;
 }
 
+// Whether a round lobe is read from two cubes. Of GGX lobes there is but one.
+bool is_blended(uint kind) {
+    return ENVIRONMENT_BLENDED && kind != DISTRIBUTION_GGX;
+}
+
+prefiltered_blend levels_of_lobe(uint kind, float width, float concentration) {
+    if (is_blended(kind))
+        return blend_of_lobe(width, concentration);
+    return prefiltered_blend(prefiltered_level(width, concentration), 0.0, 1.0);
+}
+
+float finest_concentration(uint kind, float width) {
+    return prefiltered_concentration(width, 0.0) * (is_blended(kind) ? 2.0 : 1.0);
+}
+
 // The environment through a round lobe.
-vec3 prefiltered_radiance(uint kind, vec3 direction, float level) {
-    return kind == DISTRIBUTION_GGX
-               ? textureLod(prefiltered_environment_ggx, direction, level).rgb
-               : textureLod(prefiltered_environment, direction, level).rgb;
+vec3 prefiltered_radiance(uint kind, vec3 direction, prefiltered_blend levels) {
+    if (kind == DISTRIBUTION_GGX)
+        return textureLod(prefiltered_environment_ggx, direction, levels.level).rgb;
+    vec3 radiance = textureLod(prefiltered_environment, direction, levels.level).rgb;
+    if (is_blended(kind))
+        radiance = mix(textureLod(environment_between, direction, levels.level_between).rgb,
+                       radiance, levels.share);
+    return radiance;
 }
 
 // An elongated lobe is a row of round ones, of Gaussian weights: n at distances of
@@ -83,19 +105,20 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
     float reach = sqrt(max(major - variance, 0.0) / major) * sqrt(12.0 / (count + 1.0));
     float width = float(textureSize(prefiltered_environment, 0).x);
     float concentration = 1.0 / max(variance, 1e-8);
-    float level = prefiltered_level(width, concentration);
+    prefiltered_blend levels = levels_of_lobe(kind, width, concentration);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint i = 0u; i < uint(count); ++i) {
         float place = float(i) - 0.5 * (count - 1.0);
         float weight = exp(-6.0 / (count + 1.0) * place * place);
         vec3 direction = lobe.axis + place * reach * lobe.first;
-        sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), level);
+        sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), levels);
         weights += weight;
     }
     // Lobes too sharp for the finest level are, in part, the radiance itself.
-    float unfiltered =
-        count > 1.0 ? 0.0 : radiance_share(width, environment_width(), concentration);
+    float unfiltered = count > 1.0 ? 0.0
+                                   : radiance_share(finest_concentration(kind, width),
+                                                    environment_width(), concentration);
     vec3 radiance = textureLod(environment_cube, to_environment(surface, lobe.axis), 0.0).rgb;
     return mix(sum / weights, radiance, unfiltered);
 }

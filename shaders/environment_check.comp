@@ -68,7 +68,7 @@ vec3 prefiltered_light(vec3 direction) {
     float kappa = constants.concentration;
     float width = float(textureSize(filtered, 0).x), size = float(textureSize(radiance, 0).x);
     vec3 light = textureLod(filtered, direction, prefiltered_level(width, kappa)).rgb;
-    float share = radiance_share(width, size, kappa);
+    float share = radiance_share(prefiltered_concentration(width, 0.0), size, kappa);
     return share > 0.0 ? mix(light, textureLod(radiance, direction, 0.0).rgb, share) : light;
 }
 

@@ -25,6 +25,8 @@ INTERFACE_OFFSET(environment_constants, pattern, 56)
 #define SPECIALISE_ENVIRONMENT_GRID 22
 // uint, HORIZON_...: what becomes of the part of a lobe below the surface.
 #define SPECIALISE_HORIZON 23
+// bool: von Mises-Fisher lobes are blends of two cubes instead of two levels.
+#define SPECIALISE_ENVIRONMENT_BLENDED 28
 // bool: light that microfacets reflect more than once is made up for.
 #define SPECIALISE_MULTIPLE_SCATTERING 27
 

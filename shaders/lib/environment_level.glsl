@@ -75,12 +75,11 @@ prefiltered_blend blend_of_lobe(float width, float concentration) {
     return prefiltered_blend(level, level_between, here > between ? share : 1.0 - share);
 }
 
-// Lobes more concentrated than level 0 of the filtered cube: the share of the radiance itself, read
-// at level 0, where faces of it are `size` texels wide; the rest is the filtered cube's level 0.
+// Lobes more concentrated than the finest there is: the share of the radiance itself, read at level
+// 0, where faces of it are `size` texels wide; the rest is level 0 of the cube of those finest lobes.
 // Linear interpolation between texels t apart is a lobe of variance t^2/6, here with the mean texel.
-float radiance_share(float width, float size, float concentration) {
+float radiance_share(float finest, float size, float concentration) {
     float interpolation = 4.0 * PI / (36.0 * size * size);
-    float finest = prefiltered_concentration(width, 0.0);
     return concentration > finest
                ? sharper_share(1.0 / interpolation, finest, min(concentration, 1.0 / interpolation))
                : 0.0;

@@ -204,6 +204,55 @@ static void half_vector_lobes_agree_with_the_exact_sum(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// A small lamp straight above.
+static void lamp(const double direction[3], float radiance[3]) {
+    grey(0.01 + 500 * exp(1000 * (direction[1] - 1)), radiance);
+}
+
+/// Seen from above, in a picture that shows its reflection and what is around that.
+static lobe_scene *lobe_below_lamp(float kappa) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, kappa);
+    for (int i = 0; i < 3; i++)
+        material.base_colour[i] = 0;
+    scene_add_square(scene, &material, 1, NULL);
+    scene_surround(scene, 128, lamp);
+    scene->camera = (lobe_camera){
+        .eye = {0, 1, 0}, .up = {0, 0, -1}, .vertical_field_of_view = 0.5f, .near_plane = 0.01f};
+    scene->has_camera = true;
+    scene_end(scene);
+    return scene;
+}
+
+static lobe_frame draw_below_lamp(fixture *f, const lobe_scene *scene, const char *method,
+                                  const char *levels) {
+    picture_request request = {
+        .filter = "direct", .settings = {method, "env_size=64", levels}, .width = 12, .height = 12};
+    return draw_scene(f, scene, &request);
+}
+
+/// Between two levels, a blend of two cubes is nearer to the lobe than one of two levels. Lobes of
+/// half vectors are four times as concentrated as those of directions: here half way between
+/// levels.
+static void blended_levels_are_nearer(void **state) {
+    static const char *const levels[] = {"env_levels=trilinear", "env_levels=blended"};
+    for (float kappa = 512; kappa >= 128; kappa /= 4) {
+        lobe_scene *scene = lobe_below_lamp(kappa);
+        lobe_frame exact = draw_below_lamp(*state, scene, methods[EXACT], NULL);
+        double off[2];
+        for (int i = 0; i < 2; i++) {
+            lobe_frame frame = draw_below_lamp(*state, scene, methods[PREFILTERED], levels[i]);
+            off[i] = relative_l2(&frame.radiance, &exact.radiance);
+            lobe_frame_free(&frame);
+        }
+        print_message("# kappa %g: %.4f, blended %.4f\n", (double)kappa, off[0], off[1]);
+        if (!(off[1] < 0.4 * off[0]))
+            fail_msg("kappa %g: %g off, %g blended", (double)kappa, off[0], off[1]);
+        lobe_frame_free(&exact);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// The reference's samples by chance have the exact sum as their mean.
 static void the_reference_is_unbiased(void **state) {
     static const lobe_distribution distributions[] = {
@@ -475,6 +524,7 @@ int main(void) {
         cmocka_unit_test(a_white_room_shows_what_metal_reflects),
         cmocka_unit_test(microfacets_agree_with_the_exact_sum),
         cmocka_unit_test(half_vector_lobes_agree_with_the_exact_sum),
+        cmocka_unit_test(blended_levels_are_nearer),
         cmocka_unit_test(the_reference_is_unbiased),
         cmocka_unit_test(extreme_lobes_stay_finite),
         cmocka_unit_test(rotation_turns_the_environment),

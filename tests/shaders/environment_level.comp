@@ -16,6 +16,6 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     }
     default:
         return vec4(prefiltered_level(a.x, a.y), prefiltered_concentration(a.x, a.z),
-                    radiance_share(a.x, a.w, a.y), 0.0);
+                    radiance_share(prefiltered_concentration(a.x, 0.0), a.w, a.y), 0.0);
     }
 }
