@@ -29,6 +29,8 @@ lobe_resource environment_check(lobe_graph *graph, const environment_maps *maps,
     const lobe_sampler sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                   LOBE_WRAP_CLAMP, 0};
     const lobe_specialisation method = {CHECK_METHOD, request->method};
+    const lobe_resource filtered = maps->cubes[LOBE_ENVIRONMENT_VON_MISES_FISHER];
+    const lobe_resource between = maps->cubes[LOBE_ENVIRONMENT_BETWEEN];
     const struct environment_check_constants constants = {
         .concentration = (float)request->concentration,
         .count = request->count,
@@ -39,9 +41,12 @@ lobe_resource environment_check(lobe_graph *graph, const environment_maps *maps,
     lobe_pass_read(pass, &(lobe_binding){.name = "radiance",
                                          .resource = maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
                                          .sampler = sampler});
-    lobe_pass_read(pass, &(lobe_binding){.name = "filtered",
-                                         .resource = maps->cubes[LOBE_ENVIRONMENT_VON_MISES_FISHER],
-                                         .sampler = sampler});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "filtered", .resource = filtered, .sampler = sampler});
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "between",
+                              .resource = request->method == METHOD_BLENDED ? between : filtered,
+                              .sampler = sampler});
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "directions_block", .resource = request->directions});
     lights = lobe_pass_write(pass, &(lobe_binding){.name = "lights_block", .resource = lights});

@@ -22,7 +22,8 @@ typedef struct environment_check_request {
 } environment_check_request;
 
 /// Adds the pass that looks light up; returns a buffer of float4: RGB for each direction of the
-/// first round, then of the second, ... The maps have radiance and von Mises-Fisher lobes.
+/// first round, then of the second, ... The maps have radiance and von Mises-Fisher lobes, and for
+/// METHOD_BLENDED those in between.
 lobe_resource environment_check(lobe_graph *graph, const environment_maps *maps,
                                 const environment_check_request *request);
 

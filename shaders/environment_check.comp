@@ -16,8 +16,10 @@ layout(constant_id = CHECK_METHOD) const uint method = METHOD_PREFILTERED;
 
 layout(set = 0, binding = 0) uniform samplerCube radiance;
 layout(set = 0, binding = 1) uniform samplerCube filtered;
-layout(set = 0, binding = 2, std430) readonly buffer directions_block { vec4 directions[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer lights_block { vec4 lights[]; };
+// METHOD_BLENDED: levels of lobes twice as concentrated.
+layout(set = 0, binding = 2) uniform samplerCube between;
+layout(set = 0, binding = 3, std430) readonly buffer directions_block { vec4 directions[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer lights_block { vec4 lights[]; };
 
 layout(push_constant) uniform constants_block { environment_check_constants constants; };
 
@@ -64,18 +66,34 @@ vec3 mip_light(vec3 direction) {
     return textureLod(radiance, direction, solid_angle_level(width, solid_angle)).rgb;
 }
 
-vec3 prefiltered_light(vec3 direction) {
-    float kappa = constants.concentration;
-    float width = float(textureSize(filtered, 0).x), size = float(textureSize(radiance, 0).x);
-    vec3 light = textureLod(filtered, direction, prefiltered_level(width, kappa)).rgb;
-    float share = radiance_share(prefiltered_concentration(width, 0.0), size, kappa);
+// Lobes more concentrated than the finest ones are, in part, the radiance itself.
+vec3 with_radiance(vec3 light, vec3 direction, float finest) {
+    float size = float(textureSize(radiance, 0).x);
+    float share = radiance_share(finest, size, constants.concentration);
     return share > 0.0 ? mix(light, textureLod(radiance, direction, 0.0).rgb, share) : light;
+}
+
+vec3 prefiltered_light(vec3 direction) {
+    float width = float(textureSize(filtered, 0).x);
+    float level = prefiltered_level(width, constants.concentration);
+    return with_radiance(textureLod(filtered, direction, level).rgb, direction,
+                         prefiltered_concentration(width, 0.0));
+}
+
+vec3 blended_light(vec3 direction) {
+    float width = float(textureSize(filtered, 0).x);
+    prefiltered_blend levels = blend_of_lobe(width, constants.concentration);
+    vec3 light = mix(textureLod(between, direction, levels.level_between).rgb,
+                     textureLod(filtered, direction, levels.level).rgb, levels.share);
+    return with_radiance(light, direction, 2.0 * prefiltered_concentration(width, 0.0));
 }
 
 vec3 light(vec3 direction) {
     if (method == METHOD_SAMPLED)
         return sampled_light(direction);
-    return method == METHOD_MIP ? mip_light(direction) : prefiltered_light(direction);
+    if (method == METHOD_MIP)
+        return mip_light(direction);
+    return method == METHOD_BLENDED ? blended_light(direction) : prefiltered_light(direction);
 }
 
 void main() {

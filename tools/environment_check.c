@@ -24,8 +24,8 @@ typedef struct measurement {
 } measurement;
 
 const char *environment_method_name(environment_method method) {
-    static const char *const names[ENVIRONMENT_METHOD_COUNT] = {"prefiltered", "mip", "sampled",
-                                                                "sampled_equal_time"};
+    static const char *const names[ENVIRONMENT_METHOD_COUNT] = {"prefiltered", "blended", "mip",
+                                                                "sampled", "sampled_equal_time"};
     return names[method];
 }
 
@@ -121,8 +121,8 @@ static double relative_l2(const measurement *m, uint32_t lobe, const float *ligh
 /// Looks the light of a lobe up once; the time goes to `milliseconds`.
 static lobe_result look_up(measurement *m, uint32_t lobe, environment_method method,
                            uint32_t samples, environment_error *error, double *milliseconds) {
-    static const uint32_t methods[ENVIRONMENT_METHOD_COUNT] = {METHOD_PREFILTERED, METHOD_MIP,
-                                                               METHOD_SAMPLED, METHOD_SAMPLED};
+    static const uint32_t methods[ENVIRONMENT_METHOD_COUNT] = {
+        METHOD_PREFILTERED, METHOD_BLENDED, METHOD_MIP, METHOD_SAMPLED, METHOD_SAMPLED};
     lobe_graph *graph;
     environment_maps cubes;
     environment_check_request request = begin(m, &graph, &cubes);
@@ -173,14 +173,15 @@ static lobe_result measure_equal_time(measurement *m, uint32_t lobe) {
 }
 
 static lobe_result measure_methods(measurement *m) {
-    const environment_method methods[3] = {ENVIRONMENT_PREFILTERED, ENVIRONMENT_MIP,
-                                           ENVIRONMENT_SAMPLED};
+    // In the order of environment_method.
+    const environment_method methods[4] = {ENVIRONMENT_PREFILTERED, ENVIRONMENT_BLENDED,
+                                           ENVIRONMENT_MIP, ENVIRONMENT_SAMPLED};
     progress_step(m->job->progress, "%s, faces of %u: methods", m->job->environment->name,
                   m->findings->face);
     lobe_result result = LOBE_OK;
     for (uint32_t lobe = 0; result == LOBE_OK && lobe < CHECK_LOBES; ++lobe) {
-        result =
-            measure(m, lobe, methods, (uint32_t[3]){0, 0, SAMPLES}, 3, m->findings->errors[lobe]);
+        result = measure(m, lobe, methods, (uint32_t[4]){0, 0, 0, SAMPLES}, 4,
+                         m->findings->errors[lobe]);
         if (result == LOBE_OK)
             result = measure_equal_time(m, lobe);
         progress_part(m->job->progress, (lobe + 1.0) / CHECK_LOBES);
@@ -199,27 +200,32 @@ static double mip_time(const lobe_environment_maps_information *information) {
     return 0;
 }
 
-static lobe_result prepare(measurement *m) {
-    environment_findings *findings = m->findings;
+static lobe_result prepare(measurement *m, bool between) {
     progress_step(m->job->progress, "%s, faces of %u: preparing", m->job->environment->name,
-                  findings->face);
-    lobe_result result =
-        lobe_environment_maps_create(m->job->device,
-                                     &(lobe_environment_maps_parameters){
-                                         .environment = m->job->environment,
-                                         .size = findings->face,
-                                         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true},
-                                         .parts_a_submission = 1,
-                                         .progress = progress_part,
-                                         .user = m->job->progress,
-                                         .log = m->job->log,
-                                     },
-                                     &m->maps);
+                  m->findings->face);
+    lobe_environment_maps_destroy(&m->maps);
+    return lobe_environment_maps_create(
+        m->job->device,
+        &(lobe_environment_maps_parameters){
+            .environment = m->job->environment,
+            .size = m->findings->face,
+            .wanted =
+                {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true, [LOBE_ENVIRONMENT_BETWEEN] = between},
+            .parts_a_submission = 1,
+            .progress = progress_part,
+            .user = m->job->progress,
+            .log = m->job->log,
+        },
+        &m->maps);
+}
+
+static lobe_result time_preparation(measurement *m) {
+    lobe_result result = prepare(m, false);
     if (result != LOBE_OK)
         return result;
     const lobe_environment_maps_information *information = lobe_environment_maps_describe(m->maps);
-    findings->first_milliseconds = information->milliseconds;
-    findings->submissions = information->submissions;
+    m->findings->first_milliseconds = information->milliseconds;
+    m->findings->submissions = information->submissions;
     return LOBE_OK;
 }
 
@@ -269,13 +275,15 @@ lobe_result environment_check_run(const environment_check_job *job, uint32_t fac
         findings->concentrations[lobe] = job->kappa * pow(4, lobe);
     lobe_result result = allocate(&m);
     if (result == LOBE_OK)
-        result = prepare(&m);
+        result = time_preparation(&m);
+    if (result == LOBE_OK)
+        result = time_updates(&m);
+    if (result == LOBE_OK)
+        result = prepare(&m, true);
     if (result == LOBE_OK)
         result = find_exact_light(&m);
     if (result == LOBE_OK)
         result = measure_methods(&m);
-    if (result == LOBE_OK)
-        result = time_updates(&m);
     lobe_environment_maps_destroy(&m.maps);
     free(m.directions);
     free(m.exact);

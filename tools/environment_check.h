@@ -12,6 +12,7 @@
 
 typedef enum environment_method {
     ENVIRONMENT_PREFILTERED,
+    ENVIRONMENT_BLENDED, ///< prefiltered, of two cubes: the knob env_levels
     ENVIRONMENT_MIP,
     ENVIRONMENT_SAMPLED,            ///< filtered importance sampling, 32 samples
     ENVIRONMENT_SAMPLED_EQUAL_TIME, ///< as many as fit into the time of prefiltered, one at least
@@ -34,7 +35,7 @@ typedef struct environment_findings {
     double concentrations[CHECK_LOBES];
     environment_error errors[CHECK_LOBES][ENVIRONMENT_METHOD_COUNT];
     /// Device time of the plain MIP chain, and of all maps: when they are first made, and when the
-    /// environment changes. Medians.
+    /// environment changes. Medians. What `blended` takes besides is not in them.
     double mip_milliseconds, first_milliseconds, update_milliseconds;
     uint32_t submissions; ///< into which the first was parted
 } environment_findings;

@@ -8,6 +8,7 @@
 #define METHOD_PREFILTERED 0
 #define METHOD_MIP         1
 #define METHOD_SAMPLED     2
+#define METHOD_BLENDED     3
 
 // Invocations of a group of environment_check_exact.comp, and lobes that it sums up together.
 #define CHECK_GROUP_SIZE 64

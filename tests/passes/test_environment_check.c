@@ -41,10 +41,12 @@ static void start(fixture *f, bool constant, uint32_t size, checked *c) {
     }
     lobe_result result = lobe_environment_maps_create(
         f->device,
-        &(lobe_environment_maps_parameters){.environment = &c->environment,
-                                            .size = size,
-                                            .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true},
-                                            .log = &f->log},
+        &(lobe_environment_maps_parameters){
+            .environment = &c->environment,
+            .size = size,
+            .wanted =
+                {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true, [LOBE_ENVIRONMENT_BETWEEN] = true},
+            .log = &f->log},
         &c->maps);
     if (result != LOBE_OK)
         fail_msg("%s", f->error);
@@ -181,11 +183,12 @@ static void parts_add_up(void **state) {
 static void constant_light_is_kept(void **state) {
     checked c;
     start(*state, true, 64, &c);
-    const uint32_t methods[] = {METHOD_PREFILTERED, METHOD_MIP, METHOD_SAMPLED, METHOD_SAMPLED};
-    for (int method = 0; method < 4; ++method) {
+    const uint32_t methods[] = {METHOD_PREFILTERED, METHOD_BLENDED, METHOD_MIP, METHOD_SAMPLED,
+                                METHOD_SAMPLED};
+    for (int method = 0; method < 5; ++method) {
         for (int lobe = 0; lobe < CHECK_LOBES; ++lobe) {
             float *lights =
-                look_up(&c, methods[method], concentrations[lobe], method == 3 ? 1 : 32, 2);
+                look_up(&c, methods[method], concentrations[lobe], method == 4 ? 1 : 32, 2);
             for (int i = 0; i < 2 * DIRECTIONS; ++i)
                 for (int k = 0; k < 3; ++k)
                     assert_true(fabsf(lights[4 * i + k] - (float)(3 - k)) < 1e-5f * (float)(3 - k));
