@@ -277,17 +277,17 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
     return range;
 }
 
-static void set_range(const extremes *found, moment_partition *partition) {
-    partition->range = 1e-3f; // of maps without any slope: not 0, which would be divided by
+static void set_range(const extremes *found, moment_range *range) {
+    range->place[2] = 1e-3f; // of maps without any slope: not 0, which would be divided by
     // As much again for what the scan passed over.
     const double margin = 1.05;
     for (int i = 0; i < 2; ++i) {
-        partition->origin[i] = (float)(0.5 * (found->low[i] + found->high[i]));
+        range->place[i] = (float)(0.5 * (found->low[i] + found->high[i]));
         float half = (float)(0.5 * margin * (found->high[i] - found->low[i]));
-        partition->range = fmaxf(partition->range, half);
+        range->place[2] = fmaxf(range->place[2], half);
     }
-    partition->mass_scale = (float)(margin * found->heaviest);
-    partition->sharp_scale = (float)found->sharpest;
+    range->largest[0] = (float)(margin * found->heaviest);
+    range->largest[1] = (float)found->sharpest;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -444,8 +444,8 @@ static void make_partition(const lobe_scene *scene, const device_material *mater
     memset(partition, 0, sizeof *partition);
     partition->kind = kind;
     extremes range = scan(scene, material);
-    set_range(&range, partition);
-    material_lobe_extent(material, &partition->constants.width, &partition->constants.height);
+    set_range(&range, &partition->constants.range);
+    material_lobe_extent(material, &partition->width, &partition->height);
     if (kind != PARTITION_FITTED) {
         set_hats(samples, count, partition);
         return;

@@ -9,17 +9,17 @@
 #include "shaders/interface/moment_bins.h"
 
 /// How a material's lobes are shared out to bins, decided once from its maps on the host, and the
-/// range of its lobes in the Lambert plane, so that moments keep their digits in 16 bits.
+/// range of its lobes in the Lambert plane (`constants.range`, without that of colours), so that
+/// moments keep their digits in 16 bits.
 ///
 /// A fitted partition is a mixture of Gaussians for the whole material, by expectation and
 /// maximisation over some thousand of its lobes, each taken for as many points as make the sharp
 /// and the rough part ways (Vasconcelos, Lippman 1998). Partitions by hats have one bin for what is
 /// rough and four, or five with a cap, for directions.
 typedef struct moment_partition {
-    uint32_t kind;                 ///< PARTITION_...
-    uint32_t bins;                 ///< [1, MOMENT_MAXIMUM_BINS]
-    float origin[2], range;        ///< |place - origin| <= range for every lobe, both axes
-    float mass_scale, sharp_scale; ///< largest mass of a texel's lobes, largest sharpness of one
+    uint32_t kind;          ///< PARTITION_...
+    uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
+    uint32_t width, height; ///< of the base maps, texels: the larger of normal and width map
     struct moment_binning_constants constants;
 } moment_partition;
 

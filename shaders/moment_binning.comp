@@ -7,6 +7,7 @@
 // of the lobes. The texels' own lobes are level 0; the map begins where texels are averaged.
 
 #include "base_maps.glsl"
+#include "interface/clustering.h"
 #include "lib/bin_membership.glsl"
 #include "lib/box_reduction.glsl"
 #include "lib/half_vector_lobe.glsl"
@@ -20,17 +21,13 @@ layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
-layout(constant_id = SPECIALISE_ORIGIN_X) const float ORIGIN_X = 0.0;
-layout(constant_id = SPECIALISE_ORIGIN_Y) const float ORIGIN_Y = 0.0;
-layout(constant_id = SPECIALISE_RANGE) const float RANGE = 1.0;
-layout(constant_id = SPECIALISE_MASS_SCALE) const float MASS_SCALE = 1.0;
-layout(constant_id = SPECIALISE_SHARP_SCALE) const float SHARP_SCALE = 1.0;
-layout(constant_id = SPECIALISE_COLOUR_SCALE) const float COLOUR_SCALE = 1.0;
 
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
-layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants constants; };
+layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants binning; };
+
+layout(push_constant) uniform constants_block { clustering_constants constants; };
 
 struct bin_sums {
     vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
@@ -50,7 +47,7 @@ struct plane_lobe {
 void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
     float most = -1e30;
     for (int i = 0; i < BINS; ++i) {
-        members[i] = bin_likelihood(constants.bins[i], lobe.place, lobe.variance);
+        members[i] = bin_likelihood(binning.bins[i], lobe.place, lobe.variance);
         most = max(most, members[i]);
     }
     float sum = 0.0;
@@ -64,11 +61,11 @@ void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
 
 // Bin 0 has what is rough; the others share the rest by direction.
 void share_hats(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
-    bool rough = lobe.variance >= constants.hats.w;
-    vec2 d = lobe.place - constants.hats.xy;
-    float middle = PARTITION == PARTITION_CAP ? cap(d, constants.hats.z) : 0.0;
+    bool rough = lobe.variance >= binning.hats.w;
+    vec2 d = lobe.place - binning.hats.xy;
+    float middle = PARTITION == PARTITION_CAP ? cap(d, binning.hats.z) : 0.0;
     for (int i = 0; i < 4; ++i)
-        members[i + 1] = rough ? 0.0 : (1.0 - middle) * quarter(i, d, constants.hats.z);
+        members[i + 1] = rough ? 0.0 : (1.0 - middle) * quarter(i, d, binning.hats.z);
     members[0] = rough ? 1.0 : 0.0;
     members[5] = rough ? 0.0 : middle;
 }
@@ -79,10 +76,11 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
         share_fitted(lobe, members);
     else
         share_hats(lobe, members);
-    vec2 p = (lobe.place - vec2(ORIGIN_X, ORIGIN_Y)) / RANGE;
-    float sharpness = inversesqrt(lobe.variance) / SHARP_SCALE;
+    moment_range range = binning.range;
+    vec2 p = (lobe.place - range.place.xy) / range.place.z;
+    float sharpness = inversesqrt(lobe.variance) / range.largest.y;
     for (int i = 0; i < BINS; ++i) {
-        float mass = members[i] * weight * lobe.mass / MASS_SCALE;
+        float mass = members[i] * weight * lobe.mass / range.largest.x;
         sums.place[i] += mass * vec4(1.0, p, sharpness);
         sums.spread[i] += mass * vec3(p * p, p.x * p.y);
         if (BIN_COLOUR)
@@ -124,7 +122,7 @@ plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
         microfacet ? normal : rotate_from_pole(normal, material.lobe_direction[i].xyz));
     lobe.variance = plane_variance(distribution, parameter);
     lobe.mass = share * plane_mass(MODEL, distribution, parameter);
-    lobe.colour = specular / COLOUR_SCALE;
+    lobe.colour = specular / binning.range.largest.z;
     if (!microfacet)
         lobe.colour *= material.lobe_colour[i].rgb / max(share, 1e-6);
     return lobe;
@@ -166,5 +164,5 @@ void main() {
     }
     if (BIN_COLOUR)
         imageStore(moment_map, ivec3(position, layers * BINS),
-                   vec4(sums.diffuse / COLOUR_SCALE, 0.0));
+                   vec4(sums.diffuse / binning.range.largest.z, 0.0));
 }

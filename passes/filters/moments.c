@@ -103,7 +103,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
 }
 
 /// What no colour of the material's exceeds, neither a bin's nor the diffuse one.
-static float colour_scale_of(const lobe_scene *scene, const device_material *material) {
+static float largest_colour(const lobe_scene *scene, const device_material *material) {
     const lobe_material *source = material->material;
     float base = 1, specular = 1;
     for (int i = 0; i < 3; ++i) {
@@ -118,15 +118,9 @@ static float colour_scale_of(const lobe_scene *scene, const device_material *mat
 }
 
 static void specialise_bins(const filter_context *context, const moment_partition *partition,
-                            bool colour, float colour_scale, filtered_appearance *appearance) {
+                            bool colour, filtered_appearance *appearance) {
     appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
     appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
-    appearance_specialise_number(appearance, SPECIALISE_ORIGIN_X, partition->origin[0]);
-    appearance_specialise_number(appearance, SPECIALISE_ORIGIN_Y, partition->origin[1]);
-    appearance_specialise_number(appearance, SPECIALISE_RANGE, partition->range);
-    appearance_specialise_number(appearance, SPECIALISE_MASS_SCALE, partition->mass_scale);
-    appearance_specialise_number(appearance, SPECIALISE_SHARP_SCALE, partition->sharp_scale);
-    appearance_specialise_number(appearance, SPECIALISE_COLOUR_SCALE, colour_scale);
     appearance_specialise_number(appearance, SPECIALISE_LEAST_SHARE,
                                  (float)filter_setting(context, "least_share"));
 }
@@ -136,24 +130,28 @@ static void build(const filter_context *context, size_t instance, filtered_appea
     const device_material *material = &context->scene->materials[index];
     uint32_t width, height;
     bool binned = lobe_map_extent(material, &width, &height) && width * height > 1;
-    lobe_resource resource;
+    lobe_resource resource, range;
     if (binned) {
         const moment_partition *partition = moment_partition_of(
             context->scene, index, (uint32_t)filter_setting(context, "partition"),
             (uint32_t)filter_setting(context, "bins"));
         bool colour = has_bin_colour(context, material);
-        float scale = colour ? colour_scale_of(context->scene->scene, material) : 1;
+        float largest = colour ? largest_colour(context->scene->scene, material) : 1;
         moment_map moments =
-            moment_binning(context, index, partition, format_of(context), colour, scale);
-        specialise_bins(context, partition, colour, scale, appearance);
+            moment_binning(context, index, partition, format_of(context), colour, largest);
+        specialise_bins(context, partition, colour, appearance);
         appearance->bytes = reduced_map_bytes(&moments.map, moments.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = moments.map.resource;
+        range = moments.range;
     } else {
+        static const struct moment_binning_constants none;
         resource = lobe_graph_import_texture(context->graph, context->scene->white);
+        range = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
     }
     uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
     appearance_bind(appearance, "moment_map", resource, filtered_map_sampler(material, map));
+    appearance_bind(appearance, "binning_block", range, (lobe_sampler){0});
     appearance_specialise(appearance, SPECIALISE_MIXTURE, binned);
     filtered_maps_build(context, index, appearance);
 }

@@ -17,15 +17,10 @@
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
-layout(constant_id = SPECIALISE_ORIGIN_X) const float ORIGIN_X = 0.0;
-layout(constant_id = SPECIALISE_ORIGIN_Y) const float ORIGIN_Y = 0.0;
-layout(constant_id = SPECIALISE_RANGE) const float RANGE = 1.0;
-layout(constant_id = SPECIALISE_MASS_SCALE) const float MASS_SCALE = 1.0;
-layout(constant_id = SPECIALISE_SHARP_SCALE) const float SHARP_SCALE = 1.0;
-layout(constant_id = SPECIALISE_COLOUR_SCALE) const float COLOUR_SCALE = 1.0;
 layout(constant_id = SPECIALISE_LEAST_SHARE) const float LEAST_SHARE = 0.0;
 
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
 
 // What the bins come to for one light.
 struct light_sum {
@@ -101,14 +96,16 @@ plane_bin read_bin(map_area area, uint index, vec3 curvature) {
     vec4 place = fetch_moments(area, layers * index);
     vec3 spread = fetch_moments(area, layers * index + 1u).xyz;
     float scale = 1.0 / max(place.x, 1e-6);
+    moment_range range = binning.range;
     plane_bin bin;
-    bin.mass = place.x * MASS_SCALE;
+    bin.mass = place.x * range.largest.x;
     vec2 mean = place.yz * scale;
-    bin.mean = mean * RANGE + vec2(ORIGIN_X, ORIGIN_Y);
+    bin.mean = mean * range.place.z + range.place.xy;
     bin.axis = direction_from_plane(bin.mean);
-    bin.sharpness = max(place.w * scale * SHARP_SCALE, 0.4);
+    bin.sharpness = max(place.w * scale * range.largest.y, 0.4);
     bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
-    vec3 covariance = covariance_of(mean, spread * scale) * (RANGE * RANGE) + curvature;
+    vec3 covariance =
+        covariance_of(mean, spread * scale) * (range.place.z * range.place.z) + curvature;
     vec3 base = bin.variance * plane_distortion(bin.mean);
     bin.covariance = covariance + base;
     bin.gain = mat2(covariance.x, covariance.z, covariance.z, covariance.y) *
@@ -126,7 +123,7 @@ plane_bin read_bin(map_area area, uint index, vec3 curvature) {
     bin.spread = 0.5 * (covariance.x + covariance.y);
     keep_shape(bin);
     if (BIN_COLOUR)
-        bin.colour = fetch_moments(area, layers * index + 2u).rgb * (scale * COLOUR_SCALE);
+        bin.colour = fetch_moments(area, layers * index + 2u).rgb * (scale * range.largest.z);
     return bin;
 }
 
@@ -235,7 +232,7 @@ base_material footprint_material(surface_point surface, vec3 normal, map_area ar
         return filtered_material(surface, normal, area);
     base_material base;
     base.normal = normal;
-    base.diffuse = fetch_moments(area, 3u * BINS).rgb * COLOUR_SCALE;
+    base.diffuse = fetch_moments(area, 3u * BINS).rgb * binning.range.largest.z;
     if (VERTEX_COLOUR)
         base.diffuse *= surface.colour.rgb;
     base.specular = vec3(0.0); // the bins'

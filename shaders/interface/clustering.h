@@ -3,7 +3,8 @@
 
 #include "types.h"
 
-// Push constants of lobe_clustering and parameter_averaging.
+// Push constants of lobe_clustering, parameter_averaging and moment_binning. Loops over texels end
+// by them: by a uniform block, lavapipe would compile the shader again for every content of that.
 struct clustering_constants {
     uint width; // of the base maps, texels: the larger of the normal and the width map
     uint height;

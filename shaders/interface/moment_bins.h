@@ -7,24 +7,18 @@
 // How moments of lobes in the Lambert plane lie in the layers of a map, and how lobes are shared
 // out to bins (see shaders/moment_binning.comp).
 //
-// With p the lobe's place in the plane and g its sharpness, both scaled to [-1, 1] by the
-// material's own range, and m its mass, bin b has
+// With p the lobe's place in the plane, g its sharpness and m its mass, all scaled to [-1, 1] by
+// the material's own range (moment_range), bin b has
 // [b layers + 0]  sums of m, m p_x, m p_y, m g
 // [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y
 // [b layers + 2]  where bins have colours: sum of m times the specular colour
 // [last]          where bins have colours: mean of the diffuse colour
 #define MOMENT_MAXIMUM_BINS 6
 
-#define SPECIALISE_BINS         (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
-#define SPECIALISE_PARTITION    (SPECIALISE_FILTER + 33) // uint, PARTITION_...
-#define SPECIALISE_BIN_COLOUR   (SPECIALISE_FILTER + 34) // bool: bins have colours
-#define SPECIALISE_ORIGIN_X     (SPECIALISE_FILTER + 35) // float, plane: middle of the range
-#define SPECIALISE_ORIGIN_Y     (SPECIALISE_FILTER + 36) // float
-#define SPECIALISE_RANGE        (SPECIALISE_FILTER + 37) // float: half its width
-#define SPECIALISE_MASS_SCALE   (SPECIALISE_FILTER + 38) // float: largest of a texel's lobes
-#define SPECIALISE_SHARP_SCALE  (SPECIALISE_FILTER + 39) // float: largest sharpness
-#define SPECIALISE_COLOUR_SCALE (SPECIALISE_FILTER + 40) // float: largest specular colour
-#define SPECIALISE_LEAST_SHARE  (SPECIALISE_FILTER + 41) // float: bins with less are passed over
+#define SPECIALISE_BINS        (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
+#define SPECIALISE_PARTITION   (SPECIALISE_FILTER + 33) // uint, PARTITION_...
+#define SPECIALISE_BIN_COLOUR  (SPECIALISE_FILTER + 34) // bool: bins have colours
+#define SPECIALISE_LEAST_SHARE (SPECIALISE_FILTER + 35) // float: bins with less are passed over
 
 #define PARTITION_FITTED 0
 #define PARTITION_HATS   1
@@ -43,19 +37,29 @@ INTERFACE_OFFSET(moment_bin, shape, 16)
 typedef struct moment_bin moment_bin;
 #endif
 
-// Uniform block of moment_binning (std140).
+// What the values of a map are parts of. No specialisation constants: each material, and whatever
+// becomes of it, would need pipelines of its own.
+struct moment_range {
+    float4 place;   // x, y: middle of the places; z: half the width of their range
+    float4 largest; // x: mass of a texel's lobes; y: sharpness; z: colour
+};
+INTERFACE_SIZE(moment_range, 32)
+INTERFACE_OFFSET(moment_range, largest, 16)
+#ifndef VULKAN
+typedef struct moment_range moment_range;
+#endif
+
+// Uniform block of moment_binning and of the filter (std140).
 struct moment_binning_constants {
-    uint width; // of the base maps, texels: the larger of the normal and the width map
-    uint height;
-    uint padding_0;
-    uint padding_1;
     // Partitions by hats: x, y: the middle; z: 1 / width of a hat; w: variance from which a lobe
     // is rough.
     float4 hats;
+    moment_range range;
     moment_bin bins[MOMENT_MAXIMUM_BINS];
 };
-INTERFACE_SIZE(moment_binning_constants, 224)
-INTERFACE_OFFSET(moment_binning_constants, hats, 16)
-INTERFACE_OFFSET(moment_binning_constants, bins, 32)
+INTERFACE_SIZE(moment_binning_constants, 240)
+INTERFACE_OFFSET(moment_binning_constants, hats, 0)
+INTERFACE_OFFSET(moment_binning_constants, range, 16)
+INTERFACE_OFFSET(moment_binning_constants, bins, 48)
 
 #endif

@@ -67,16 +67,25 @@ OBJECT(Sampler)
 OBJECT(Semaphore)
 OBJECT(ShaderModule)
 
-MAKES(vkCreateComputePipelines,
-      (VkDevice device, VkPipelineCache cache, uint32_t count,
-       const VkComputePipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,
-       VkPipeline *made),
-      (device, cache, count, create, callbacks, made))
-MAKES(vkCreateGraphicsPipelines,
-      (VkDevice device, VkPipelineCache cache, uint32_t count,
-       const VkGraphicsPipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,
-       VkPipeline *made),
-      (device, cache, count, create, callbacks, made))
+#define PIPELINES(kind)                                                                            \
+    VKAPI_ATTR VkResult VKAPI_CALL vkCreate##kind##Pipelines(                                      \
+        VkDevice device, VkPipelineCache cache, uint32_t count,                                    \
+        const Vk##kind##PipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,        \
+        VkPipeline *made) {                                                                        \
+        if (fails("vkCreate" #kind "Pipelines"))                                                   \
+            return faults.fault;                                                                   \
+        VkResult result =                                                                          \
+            REAL(vkCreate##kind##Pipelines)(device, cache, count, create, callbacks, made);        \
+        if (result == VK_SUCCESS) {                                                                \
+            faults.alive++;                                                                        \
+            faults.made++;                                                                         \
+            faults.pipelines++;                                                                    \
+        }                                                                                          \
+        return result;                                                                             \
+    }
+
+PIPELINES(Compute)
+PIPELINES(Graphics)
 DESTROYS(vkDestroyPipeline, VkPipeline)
 MAKES(vkAllocateMemory,
       (VkDevice device, const VkMemoryAllocateInfo *allocate,

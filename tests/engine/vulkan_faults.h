@@ -11,6 +11,7 @@ typedef struct vulkan_faults {
     VkResult fault;     ///< with this
     const char *failed; ///< its name, once it has
     int alive;          ///< objects made and not destroyed
+    int pipelines;      ///< made so far; set to 0 to count anew
     int made;           ///< so far, taken from pools included; set to 0 to count anew
 } vulkan_faults;
 

@@ -13,14 +13,15 @@
 
 reference_moment_bins moment_bins_of(const moment_partition *partition, bool colour,
                                      double colour_scale) {
+    const moment_range *range = &partition->constants.range;
     return (reference_moment_bins){
         .kind = partition->kind,
         .bins = partition->bins,
         .colour = colour,
-        .origin = {(double)partition->origin[0], (double)partition->origin[1]},
-        .range = (double)partition->range,
-        .mass_scale = (double)partition->mass_scale,
-        .sharp_scale = (double)partition->sharp_scale,
+        .origin = {(double)range->place[0], (double)range->place[1]},
+        .range = (double)range->place[2],
+        .mass_scale = (double)range->largest[0],
+        .sharp_scale = (double)range->largest[1],
         .colour_scale = colour_scale,
         .constants = partition->constants,
     };

@@ -188,10 +188,11 @@ static void the_same_every_time(void **state) {
 }
 
 static void assert_sound(const moment_partition *partition) {
+    const moment_range *range = &partition->constants.range;
     assert_in_range(partition->bins, 1, MOMENT_MAXIMUM_BINS);
-    assert_true(partition->range > 0 && isfinite(partition->range));
-    assert_true(partition->mass_scale > 0 && isfinite(partition->mass_scale));
-    assert_true(partition->sharp_scale > 0 && isfinite(partition->sharp_scale));
+    assert_true(range->place[2] > 0 && isfinite(range->place[2]));
+    assert_true(range->largest[0] > 0 && isfinite(range->largest[0]));
+    assert_true(range->largest[1] > 0 && isfinite(range->largest[1]));
     for (uint32_t i = 0; i < partition->bins; i++)
         for (int j = 0; j < 4; j++)
             assert_true(isfinite(partition->constants.bins[i].centre[j]) &&

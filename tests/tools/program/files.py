@@ -37,6 +37,18 @@ def _value(kind, value):
 
 def exr_header(path):
     """The attributes of an OpenEXR file by name."""
+    return _header(path)[0]
+
+
+def exr_pixels(path):
+    """What follows the header and the table of places: all channels, as they are stored."""
+    attributes, data = _header(path)
+    window = attributes["dataWindow"]
+    lines = {0: 1, 2: 1, 3: 16}[attributes["compression"][0]]
+    return data[8 * -(-(window[3] - window[1] + 1) // lines):]
+
+
+def _header(path):
     data = path.read_bytes()
     assert data[:4] == b"\x76\x2f\x31\x01", f"{path} is no OpenEXR file"
     attributes, at = {}, 8
@@ -46,7 +58,7 @@ def exr_header(path):
         size = struct.unpack_from("<i", data, at)[0]
         attributes[name] = _value(kind, data[at + 4:at + 4 + size])
         at += 4 + size
-    return attributes
+    return attributes, data[at + 1:]
 
 
 def _attribute(name, kind, value):
