@@ -33,6 +33,7 @@ struct lobe_device {
     lobe_vulkan_features features;  ///< what was enabled
     VkSemaphore timeline;           ///< reaches n when the n-th submission is done
     _Atomic uint64_t submitted;     ///< submissions so far; grows under the lock of the queue
+    _Atomic bool is_lost;           ///< what was submitted or waited for last found it so
     pthread_mutex_t commands_mutex; ///< from the begin to the finish of single-use commands
     VkCommandPool commands;         ///< of single-use command buffers
     engine_memory *memory;

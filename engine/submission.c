@@ -27,6 +27,16 @@ static void list_semaphores(const lobe_vulkan_semaphore *semaphores, uint32_t co
         };
 }
 
+/// That the device is lost is told once: whatever waits for it afterwards, to tear down what is
+/// left, finds the same.
+static lobe_result check(lobe_device *device, VkResult code, const char *function,
+                         const char *purpose) {
+    const bool was_lost = atomic_exchange(&device->is_lost, code == VK_ERROR_DEVICE_LOST);
+    if (was_lost && code == VK_ERROR_DEVICE_LOST)
+        return LOBE_ERROR_DEVICE_LOST;
+    return engine_vulkan_check(&device->log, code, function, "%s", purpose);
+}
+
 lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
                                  const lobe_vulkan_submission *host, uint64_t *value) {
     const VkCommandBufferSubmitInfo buffer = {
@@ -64,14 +74,14 @@ lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
     engine_device_unlock_queue(device);
     if (submitted == VK_SUCCESS && value)
         *value = reached;
-    return engine_vulkan_check(&device->log, submitted, "vkQueueSubmit2", "submission");
+    return check(device, submitted, "vkQueueSubmit2", "submission");
 }
 
 lobe_result engine_device_wait_queue(lobe_device *device) {
     engine_device_lock_queue(device);
     const VkResult waited = vkQueueWaitIdle(device->queue);
     engine_device_unlock_queue(device);
-    return engine_vulkan_check(&device->log, waited, "vkQueueWaitIdle", "waiting for the device");
+    return check(device, waited, "vkQueueWaitIdle", "waiting for the device");
 }
 
 lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
@@ -81,8 +91,8 @@ lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
         .pSemaphores = &device->timeline,
         .pValues = &value,
     };
-    return VULKAN_CHECK(&device->log, vkWaitSemaphores(device->vulkan, &wait, UINT64_MAX),
-                        "waiting for the device");
+    return check(device, vkWaitSemaphores(device->vulkan, &wait, UINT64_MAX), "vkWaitSemaphores",
+                 "waiting for the device");
 }
 
 lobe_result engine_device_wait_all(lobe_device *device) {

@@ -50,9 +50,17 @@ void append_batch(const ImDrawList *list, const ImDrawCmd &command, const ImVec2
     frame_batches.push_back(batch);
 }
 
+/// The font that is built in, at whole pixels.
+void set_font(float scale) {
+    ImFontConfig font;
+    font.SizePixels = static_cast<float>(static_cast<int>(13 * scale + 0.5f));
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+}
+
 void set_style(float scale) {
-    ImGui::StyleColorsDark();
     ImGuiStyle &style = ImGui::GetStyle();
+    style = ImGuiStyle(); // scaled sizes cannot be scaled back
+    ImGui::StyleColorsDark();
     style.WindowRounding = style.FrameRounding = style.GrabRounding = 3;
     style.WindowBorderSize = 0;
     style.ItemSpacing = ImVec2(6, 3);
@@ -69,11 +77,18 @@ bool imgui_open(GLFWwindow *window, float scale) try {
     ImGuiIO &io = ImGui::GetIO();
     io.IniFilename = nullptr; // nothing is kept from one run to the next
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    ImFontConfig font;
-    font.SizePixels = static_cast<float>(static_cast<int>(13 * scale + 0.5f));
-    io.Fonts->AddFontDefault(&font);
+    set_font(scale);
     set_style(scale);
     return ImGui_ImplGlfw_InitForOther(window, true);
+} catch (...) {
+    return false;
+}
+
+bool imgui_rescale(float scale) try {
+    ImGui::GetIO().Fonts->Clear();
+    set_font(scale);
+    set_style(scale);
+    return true;
 } catch (...) {
     return false;
 }

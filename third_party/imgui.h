@@ -34,7 +34,10 @@ typedef struct imgui_batch {
 bool imgui_open(struct GLFWwindow *window, float scale);
 void imgui_close(void);
 
-/// The font's picture, one byte of coverage a texel; lives until imgui_close.
+/// Between frames: text and widgets of another scale. False: out of memory.
+bool imgui_rescale(float scale);
+
+/// The font's picture, one byte of coverage a texel; lives until imgui_rescale or imgui_close.
 const uint8_t *imgui_font(uint32_t *width, uint32_t *height);
 
 void imgui_begin_frame(void);

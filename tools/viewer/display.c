@@ -14,7 +14,8 @@ extern const size_t viewer_shaders_count;
 // ---------------------------------------------------------------------------------------------
 // What outlives frames
 
-static lobe_result create_font(const viewer_device *device, viewer_display *display) {
+lobe_result viewer_display_renew_font(const viewer_device *device, viewer_display *display) {
+    lobe_texture_destroy(&display->font);
     lobe_image image = {.format = LOBE_FORMAT_R8_UNORM};
     image.texels = (void *)imgui_font(&image.width, &image.height);
     return lobe_texture_create(
@@ -33,7 +34,7 @@ lobe_result viewer_display_open(const viewer_device *device, viewer_display *dis
     lobe_result result =
         engine_shaders_add(device->lobe, viewer_shaders, viewer_shaders_count, VIEWER_SHADERS);
     if (result == LOBE_OK)
-        result = create_font(device, display);
+        result = viewer_display_renew_font(device, display);
     if (result == LOBE_OK)
         result = create_blank(device, display);
     if (result == LOBE_OK)

@@ -32,6 +32,9 @@ typedef struct viewer_display {
 lobe_result viewer_display_open(const viewer_device *device, viewer_display *display);
 void viewer_display_close(viewer_display *display);
 
+/// The panels have another font. Nothing that was recorded may be under way.
+lobe_result viewer_display_renew_font(const viewer_device *device, viewer_display *display);
+
 /// Records the drawing of the swapchain's current image, with the panels of this frame.
 lobe_result viewer_display_record(viewer_display *display, const viewer_look *look,
                                   const viewer_side sides[2], const viewer_swapchain *swapchain,

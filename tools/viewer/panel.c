@@ -3,9 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include "third_party/imgui.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/panel.h"
@@ -195,14 +192,8 @@ static void show_path(viewer *v) {
 // ---------------------------------------------------------------------------------------------
 // All
 
-static float scale_of(const viewer *v) {
-    float x = 1, y = 1;
-    glfwGetWindowContentScale(v->window, &x, &y);
-    return x;
-}
-
 static void show_panel(viewer *v) {
-    const float scale = scale_of(v), margin = 8 * scale;
+    const float scale = v->scale, margin = 8 * scale;
     const float size[2] = {300 * scale, (float)v->swapchain.height - 2 * margin};
     imgui_begin_panel("panel", (float[2]){margin, margin}, size);
     choose_scene(v);
@@ -229,13 +220,13 @@ static void show_panel(viewer *v) {
 
 /// Where there is room: beside the panel, or over it in a window that has none for both.
 static float left_of_room(const viewer *v) {
-    const float scale = scale_of(v), margin = 8 * scale;
+    const float scale = v->scale, margin = 8 * scale;
     const bool beside = v->shows_panel && (float)v->swapchain.width >= 780 * scale;
     return beside ? 2 * margin + 300 * scale : margin;
 }
 
 static void show_help(const viewer *v) {
-    imgui_begin_panel("keys", (float[2]){left_of_room(v), 8 * scale_of(v)}, (float[2]){0, 0});
+    imgui_begin_panel("keys", (float[2]){left_of_room(v), 8 * v->scale}, (float[2]){0, 0});
     for (size_t i = 0; i < viewer_key_count; ++i)
         imgui_term(viewer_keys[i].name, viewer_keys[i].summary);
     imgui_end_panel();
@@ -243,7 +234,7 @@ static void show_help(const viewer *v) {
 
 /// At the lower edge.
 static void show_message(const viewer *v) {
-    const float margin = 8 * scale_of(v), left = left_of_room(v);
+    const float margin = 8 * v->scale, left = left_of_room(v);
     imgui_begin_note("message", (float[2]){left, (float)v->swapchain.height - margin},
                      (float)v->swapchain.width - left - margin);
     imgui_text(v->message);

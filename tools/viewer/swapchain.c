@@ -2,26 +2,42 @@
 
 #include "engine/vulkan_check.h"
 
+static viewer_shown judge(const viewer_device *device, VkResult code, const char *what,
+                          lobe_result *result) {
+    *result = LOBE_OK;
+    if (code == VK_ERROR_OUT_OF_DATE_KHR)
+        return VIEWER_OUT_OF_DATE;
+    if (code == VK_ERROR_SURFACE_LOST_KHR)
+        return VIEWER_SURFACE_LOST;
+    *result = engine_vulkan_check(&device->log, code, what, "window's images");
+    return *result == LOBE_OK ? VIEWER_SHOWN : VIEWER_FAILED;
+}
+
 /// Colours leave the viewer's shader encoded: a format that encoded them again would not do.
-static lobe_result choose_format(const viewer_device *device, VkSurfaceFormatKHR *chosen) {
-    static const VkFormat usable[] = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
+static bool is_usable(const VkSurfaceFormatKHR *format) {
+    return (format->format == VK_FORMAT_B8G8R8A8_UNORM ||
+            format->format == VK_FORMAT_R8G8B8A8_UNORM) &&
+           format->colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+}
+
+static viewer_shown choose_format(const viewer_device *device, VkSurfaceFormatKHR *chosen,
+                                  lobe_result *result) {
     VkSurfaceFormatKHR formats[64];
     uint32_t count = 64;
     const VkResult listed = vkGetPhysicalDeviceSurfaceFormatsKHR(device->vulkan.physical_device,
                                                                  device->surface, &count, formats);
-    lobe_result result = VULKAN_CHECK(&device->log, listed, "window's surface");
-    for (uint32_t i = 0; result == LOBE_OK && i < count; i++) {
-        for (size_t k = 0; k < sizeof usable / sizeof *usable; k++) {
-            if (formats[i].format != usable[k] ||
-                formats[i].colorSpace != VK_COLOR_SPACE_SRGB_NONLINEAR_KHR)
-                continue;
-            *chosen = formats[i];
-            return LOBE_OK;
-        }
+    const viewer_shown asked =
+        judge(device, listed, "vkGetPhysicalDeviceSurfaceFormatsKHR", result);
+    for (uint32_t i = 0; asked == VIEWER_SHOWN && i < count; i++) {
+        if (!is_usable(&formats[i]))
+            continue;
+        *chosen = formats[i];
+        return VIEWER_SHOWN;
     }
-    return result != LOBE_OK ? result
-                             : lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                                             "window: takes no pictures of 8 bits a channel");
+    if (asked == VIEWER_SHOWN)
+        *result = lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
+                                "window: takes no pictures of 8 bits a channel");
+    return asked == VIEWER_SHOWN ? VIEWER_FAILED : asked;
 }
 
 static uint32_t clamp(uint32_t value, uint32_t minimum, uint32_t maximum) {
@@ -55,19 +71,14 @@ static lobe_result create_semaphores(const viewer_device *device, viewer_swapcha
     return result;
 }
 
-static lobe_result create_swapchain(const viewer_device *device,
-                                    const VkSwapchainCreateInfoKHR *create,
-                                    viewer_swapchain *swapchain) {
-    VkDevice vulkan = device->vulkan.device;
-    lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateSwapchainKHR(vulkan, create, NULL, &swapchain->swapchain),
-        "window's images");
+static lobe_result take_images(const viewer_device *device, const VkSwapchainCreateInfoKHR *create,
+                               viewer_swapchain *swapchain) {
     uint32_t count = VIEWER_MAXIMUM_IMAGES;
-    if (result == LOBE_OK)
-        result = VULKAN_CHECK(
-            &device->log,
-            vkGetSwapchainImagesKHR(vulkan, swapchain->swapchain, &count, swapchain->images),
-            "window's images");
+    const lobe_result result =
+        VULKAN_CHECK(&device->log,
+                     vkGetSwapchainImagesKHR(device->vulkan.device, swapchain->swapchain, &count,
+                                             swapchain->images),
+                     "window's images");
     if (result != LOBE_OK)
         return result;
     swapchain->count = count;
@@ -75,6 +86,21 @@ static lobe_result create_swapchain(const viewer_device *device,
     swapchain->height = create->imageExtent.height;
     swapchain->format = create->imageFormat;
     return create_semaphores(device, swapchain);
+}
+
+static viewer_shown create_swapchain(const viewer_device *device,
+                                     const VkSwapchainCreateInfoKHR *create,
+                                     viewer_swapchain *swapchain, lobe_result *result) {
+    const VkResult code =
+        vkCreateSwapchainKHR(device->vulkan.device, create, NULL, &swapchain->swapchain);
+    viewer_shown made = judge(device, code, "vkCreateSwapchainKHR", result);
+    if (made == VIEWER_SHOWN)
+        *result = take_images(device, create, swapchain);
+    if (*result != LOBE_OK)
+        made = VIEWER_FAILED;
+    if (made != VIEWER_SHOWN)
+        viewer_swapchain_destroy(device, swapchain);
+    return made;
 }
 
 /// Two images at least: one is shown while the next is drawn.
@@ -98,26 +124,23 @@ static VkSwapchainCreateInfoKHR describe(const viewer_device *device,
     };
 }
 
-lobe_result viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
-                                   viewer_swapchain *swapchain) {
+viewer_shown viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
+                                    viewer_swapchain *swapchain, lobe_result *result) {
     viewer_swapchain_destroy(device, swapchain);
     VkSurfaceCapabilitiesKHR surface;
     VkSurfaceFormatKHR format = {0};
-    const VkResult asked = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device->vulkan.physical_device,
-                                                                     device->surface, &surface);
-    lobe_result result = VULKAN_CHECK(&device->log, asked, "window's surface");
-    if (result == LOBE_OK)
-        result = choose_format(device, &format);
-    if (result != LOBE_OK)
-        return result;
+    const VkResult code = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device->vulkan.physical_device,
+                                                                    device->surface, &surface);
+    viewer_shown asked = judge(device, code, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR", result);
+    if (asked == VIEWER_SHOWN)
+        asked = choose_format(device, &format, result);
+    if (asked != VIEWER_SHOWN)
+        return asked;
     const VkExtent2D extent = choose_extent(&surface, width, height);
     if (extent.width == 0 || extent.height == 0)
-        return LOBE_OK;
+        return VIEWER_SHOWN;
     const VkSwapchainCreateInfoKHR create = describe(device, &surface, &format, extent);
-    result = create_swapchain(device, &create, swapchain);
-    if (result != LOBE_OK)
-        viewer_swapchain_destroy(device, swapchain);
-    return result;
+    return create_swapchain(device, &create, swapchain, result);
 }
 
 void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swapchain) {
@@ -132,26 +155,22 @@ void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swa
     *swapchain = (viewer_swapchain){0};
 }
 
-/// A suboptimal image shows; a resize will say what it should be.
-static viewer_shown judge(const viewer_device *device, VkResult code, const char *what,
-                          lobe_result *result) {
-    *result = LOBE_OK;
-    if (code == VK_SUCCESS || code == VK_SUBOPTIMAL_KHR)
-        return VIEWER_SHOWN;
-    if (code == VK_ERROR_OUT_OF_DATE_KHR)
-        return VIEWER_OUT_OF_DATE;
-    if (code == VK_ERROR_SURFACE_LOST_KHR)
-        return VIEWER_SURFACE_LOST;
-    *result = engine_vulkan_check(&device->log, code, what, "window's images");
-    return VIEWER_FAILED;
-}
-
 viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapchain *swapchain,
                                       lobe_result *result) {
-    return judge(device,
-                 vkAcquireNextImageKHR(device->vulkan.device, swapchain->swapchain, UINT64_MAX,
-                                       swapchain->acquired, VK_NULL_HANDLE, &swapchain->current),
-                 "vkAcquireNextImageKHR", result);
+    const VkResult code =
+        vkAcquireNextImageKHR(device->vulkan.device, swapchain->swapchain, UINT64_MAX,
+                              swapchain->acquired, VK_NULL_HANDLE, &swapchain->current);
+    swapchain->fits_badly = code == VK_SUBOPTIMAL_KHR;
+    return judge(device, code, "vkAcquireNextImageKHR", result);
+}
+
+/// An image that fits badly shows, but the next swapchain may fit. Not where none ever has: then
+/// there would be no end of it.
+static viewer_shown judge_fit(viewer_swapchain *swapchain, VkResult code) {
+    const bool badly = swapchain->fits_badly || code == VK_SUBOPTIMAL_KHR;
+    const bool fitted = swapchain->fits;
+    swapchain->fits = !badly;
+    return badly && fitted ? VIEWER_OUT_OF_DATE : VIEWER_SHOWN;
 }
 
 viewer_shown viewer_swapchain_present(const viewer_device *device, viewer_swapchain *swapchain,
@@ -164,6 +183,7 @@ viewer_shown viewer_swapchain_present(const viewer_device *device, viewer_swapch
         .pSwapchains = &swapchain->swapchain,
         .pImageIndices = &swapchain->current,
     };
-    return judge(device, vkQueuePresentKHR(device->vulkan.queue, &present), "vkQueuePresentKHR",
-                 result);
+    const VkResult code = vkQueuePresentKHR(device->vulkan.queue, &present);
+    const viewer_shown shown = judge(device, code, "vkQueuePresentKHR", result);
+    return shown == VIEWER_SHOWN ? judge_fit(swapchain, code) : shown;
 }

@@ -17,20 +17,22 @@ typedef struct viewer_swapchain {
     VkSemaphore drawn[VIEWER_MAXIMUM_IMAGES]; ///< of each: it may be shown
     VkSemaphore acquired;                     ///< the one acquired last may be drawn into
     uint32_t current;                         ///< that one
+    bool fits;                                ///< an image was shown as the surface likes it best
+    bool fits_badly; ///< it would like the one acquired last to be other than it is
 } viewer_swapchain;
 
-/// How showing went.
+/// How showing, or getting ready for it, went.
 typedef enum viewer_shown {
     VIEWER_SHOWN,
-    VIEWER_OUT_OF_DATE,  ///< the window has another size: the swapchain must be made anew
+    VIEWER_OUT_OF_DATE,  ///< the window is not what it was: the swapchain must be made anew
     VIEWER_SURFACE_LOST, ///< the surface, too
     VIEWER_FAILED,       ///< a line says why
 } viewer_shown;
 
 /// Makes one of about this size in the place of the one before, whose images nobody may still use.
 /// Where the window has no size now (it is minimised) there is none, and `count` is 0.
-lobe_result viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
-                                   viewer_swapchain *swapchain);
+viewer_shown viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
+                                    viewer_swapchain *swapchain, lobe_result *result);
 void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swapchain);
 
 /// Takes the next image.

@@ -10,9 +10,9 @@
 
 #include "engine/shader.h"
 #include "engine/shader_words.h"
-#include "engine/vulkan_check.h"
 #include "third_party/imgui.h"
 #include "tools/viewer/camera.h"
+#include "tools/viewer/graphics.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"
@@ -23,8 +23,6 @@
 #define REDRAWS 3
 /// How often saved shaders are looked for while the window rests.
 #define RELOAD_SECONDS 0.25
-/// Device losses in a row after which it is given up.
-#define MAXIMUM_LOSSES 3
 
 // ---------------------------------------------------------------------------------------------
 // What keys and panels ask for
@@ -92,51 +90,6 @@ static void write_log(void *user, lobe_log_level level, const char *message) {
 // ---------------------------------------------------------------------------------------------
 // Opening and closing
 
-static lobe_result resize(viewer *v) {
-    int width = 0, height = 0;
-    lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
-    glfwGetFramebufferSize(v->window, &width, &height);
-    if (result == LOBE_OK)
-        result = VULKAN_CHECK(&v->log, vkDeviceWaitIdle(v->device.vulkan.device), "window");
-    if (result == LOBE_OK)
-        result =
-            viewer_swapchain_renew(&v->device, (uint32_t)width, (uint32_t)height, &v->swapchain);
-    if (result != LOBE_OK || v->swapchain.count == 0)
-        return result;
-    v->swapchain_is_stale = false;
-    if (v->view.width == v->swapchain.width && v->view.height == v->swapchain.height)
-        return LOBE_OK;
-    v->view.width = v->swapchain.width;
-    v->view.height = v->swapchain.height;
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
-        result = viewer_side_resize(&v->view, &v->sides[i]);
-    return result;
-}
-
-static lobe_result open_device(viewer *v) {
-    lobe_result result = viewer_device_open(&v->request->device, v->window, &v->log, &v->device);
-    if (result == LOBE_OK)
-        result = viewer_frame_open(&v->device, &v->frame);
-    if (result == LOBE_OK)
-        result = viewer_display_open(&v->device, &v->display);
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
-        result = viewer_side_open(&v->view, &v->sides[i]);
-    v->view.width = v->view.height = 0; // images are made with the swapchain
-    v->swapchain_is_stale = true;
-    return result;
-}
-
-static void close_device(viewer *v) {
-    if (v->device.vulkan.device)
-        vkDeviceWaitIdle(v->device.vulkan.device);
-    viewer_frame_close(&v->device, &v->frame);
-    for (int i = 0; i < 2; ++i)
-        viewer_side_close(&v->view, &v->sides[i]);
-    viewer_display_close(&v->display);
-    viewer_swapchain_destroy(&v->device, &v->swapchain);
-    viewer_device_close(&v->device);
-}
-
 static void prepare(const viewer_request *request, const lobe_log *console, viewer *v) {
     const lobe_filter *reference = NULL;
     for (size_t i = 0; i < lobe_filter_count() && !reference; ++i)
@@ -160,7 +113,7 @@ static void prepare(const viewer_request *request, const lobe_log *console, view
 }
 
 static void clean_up(viewer *v) {
-    close_device(v);
+    viewer_graphics_close(v);
     viewer_window_close(v);
     lobe_scene_destroy(&v->scene);
     free(v->wanted_scene);
@@ -269,25 +222,11 @@ static lobe_result refine(viewer *v) {
     return LOBE_OK;
 }
 
-/// What comes of showing: the swapchain, and the surface, may have to be made anew.
-static lobe_result judge(viewer *v, viewer_shown shown, lobe_result result) {
-    if (shown == VIEWER_SHOWN)
-        return LOBE_OK;
-    if (shown == VIEWER_FAILED)
-        return result;
-    v->swapchain_is_stale = true;
-    if (shown == VIEWER_OUT_OF_DATE)
-        return LOBE_OK;
-    result = viewer_frame_finish(&v->device, &v->frame, v->sides);
-    viewer_swapchain_destroy(&v->device, &v->swapchain);
-    return result == LOBE_OK ? viewer_device_renew_surface(&v->device, v->window) : result;
-}
-
 static lobe_result show(viewer *v) {
     lobe_result result;
     viewer_shown shown = viewer_swapchain_acquire(&v->device, &v->swapchain, &result);
     if (shown != VIEWER_SHOWN)
-        return judge(v, shown, result);
+        return viewer_graphics_judge(v, shown, result);
     imgui_begin_frame();
     viewer_panel(v);
     imgui_end_frame();
@@ -296,16 +235,19 @@ static lobe_result show(viewer *v) {
         return result;
     shown = viewer_swapchain_present(&v->device, &v->swapchain, &result);
     v->frames_drawn += v->frames_drawn < UINT32_MAX;
-    v->losses = 0;
-    return judge(v, shown, result);
+    if (shown == VIEWER_SHOWN)
+        v->losses = 0;
+    return viewer_graphics_judge(v, shown, result);
 }
 
 static lobe_result draw_frame(viewer *v) {
     lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
     if (result == LOBE_OK)
         result = viewer_open_wanted(v);
+    if (result == LOBE_OK && v->scale_is_stale)
+        result = viewer_graphics_rescale(v);
     if (result == LOBE_OK && v->swapchain_is_stale)
-        result = resize(v);
+        result = viewer_graphics_resize(v);
     if (result != LOBE_OK || v->swapchain.count == 0)
         return result;
     if (v->redraws > 0)
@@ -322,15 +264,6 @@ static lobe_result draw_frame(viewer *v) {
     return result;
 }
 
-/// A lost device is opened again, with all that was on it.
-static lobe_result recover(viewer *v) {
-    if (++v->losses > MAXIMUM_LOSSES)
-        return LOBE_ERROR_DEVICE_LOST;
-    lobe_log_print(&v->log, LOBE_LOG_WARNING, "the device was lost; it is opened again");
-    close_device(v);
-    return open_device(v);
-}
-
 static bool is_done(const viewer *v) {
     return glfwWindowShouldClose(v->window) ||
            (v->request->exit && v->frames_drawn >= v->request->frames);
@@ -344,7 +277,7 @@ static lobe_result show_until_closed(viewer *v) {
             continue;
         result = draw_frame(v);
         if (result == LOBE_ERROR_DEVICE_LOST)
-            result = recover(v);
+            result = viewer_graphics_recover(v);
     }
     return result;
 }
@@ -363,7 +296,7 @@ lobe_result viewer_run(const viewer_request *request, const lobe_log *console) {
     if (result == LOBE_OK)
         result = viewer_window_open(&v);
     if (result == LOBE_OK)
-        result = open_device(&v);
+        result = viewer_graphics_open(&v);
     if (result == LOBE_OK)
         result = show_until_closed(&v);
     clean_up(&v);

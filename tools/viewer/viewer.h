@@ -60,6 +60,8 @@ typedef struct viewer {
     char *environment;        ///< what the user lights scenes with; NULL: what was asked for first
     bool shows_panel, shows_help;
     bool swapchain_is_stale;
+    float scale; ///< of panels: 1 for 96 dots an inch
+    bool scale_is_stale;
     bool waits;            ///< the last frame found nothing more to do
     unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
     uint32_t frames_drawn; ///< up to the number asked for
@@ -71,7 +73,7 @@ typedef struct viewer {
     // The camera's path.
     bool plays, records_path, records_frame, steps;
     uint32_t path_frame;
-    unsigned losses; ///< of the device, since a frame was last shown
+    unsigned losses; ///< of the device or the surface, since a frame was last shown
 } viewer;
 
 /// Opens the window, shows the scene until the window is closed. Returns after a line on the log

@@ -118,6 +118,13 @@ static void on_resize(GLFWwindow *window, int width, int height) {
     viewer_of(window)->swapchain_is_stale = true;
 }
 
+static void on_scale(GLFWwindow *window, float x, float y) {
+    viewer *v = viewer_of(window);
+    (void)y;
+    v->scale_is_stale = v->scale_is_stale || x != v->scale;
+    v->scale = x;
+}
+
 static void on_refresh(GLFWwindow *window) {
     (void)viewer_of(window);
 }
@@ -136,6 +143,7 @@ static void listen(viewer *v) {
     glfwSetKeyCallback(v->window, on_key);
     glfwSetDropCallback(v->window, on_drop);
     glfwSetFramebufferSizeCallback(v->window, on_resize);
+    glfwSetWindowContentScaleCallback(v->window, on_scale);
     glfwSetWindowRefreshCallback(v->window, on_refresh);
     glfwSetWindowFocusCallback(v->window, on_focus);
 }
@@ -161,11 +169,11 @@ lobe_result viewer_window_open(viewer *v) {
     if (!v->window)
         return fail(v, "cannot be opened");
     listen(v);
-    float scale = 1, other;
-    glfwGetWindowContentScale(v->window, &scale, &other);
-    return imgui_open(v->window, scale) ? LOBE_OK
-                                        : lobe_log_fail(&v->log, LOBE_ERROR_OUT_OF_MEMORY,
-                                                        "window: panels cannot be opened");
+    float other;
+    glfwGetWindowContentScale(v->window, &v->scale, &other);
+    return imgui_open(v->window, v->scale) ? LOBE_OK
+                                           : lobe_log_fail(&v->log, LOBE_ERROR_OUT_OF_MEMORY,
+                                                           "window: panels cannot be opened");
 }
 
 void viewer_window_close(viewer *v) {

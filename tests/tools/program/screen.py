@@ -11,6 +11,8 @@ from pathlib import Path
 from program import FOLDER, PROGRAM, check
 
 WIDTH, HEIGHT = 800, 600
+# What window_faults.c is to do next.
+FAULT = FOLDER / "fault"
 
 
 class Screen:
@@ -61,13 +63,16 @@ def threads(process):
 class Window:
     """`lobe view`, as large as it is asked to be, in the top left corner of a screen."""
 
-    def __init__(self, screen, *arguments):
+    def __init__(self, screen, *arguments, program=PROGRAM, faults=None):
         self.screen = screen
         self.errors = open(FOLDER / "view.err", "w+", encoding="utf-8")
+        settings = {**os.environ, "DISPLAY": screen.name, "LOBE_TEST_FAULT": str(FAULT),
+                    "XDG_CACHE_HOME": str(FOLDER / "cache")}
+        if faults:
+            settings["LD_PRELOAD"] = " ".join((settings.get("LD_PRELOAD", ""), str(faults)))
         self.process = subprocess.Popen(
-            [PROGRAM, "view", *map(str, arguments)], cwd=FOLDER, stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=self.errors,
-            env={**os.environ, "DISPLAY": screen.name, "XDG_CACHE_HOME": str(FOLDER / "cache")})
+            [program, "view", *map(str, arguments)], cwd=FOLDER, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=self.errors, env=settings)
         self.number = self.find()
         self.settle()
         screen.do("windowmove", self.number, 0, 0, "windowfocus", self.number)
@@ -111,11 +116,34 @@ class Window:
         self.screen.do(*words)
         self.settle()
 
-    def drop(self, path):
-        """A file, from another program's window."""
+    def foretell(self, *lines):
+        """What window_faults.c does from now on."""
+        told = FAULT.with_suffix(".new")
+        told.write_text("".join(f"{line}\n" for line in lines))
+        told.rename(FAULT)
+
+    def meets(self, line, *words):
+        """Events during which a function of Vulkan fails, or monitors change."""
+        self.foretell(line)
+        self.do(*words)
+        check(not FAULT.exists(), f"{line}: nothing came of it")
+
+    def drop(self, *paths):
+        """Files or folders, from another program's window."""
         with Client(self.screen.name) as client:
-            client.drop(self.number, path)
+            client.drop(self.number, paths)
         self.settle()
+
+    def minimise(self):
+        """As window managers do."""
+        with Client(self.screen.name) as client:
+            client.set_state(self.number, ICONIC)
+        self.screen.do("windowunmap", self.number)
+
+    def restore(self):
+        with Client(self.screen.name) as client:
+            client.set_state(self.number, NORMAL)
+        self.screen.do("windowmap", "--sync", self.number, "windowfocus", self.number)
 
     def close(self):
         """As by the cross in the window's corner: the message that window managers send."""
@@ -133,6 +161,8 @@ class Event(ctypes.Structure):
 
 # Numbers of X11/X.h.
 SELECTION_REQUEST, SELECTION_NOTIFY, CLIENT_MESSAGE = 30, 31, 33
+# Of X11/Xutil.h: states of windows.
+NORMAL, ICONIC = 1, 3
 
 
 class Client:
@@ -170,6 +200,13 @@ class Client:
     def close_window(self, window):
         self.message(window, "WM_PROTOCOLS", self.atom("WM_DELETE_WINDOW"))
 
+    def set_state(self, window, state):
+        values = (ctypes.c_ulong * 2)(state, 0)
+        kind = ctypes.c_ulong(self.atom("WM_STATE"))
+        self.xlib.XChangeProperty(self.display, ctypes.c_ulong(window), kind, kind, 32, 0, values,
+                                  2)
+        self.xlib.XFlush(self.display)
+
     def wait_for(self, kind):
         """The next event of that type that comes within ten seconds."""
         event = Event()
@@ -179,9 +216,9 @@ class Client:
             time.sleep(0.02)
         raise AssertionError(f"no event of type {kind}")
 
-    def drop(self, window, path):
-        """XDND, version 5: says that a file has come, where it is, and that it was let go; then
-        hands its name over when asked for it."""
+    def drop(self, window, paths):
+        """XDND, version 5: says that files have come, where they are, and that they were let go;
+        then hands their names over when asked for them."""
         root = ctypes.c_ulong(self.xlib.XDefaultRootWindow(self.display))
         source = self.xlib.XCreateSimpleWindow(self.display, root, 700, 500, 9, 9, 0,
                                                ctypes.c_ulong(0), ctypes.c_ulong(0))
@@ -195,7 +232,7 @@ class Client:
         self.message(window, "XdndDrop", source)
         # XSelectionRequestEvent: requestor, selection, target, property, time
         asked = self.wait_for(SELECTION_REQUEST).rest
-        text = f"file://{path}\r\n".encode()
+        text = "".join(f"file://{path}\r\n" for path in paths).encode()
         self.xlib.XChangeProperty(self.display, ctypes.c_ulong(asked[0]), ctypes.c_ulong(asked[3]),
                                   ctypes.c_ulong(asked[2]), 8, 0, text, len(text))
         answer = Event(type=SELECTION_NOTIFY, window=asked[0])

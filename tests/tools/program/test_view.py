@@ -4,6 +4,7 @@ import json
 import shutil
 import sys
 import time
+from pathlib import Path
 
 import tap
 from files import exr_write, gltf_triangle, gltf_write, png_read
@@ -13,6 +14,9 @@ from screen import Screen, Window
 SIZE = (320, 240)
 TEXT = f"{SIZE[0]}x{SIZE[1]}"
 STATE = {}
+FAULTS = Path(sys.argv[3]).resolve()
+# Numbers of vulkan_core.h.
+SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST, DEVICE_LOST = 1000001003, -1000001004, -1000000000, -4
 
 
 def missing():
@@ -34,7 +38,8 @@ def window():
     if "window" not in STATE:
         STATE["folder"] = fresh_folder("recorded")
         STATE["window"] = Window(screen(), "checkerboard", "--size", TEXT, "--samples", 2,
-                                 "--set", "env_size=16", "--path-frames", 5, "-o", STATE["folder"])
+                                 "--set", "env_size=16", "--path-frames", 5, "-o", STATE["folder"],
+                                 faults=FAULTS)
         STATE["window"].do("key", "Tab")
     return STATE["window"]
 
@@ -275,11 +280,73 @@ def test_takes_another_size():
     larger = seen(600, 450)
     corner = [row[4 * 500:] for row in larger[400:]]
     check(any(any(row) for row in corner), "the corner stays black")
-    window().do("windowunmap", window().number)
-    window().do("windowmap", window().number, "windowsize", window().number, *SIZE)
-    screen().do("windowmove", window().number, 0, 0, "windowfocus", window().number)
-    window().settle()
+    window().do("key", "Tab")
+    for odd in ((1, 1), (17, 301), (640, 3), SIZE):
+        window().do("windowsize", window().number, *odd)
+    window().do("key", "Tab")
     check(seen() == before, "looks other than before")
+    return None
+
+
+def test_does_nothing_while_it_is_minimised():
+    if missing():
+        return missing()
+    before = seen()
+    screen().do("key", "space")  # plays
+    window().minimise()
+    time.sleep(0.3)
+    taken = window().seconds()
+    time.sleep(0.5)
+    taken = window().seconds() - taken
+    window().restore()
+    screen().do("windowmove", window().number, 0, 0, "key", "space")
+    window().do("key", "Home")
+    check(taken <= 0.01, f"takes {1000 * taken:.0f} ms of half a second")
+    check(seen() == before, "looks other than before")
+    return None
+
+
+def test_follows_the_scale_of_the_monitor():
+    """Panels are twice as wide on one of twice the dots."""
+    if missing():
+        return missing()
+    plain = seen(640, 480)
+    window().do("windowsize", window().number, 640, 480, "key", "Tab")
+
+    def width():
+        row = seen(640, 480)[240]
+        window().do("key", "Tab")
+        without = seen(640, 480)[240]
+        window().do("key", "Tab")
+        return max(x for x in range(640) if row[4 * x:4 * x + 3] != without[4 * x:4 * x + 3])
+    before = width()
+    window().meets("scale 2", "mousemove", 630, 470)
+    check(abs(width() - 2 * before) <= 2, f"{before} pixels have become {width()}")
+    window().meets("scale 1", "mousemove", 630, 470)
+    check(width() == before, f"{before} pixels have become {width()}")
+    window().do("windowsize", window().number, *SIZE, "key", "Tab")
+    check(seen(640, 480) == plain, "looks other than before")
+    return None
+
+
+def test_surface_and_device_may_be_lost():
+    if missing():
+        return missing()
+    before = seen()
+    for function in ("vkAcquireNextImageKHR", "vkQueuePresentKHR"):
+        for code in (SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST):
+            window().meets(f"{function} {code}", "key", "equal")
+            check(seen() != before, f"{function} {code}: is not drawn any more")
+            window().do("key", "minus")
+            check(seen() == before, f"{function} {code}: looks other than before")
+    for function in ("vkQueueSubmit", "vkQueueSubmit2", "vkAcquireNextImageKHR"):
+        said = len(window().said())
+        window().do("key", "c")
+        window().meets(f"{function} {DEVICE_LOST}", "key", "Left")  # draws the reference, too
+        window().do("key", "c", "key", "c", "key", "Home")
+        said = window().said()[said:]
+        check(seen() == before, f"{function}: looks other than before")
+        check(said.count("VK_ERROR_DEVICE_LOST") <= 2 and said.count("opened again") == 1, said)
     return None
 
 
@@ -311,8 +378,21 @@ def test_closes():
         return missing()
     status = window().close()
     said = window().said()
-    faults = [line for line in said.splitlines() if "error" in line and "broken.glb" not in line]
+    faults = [line for line in said.splitlines() if "error" in line and
+              "broken.glb" not in line and "DEVICE_LOST" not in line]
     check(status == 0 and not faults and "Sanitizer" not in said, f"{status}: {said}")
+    return None
+
+
+def test_a_device_that_is_lost_for_good():
+    if missing():
+        return missing()
+    lost = Window(screen(), "checkerboard", "--size", "64x48", "--filter", "direct", faults=FAULTS)
+    lost.foretell(f"vkQueueSubmit {DEVICE_LOST}", *(3 * [f"vkCreateDevice {DEVICE_LOST}"]))
+    screen().do("key", "minus")
+    status = lost.process.wait(timeout=60)
+    last = lost.said().splitlines()[-1]
+    check(status == 1 and "given up" in last, f"{status}: {lost.said()}")
     return None
 
 

@@ -1,0 +1,197 @@
+// Loaded before `lobe view`: Vulkan fails, and monitors change, when the file that LOBE_TEST_FAULT
+// names says so. Its lines are obeyed one after the other, and go: "FUNCTION CODE" makes the next
+// call of a function give that VkResult, "scale NUMBER" is what the window's content is scaled by
+// from then on. A device or a surface that is lost stays so until it is destroyed.
+
+#include <dlfcn.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <vulkan/vulkan.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+static bool device_is_lost, surface_is_lost;
+static float scale;
+static GLFWwindow *scaled_window;
+static GLFWwindowcontentscalefun on_scale;
+
+#define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+/// Takes the first line off a file; one that was the last goes with it.
+static void take_line(const char *path, FILE *file) {
+    char rest[1024];
+    const size_t size = fread(rest, 1, sizeof rest, file);
+    FILE *shorter = size > 0 ? fopen(path, "w") : NULL;
+    if (!shorter) {
+        unlink(path);
+        return;
+    }
+    fwrite(rest, 1, size, shorter);
+    fclose(shorter);
+}
+
+/// The number in the file's first line, where that is about a name; false: it is not.
+static bool is_told(const char *name, double *number) {
+    const char *path = getenv("LOBE_TEST_FAULT");
+    FILE *file = path ? fopen(path, "r") : NULL;
+    char told[64] = "";
+    if (!file)
+        return false;
+    const bool found = fscanf(file, "%63s %lf\n", told, number) == 2 && strcmp(told, name) == 0;
+    if (found)
+        take_line(path, file);
+    fclose(file);
+    return found;
+}
+
+/// What a function is to give instead of doing anything; VK_SUCCESS: nothing.
+static VkResult fault_of(const char *name) {
+    double number = VK_SUCCESS;
+    const VkResult fault = is_told(name, &number) ? (VkResult)number : VK_SUCCESS;
+    device_is_lost |= fault == VK_ERROR_DEVICE_LOST;
+    surface_is_lost |= fault == VK_ERROR_SURFACE_LOST_KHR;
+    return device_is_lost ? VK_ERROR_DEVICE_LOST : fault;
+}
+
+static VkResult surface_fault_of(const char *name) {
+    const VkResult fault = fault_of(name);
+    return fault == VK_SUCCESS && surface_is_lost ? VK_ERROR_SURFACE_LOST_KHR : fault;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Queues
+
+VKAPI_ATTR VkResult VKAPI_CALL vkQueueSubmit(VkQueue queue, uint32_t count,
+                                             const VkSubmitInfo *submits, VkFence fence) {
+    const VkResult fault = fault_of("vkQueueSubmit");
+    return fault ? fault : REAL(vkQueueSubmit)(queue, count, submits, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkQueueSubmit2(VkQueue queue, uint32_t count,
+                                              const VkSubmitInfo2 *submits, VkFence fence) {
+    const VkResult fault = fault_of("vkQueueSubmit2");
+    return fault ? fault : REAL(vkQueueSubmit2)(queue, count, submits, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkQueueWaitIdle(VkQueue queue) {
+    const VkResult result = REAL(vkQueueWaitIdle)(queue);
+    return device_is_lost ? VK_ERROR_DEVICE_LOST : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkDeviceWaitIdle(VkDevice device) {
+    const VkResult result = REAL(vkDeviceWaitIdle)(device);
+    return device_is_lost ? VK_ERROR_DEVICE_LOST : result;
+}
+
+/// What was not submitted is never signalled: what was is waited for.
+VKAPI_ATTR VkResult VKAPI_CALL vkWaitForFences(VkDevice device, uint32_t count,
+                                               const VkFence *fences, VkBool32 all,
+                                               uint64_t timeout) {
+    if (!fault_of("vkWaitForFences"))
+        return REAL(vkWaitForFences)(device, count, fences, all, timeout);
+    return vkDeviceWaitIdle(device);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkWaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *wait,
+                                                uint64_t timeout) {
+    if (!fault_of("vkWaitSemaphores"))
+        return REAL(vkWaitSemaphores)(device, wait, timeout);
+    return vkDeviceWaitIdle(device);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateDevice(VkPhysicalDevice physical,
+                                              const VkDeviceCreateInfo *create,
+                                              const VkAllocationCallbacks *callbacks,
+                                              VkDevice *device) {
+    const VkResult fault = fault_of("vkCreateDevice");
+    return fault ? fault : REAL(vkCreateDevice)(physical, create, callbacks, device);
+}
+
+VKAPI_ATTR void VKAPI_CALL vkDestroyDevice(VkDevice device,
+                                           const VkAllocationCallbacks *callbacks) {
+    device_is_lost = false;
+    REAL(vkDestroyDevice)(device, callbacks);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Surfaces
+
+VKAPI_ATTR VkResult VKAPI_CALL vkAcquireNextImageKHR(VkDevice device, VkSwapchainKHR swapchain,
+                                                     uint64_t timeout, VkSemaphore semaphore,
+                                                     VkFence fence, uint32_t *index) {
+    const VkResult fault = surface_fault_of("vkAcquireNextImageKHR");
+    if (fault < 0)
+        return fault;
+    const VkResult result =
+        REAL(vkAcquireNextImageKHR)(device, swapchain, timeout, semaphore, fence, index);
+    return result ? result : fault;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkQueuePresentKHR(VkQueue queue, const VkPresentInfoKHR *present) {
+    const VkResult fault = surface_fault_of("vkQueuePresentKHR");
+    if (fault < 0)
+        return fault;
+    const VkResult result = REAL(vkQueuePresentKHR)(queue, present);
+    return result ? result : fault;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
+    VkPhysicalDevice device, VkSurfaceKHR surface, VkSurfaceCapabilitiesKHR *capabilities) {
+    const VkResult fault = surface_fault_of("vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+    return fault ? fault
+                 : REAL(vkGetPhysicalDeviceSurfaceCapabilitiesKHR)(device, surface, capabilities);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateSwapchainKHR(VkDevice device,
+                                                    const VkSwapchainCreateInfoKHR *create,
+                                                    const VkAllocationCallbacks *callbacks,
+                                                    VkSwapchainKHR *swapchain) {
+    const VkResult fault = surface_fault_of("vkCreateSwapchainKHR");
+    return fault ? fault : REAL(vkCreateSwapchainKHR)(device, create, callbacks, swapchain);
+}
+
+VKAPI_ATTR void VKAPI_CALL vkDestroySurfaceKHR(VkInstance instance, VkSurfaceKHR surface,
+                                               const VkAllocationCallbacks *callbacks) {
+    surface_is_lost = false;
+    REAL(vkDestroySurfaceKHR)(instance, surface, callbacks);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Monitors
+
+static void look_at_monitors(void) {
+    double number;
+    if (!is_told("scale", &number))
+        return;
+    scale = (float)number;
+    if (on_scale)
+        on_scale(scaled_window, scale, scale);
+}
+
+void glfwPollEvents(void) {
+    REAL(glfwPollEvents)();
+    look_at_monitors();
+}
+
+void glfwWaitEvents(void) {
+    REAL(glfwWaitEvents)();
+    look_at_monitors();
+}
+
+void glfwGetWindowContentScale(GLFWwindow *window, float *x, float *y) {
+    REAL(glfwGetWindowContentScale)(window, x, y);
+    if (scale > 0)
+        *x = *y = scale;
+}
+
+GLFWwindowcontentscalefun glfwSetWindowContentScaleCallback(GLFWwindow *window,
+                                                            GLFWwindowcontentscalefun callback) {
+    scaled_window = window;
+    on_scale = callback;
+    return REAL(glfwSetWindowContentScaleCallback)(window, callback);
+}
