@@ -458,6 +458,8 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     result = r.context.filter->supersamples
                  ? render_reference(&r, frame)
                  : render_once(&r, parameters->arbitrary_output_variables, frame);
+    const environment_maps *maps = &renderer->environment.last;
+    frame->environment_parts_left = maps->part_count - maps->parts_done;
     if (result != LOBE_OK) {
         renderer->environment.reads_back = false;
         lobe_frame_free(frame);

@@ -66,7 +66,7 @@ void set_style(float scale) {
     style.ItemSpacing = ImVec2(6, 3);
     style.FramePadding = ImVec2(4, 2);
     style.WindowPadding = ImVec2(8, 8);
-    style.Colors[ImGuiCol_WindowBg] = ImVec4(0.07f, 0.08f, 0.09f, 0.88f);
+    style.Colors[ImGuiCol_WindowBg] = ImVec4(0.07f, 0.08f, 0.09f, 0.94f);
     style.ScaleAllSizes(scale);
 }
 
@@ -156,15 +156,22 @@ void imgui_begin_note(const char *name, const float place[2], float width) {
     ImGui::Begin(name, nullptr, FIXED | ImGuiWindowFlags_AlwaysAutoResize);
 }
 
+void imgui_begin_list(const char *name, const float place[2], float width, float maximum_height) {
+    ImGui::SetNextWindowPos(ImVec2(place[0], place[1]), ImGuiCond_Always, ImVec2(1, 0));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, maximum_height));
+    ImGui::Begin(name, nullptr,
+                 (FIXED & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
 void imgui_begin_panel(const char *name, const float place[2], const float size[2]) {
-    ImGuiWindowFlags flags = FIXED;
-    if (size[0] > 0)
-        flags &= ~ImGuiWindowFlags_NoScrollbar;
-    else
-        flags |= ImGuiWindowFlags_AlwaysAutoResize;
+    ImGuiWindowFlags flags = FIXED & ~ImGuiWindowFlags_NoScrollbar;
     ImGui::SetNextWindowPos(ImVec2(place[0], place[1]));
-    if (size[0] > 0)
+    if (size[0] > 0) {
         ImGui::SetNextWindowSize(ImVec2(size[0], size[1]));
+    } else {
+        ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(1e6f, size[1]));
+        flags |= ImGuiWindowFlags_AlwaysAutoResize;
+    }
     ImGui::Begin(name, nullptr, flags);
 }
 
@@ -201,6 +208,12 @@ void imgui_line(const char *left, const char *right) {
     ImGui::TextUnformatted(left);
     ImGui::SameLine(edge - ImGui::CalcTextSize(right).x);
     ImGui::TextUnformatted(right);
+}
+
+void imgui_indented_line(const char *left, const char *right) {
+    ImGui::Indent(ImGui::GetFontSize());
+    imgui_line(left, right);
+    ImGui::Unindent(ImGui::GetFontSize());
 }
 
 void imgui_term(const char *name, const char *meaning) {

@@ -56,10 +56,14 @@ bool imgui_takes_keys(void);
 // ---------------------------------------------------------------------------------------------
 // Widgets. A name shows in front of its widget, and must differ within a section.
 
-/// A panel at a place in pixels; `size` of 0: as large as its content. End it in any case.
+/// A panel at a place, of a size; pixels. A width of 0: as large as its content, but no higher than
+/// its height says. End it in any case.
 void imgui_begin_panel(const char *name, const float place[2], const float size[2]);
 /// A panel as high as its content, whose lower left corner is at a place; pixels.
 void imgui_begin_note(const char *name, const float place[2], float width);
+/// A panel as high as its content, but no higher than that, whose upper right corner is at a place;
+/// pixels.
+void imgui_begin_list(const char *name, const float place[2], float width, float maximum_height);
 void imgui_end_panel(void);
 /// Widgets until the end may have names that others have, too. Nested.
 void imgui_begin_group(const char *name);
@@ -71,6 +75,7 @@ void imgui_text(const char *text);       ///< broken into lines at the panel's e
 void imgui_faint_text(const char *text); ///< the same
 /// A line of a table: text to the left, and to the right.
 void imgui_line(const char *left, const char *right);
+void imgui_indented_line(const char *left, const char *right);
 /// A name, and beside it in a column what it means.
 void imgui_term(const char *name, const char *meaning);
 void imgui_space(void);

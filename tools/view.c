@@ -30,7 +30,7 @@ static int check_usage(const option_table *table, const viewer_request *request)
         return options_usage_error(table, "no SCENE");
     if (request->exit && request->frames == 0)
         return options_usage_error(table, "--exit goes with --frames");
-    return 0;
+    return cache_options_check(table, &request->cache);
 }
 
 static int run_request(const option_table *table, const view_texts *texts,
@@ -132,6 +132,8 @@ static int run(int argc, char **argv) {
          .kind = OPTION_FLAG,
          .summary = "closes the window after those",
          .target = &request.exit},
+        cache_option_folder(&request.cache),
+        cache_option_off(&request.cache),
         device_option_select(&request.device),
         device_option_validation(&request.device),
     };

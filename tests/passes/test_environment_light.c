@@ -480,6 +480,7 @@ static void maps_are_made_part_by_part(void **state) {
             assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
             found = (double)pixel_at(&frame.radiance, 0, 0)[1];
             waiting += fabs(found - former) < 1e-5 * former;
+            assert_int_equal(frame.environment_parts_left > 0, fabs(found - next) > 1e-5 * next);
             lobe_frame_free(&frame);
         }
         print_message("# %d frames, %d waiting\n", frames, waiting);

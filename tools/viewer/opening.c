@@ -54,6 +54,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
     }
     v->view.scene = v->scene;
     v->view.camera = v->scene->camera;
+    v->turned = v->opening.rotation;
     return LOBE_OK;
 }
 
@@ -77,6 +78,7 @@ static lobe_result replace_scene(viewer *v, const char *name) {
     lobe_scene_destroy(&v->scene);
     v->scene = scene;
     v->path_frame = 0;
+    v->turned = v->opening.rotation;
     v->plays = v->records_path = false;
     set_title(v);
     viewer_reset_camera(v);
@@ -97,6 +99,7 @@ static lobe_result replace_environment(viewer *v, const char *name) {
                                  .environment = v->environment,
                                  .intensity = 1,
                                  .background = environment != NULL};
+    v->turned = 0;
     lobe_result result = LOBE_OK;
     for (int i = 0; i < 2 && result == LOBE_OK; ++i)
         result = lobe_renderer_update_scene(v->sides[i].renderer,

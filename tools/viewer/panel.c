@@ -9,6 +9,15 @@
 
 #define MAXIMUM_CHOICES 64
 
+// Pixels, before they are scaled.
+#define MARGIN      8
+#define PANEL_WIDTH 300
+#define TIMES_WIDTH 270
+/// Of the window, from which on there is room for help beside the panel, and for times on the
+/// right.
+#define WIDTH_FOR_HELP  780
+#define WIDTH_FOR_TIMES 960
+
 // ---------------------------------------------------------------------------------------------
 // Scene
 
@@ -21,6 +30,26 @@ static void choose_scene(viewer *v) {
     if (imgui_choice("scene", names, count, &chosen))
         viewer_drop(v, names[chosen]);
     imgui_tooltip("or drop a glTF file, or a folder of maps, onto the window");
+}
+
+/// How the environment lights the scene.
+static void set_environment(viewer *v) {
+    lobe_environment *environment = v->scene->environment;
+    bool visible = v->scene->environment_visible, changed = false;
+    double intensity = environment->intensity, turned = v->turned;
+    changed |= imgui_number("intensity", 0, 4, &intensity);
+    imgui_tooltip("the factor by which the environment's radiance is multiplied");
+    changed |= imgui_number("turned", -180, 180, &turned);
+    imgui_tooltip("degrees by which the environment is turned around the vertical axis");
+    changed |= imgui_checkbox("background", &visible);
+    imgui_tooltip("shows the environment behind the scene");
+    if (!changed)
+        return;
+    environment->intensity = (float)intensity;
+    lobe_environment_turn(environment, turned - v->turned);
+    v->turned = turned;
+    v->scene->environment_visible = visible;
+    viewer_changed(v);
 }
 
 static void choose_environment(viewer *v) {
@@ -36,14 +65,8 @@ static void choose_environment(viewer *v) {
     if (imgui_choice("light", names, count, &chosen))
         viewer_light(v, names[chosen]);
     imgui_tooltip("light from all around: drop an .hdr or .exr file onto the window");
-    if (!environment)
-        return;
-    bool visible = v->scene->environment_visible;
-    if (imgui_checkbox("background", &visible)) {
-        v->scene->environment_visible = visible;
-        viewer_changed(v);
-    }
-    imgui_tooltip("shows the environment behind the scene");
+    if (environment)
+        set_environment(v);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -91,15 +114,26 @@ static bool set_knob(const lobe_knob *knob, double *value) {
     }
 }
 
-static void set_side(const char *group, viewer_side *side) {
-    imgui_begin_group(group);
-    bool changed = choose_filter(side);
-    for (size_t i = 0; !changed && i < lobe_filter_knob_count(side->filter); ++i) {
+/// Those that tell in environments alone, or the others.
+static bool set_knobs(viewer_side *side, bool of_environments) {
+    bool changed = false;
+    for (size_t i = 0; i < lobe_filter_knob_count(side->filter); ++i) {
         const lobe_knob *knob = lobe_filter_knob(side->filter, i);
-        if (set_knob(knob, &side->settings.values[i]))
-            changed = true;
+        if (knob->environment != of_environments)
+            continue;
+        changed |= set_knob(knob, &side->settings.values[i]);
         imgui_tooltip(knob->summary);
     }
+    return changed;
+}
+
+static void set_side(const char *group, viewer_side *side, bool has_environment) {
+    imgui_begin_group(group);
+    bool changed = choose_filter(side);
+    changed |= set_knobs(side, false);
+    if (imgui_section(has_environment ? "Environment" : "Environment (there is none)",
+                      has_environment))
+        changed |= set_knobs(side, true);
     side->stale |= changed;
     side->failed &= !changed;
     imgui_end_group();
@@ -132,6 +166,17 @@ static void show_samples(const viewer *v) {
     }
 }
 
+/// What is shown is not lit by all of the environment's maps yet.
+static void show_parts(const viewer *v) {
+    char text[32];
+    uint32_t left = v->sides[0].parts_left;
+    if (v->look.comparison != VIEWER_SINGLE)
+        left += v->sides[1].parts_left;
+    snprintf(text, sizeof text, "%u to do", left);
+    if (left > 0)
+        imgui_line("parts of the light", text);
+}
+
 static void choose_comparison(viewer *v) {
     static const char *const comparisons[] = {"one picture", "split view", "difference"};
     size_t chosen = (size_t)v->look.comparison;
@@ -144,10 +189,22 @@ static void choose_comparison(viewer *v) {
         imgui_tooltip("the relative error that is shown brightest");
     }
     show_samples(v);
+    show_parts(v);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Passes
+
+static void show_skipped(const viewer_side *side) {
+    char text[1024] = "skipped:";
+    size_t length = strlen(text);
+    for (size_t i = 0; i < side->pass_count && length < sizeof text; ++i)
+        if (side->passes[i].skipped > 0)
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s %s",
+                                       text[length - 1] == ':' ? "" : ",", side->passes[i].name);
+    if (text[length - 1] != ':')
+        imgui_faint_text(text);
+}
 
 static void show_passes(const viewer_side *side) {
     char text[64];
@@ -158,24 +215,27 @@ static void show_passes(const viewer_side *side) {
         if (pass->run == 0)
             continue;
         snprintf(text, sizeof text, "%.2f", pass->milliseconds);
-        imgui_line(pass->name, text);
+        imgui_indented_line(pass->name, text);
     }
-    for (size_t i = 0; i < side->pass_count; ++i) {
-        const viewer_pass *pass = &side->passes[i];
-        if (pass->skipped == 0)
-            continue;
-        snprintf(text, sizeof text, "%s: skipped", pass->name);
-        imgui_faint_text(text);
-    }
+    show_skipped(side);
+}
+
+static void show_all_passes(const viewer *v) {
+    show_passes(&v->sides[0]);
+    if (v->look.comparison == VIEWER_SINGLE)
+        return;
+    imgui_space();
+    show_passes(&v->sides[1]);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Path
 
 static void show_path(viewer *v) {
-    char text[64];
-    snprintf(text, sizeof text, "%u of %u", v->path_frame, v->request->path_frames);
-    imgui_line("frame of the path", text);
+    int frame = (int)v->path_frame;
+    if (imgui_integer("frame", 0, (int)v->request->path_frames - 1, &frame))
+        viewer_go_to(v, (uint32_t)frame);
+    imgui_tooltip("of the path, along which the camera is moved");
     if (imgui_button(v->plays ? "pause" : "play"))
         v->plays = !v->plays;
     imgui_same_line();
@@ -192,41 +252,54 @@ static void show_path(viewer *v) {
 // ---------------------------------------------------------------------------------------------
 // All
 
+static bool is_wide(const viewer *v, float width) {
+    return (float)v->swapchain.width >= width * v->scale;
+}
+
 static void show_panel(viewer *v) {
-    const float scale = v->scale, margin = 8 * scale;
-    const float size[2] = {300 * scale, (float)v->swapchain.height - 2 * margin};
+    const float margin = MARGIN * v->scale;
+    const float size[2] = {PANEL_WIDTH * v->scale, (float)v->swapchain.height - 2 * margin};
+    const bool has_environment = v->scene->environment != NULL;
+    const bool compares = v->look.comparison != VIEWER_SINGLE;
     imgui_begin_panel("panel", (float[2]){margin, margin}, size);
     choose_scene(v);
     choose_environment(v);
     choose_output(v);
     choose_comparison(v);
     imgui_space();
-    const bool compares = v->look.comparison != VIEWER_SINGLE;
     if (imgui_section(compares ? "First filter" : "Filter", true))
-        set_side("first", &v->sides[0]);
+        set_side("first", &v->sides[0], has_environment);
     if (compares && imgui_section("Second filter", true))
-        set_side("second", &v->sides[1]);
-    if (imgui_section("Passes", true)) {
-        show_passes(&v->sides[0]);
-        if (compares)
-            show_passes(&v->sides[1]);
-    }
+        set_side("second", &v->sides[1], has_environment);
+    if (!is_wide(v, WIDTH_FOR_TIMES) && imgui_section("Times", true))
+        show_all_passes(v);
     if (imgui_section("Path of the camera", true))
         show_path(v);
     imgui_space();
-    imgui_faint_text("F1: keys   Tab: hides the panel");
+    imgui_faint_text("F1: keys   Tab: hides the panels");
+    imgui_end_panel();
+}
+
+/// On the right, where they do not hide the picture's middle.
+static void show_times(const viewer *v) {
+    const float margin = MARGIN * v->scale;
+    imgui_begin_list("times", (float[2]){(float)v->swapchain.width - margin, margin},
+                     TIMES_WIDTH * v->scale, (float)v->swapchain.height - 2 * margin);
+    show_all_passes(v);
     imgui_end_panel();
 }
 
 /// Where there is room: beside the panel, or over it in a window that has none for both.
 static float left_of_room(const viewer *v) {
-    const float scale = v->scale, margin = 8 * scale;
-    const bool beside = v->shows_panel && (float)v->swapchain.width >= 780 * scale;
-    return beside ? 2 * margin + 300 * scale : margin;
+    const float margin = MARGIN * v->scale;
+    const bool beside = v->shows_panel && is_wide(v, WIDTH_FOR_HELP);
+    return beside ? 2 * margin + PANEL_WIDTH * v->scale : margin;
 }
 
 static void show_help(const viewer *v) {
-    imgui_begin_panel("keys", (float[2]){left_of_room(v), 8 * v->scale}, (float[2]){0, 0});
+    const float margin = MARGIN * v->scale;
+    const float size[2] = {0, (float)v->swapchain.height - 2 * margin};
+    imgui_begin_panel("keys", (float[2]){left_of_room(v), margin}, size);
     for (size_t i = 0; i < viewer_key_count; ++i)
         imgui_term(viewer_keys[i].name, viewer_keys[i].summary);
     imgui_end_panel();
@@ -234,7 +307,7 @@ static void show_help(const viewer *v) {
 
 /// At the lower edge.
 static void show_message(const viewer *v) {
-    const float margin = 8 * v->scale, left = left_of_room(v);
+    const float margin = MARGIN * v->scale, left = left_of_room(v);
     imgui_begin_note("message", (float[2]){left, (float)v->swapchain.height - margin},
                      (float)v->swapchain.width - left - margin);
     imgui_text(v->message);
@@ -244,6 +317,8 @@ static void show_message(const viewer *v) {
 void viewer_panel(viewer *v) {
     if (v->shows_panel)
         show_panel(v);
+    if (v->shows_panel && is_wide(v, WIDTH_FOR_TIMES))
+        show_times(v);
     if (v->shows_help)
         show_help(v);
     if (v->message[0])

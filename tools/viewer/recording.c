@@ -46,6 +46,7 @@ static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
                                     .width = v->view.width,
                                     .height = v->view.height,
                                     .samples = side->samples > 0 ? side->samples : 1,
+                                    .environment_cache = v->view.cache,
                                     .arbitrary_output_variables = true,
                                 },
                                 frame);

@@ -31,6 +31,7 @@ void viewer_side_close(const viewer_view *view, viewer_side *side) {
     lobe_renderer_destroy(&side->renderer);
     viewer_target_destroy(view->device, &side->target);
     side->pass_count = 0;
+    side->parts_left = 0;
     side->awaits_times = false;
 }
 
@@ -149,6 +150,7 @@ static lobe_result render_samples(const viewer_view *view, viewer_side *side, ui
                                                   .height = view->height,
                                                   .samples = count,
                                                   .pattern = side->pattern++,
+                                                  .environment_cache = view->cache,
                                               },
                                               &frame);
     if (result != LOBE_OK)
@@ -195,6 +197,23 @@ static void show_output(void *user, lobe_graph *graph, lobe_render_stage stage,
                                       .constants_size = sizeof *constants});
 }
 
+/// Of the environment's maps: ever more parts in a frame, as long as it does not become slow by it.
+static void adapt_parts(viewer_side *side) {
+    const double now = side->milliseconds, before = side->former_milliseconds;
+    if (side->parts_left == 0)
+        side->parts = 1;
+    else if ((now < 50 || now < 1.5 * before) && side->parts < 64)
+        side->parts *= 2;
+    side->former_milliseconds = now;
+}
+
+/// Where maps were made the next frame is lit by more of them; the one after the last keeps them in
+/// the folder.
+static void go_on_with_parts(viewer_side *side, uint32_t left) {
+    side->stale = left > 0 || side->parts_left > 0;
+    side->parts_left = left;
+}
+
 static float reach(const lobe_camera *camera) {
     float squared = 0;
     for (int i = 0; i < 3; ++i)
@@ -212,6 +231,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     };
     const bool outputs = side->output != VIEWER_RADIANCE;
     lobe_frame frame;
+    adapt_parts(side);
     side->target.image.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     lobe_result result =
         lobe_renderer_render(side->renderer,
@@ -219,6 +239,8 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
                                  .filter = side->filter,
                                  .settings = &side->settings,
                                  .camera = &view->camera,
+                                 .environment_parts = side->parts,
+                                 .environment_cache = view->cache,
                                  .arbitrary_output_variables = outputs,
                                  .add_passes = outputs ? show_output : NULL,
                                  .user = &constants,
@@ -226,7 +248,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
                                  .submission = &(lobe_vulkan_submission){.commands = commands},
                              },
                              &frame);
-    side->stale = false;
+    go_on_with_parts(side, frame.environment_parts_left);
     side->failed = result != LOBE_OK;
     if (result != LOBE_OK)
         return result;

@@ -39,11 +39,14 @@ typedef struct viewer_side {
     lobe_image mean_image; ///< in host memory
     double *sum;           ///< of `samples` samples of every channel
     uint32_t samples, pattern, step;
+    // The environment's filtered maps, which are made part by part.
+    uint32_t parts;      ///< in a frame
+    uint32_t parts_left; ///< after the last one
     // Times.
     bool awaits_times;
     viewer_pass passes[VIEWER_MAXIMUM_PASSES];
     size_t pass_count;
-    double milliseconds;
+    double milliseconds, former_milliseconds;
 } viewer_side;
 
 /// What both sides have in common.
@@ -53,6 +56,7 @@ typedef struct viewer_view {
     lobe_camera camera;
     uint32_t width, height;   ///< pixels
     uint32_t maximum_samples; ///< at which refining ends
+    const char *cache;        ///< folder of filtered environments; NULL: none
     const lobe_log *log;
 } viewer_view;
 

@@ -72,6 +72,12 @@ void viewer_set_comparison(viewer *v, viewer_comparison comparison) {
     viewer_touched(v);
 }
 
+void viewer_go_to(viewer *v, uint32_t path_frame) {
+    v->path_frame = path_frame;
+    lobe_scene_path(v->scene, (double)path_frame / (v->request->path_frames - 1), &v->view.camera);
+    viewer_changed(v);
+}
+
 void viewer_record_path(viewer *v, bool on) {
     if (on)
         v->path_frame = 0;
@@ -109,6 +115,7 @@ static void prepare(const viewer_request *request, const lobe_log *console, view
     v->view.device = &v->device;
     v->view.log = &v->log;
     v->view.maximum_samples = request->samples;
+    v->view.cache = cache_options_find(&request->cache, v->cache_folder);
     lobe_settings_default(reference, &v->sides[1].settings);
 }
 
@@ -124,17 +131,11 @@ static void clean_up(viewer *v) {
 // ---------------------------------------------------------------------------------------------
 // Time
 
-/// One step along the path. The last one ends playing.
+/// One step along the path, after the last one the first.
 static void advance(viewer *v) {
     const uint32_t last = v->request->path_frames - 1;
     v->path_frame = v->path_frame < last ? v->path_frame + 1 : 0;
     v->steps = false;
-}
-
-static void stand_on_path(viewer *v) {
-    lobe_scene_path(v->scene, (double)v->path_frame / (v->request->path_frames - 1),
-                    &v->view.camera);
-    viewer_changed(v);
 }
 
 static void move(viewer *v) {
@@ -143,10 +144,10 @@ static void move(viewer *v) {
     v->last_time = now;
     if (v->plays || v->steps) {
         advance(v);
-        stand_on_path(v);
+        viewer_go_to(v, v->path_frame);
     }
     if (v->records_path)
-        stand_on_path(v);
+        viewer_go_to(v, v->path_frame);
     if (!imgui_takes_keys() && viewer_keys_fly(v, seconds, steps)) {
         viewer_camera_fly(&v->view.camera, steps);
         viewer_changed(v);
@@ -189,10 +190,12 @@ static bool is_hidden(const viewer *v) {
 /// stay stale until they are used.
 static void look_at_shaders(viewer *v) {
     const size_t stale = engine_shaders_stale(v->device.lobe);
-    if (stale > v->stale_shaders) {
+    const bool more = stale > v->stale_shaders;
+    if (more || (v->reloads && stale > 0)) {
         v->message[0] = '\0';
         viewer_changed(v);
     }
+    v->reloads = more; // one may have been saved while it was drawn: looks once more
     v->stale_shaders = stale;
 }
 
@@ -222,6 +225,13 @@ static lobe_result refine(viewer *v) {
     return LOBE_OK;
 }
 
+/// Those that the frame has compiled are stale no longer.
+static void forget_shaders(viewer *v) {
+    const size_t stale = v->stale_shaders > 0 ? engine_shaders_stale(v->device.lobe) : 0;
+    if (stale < v->stale_shaders)
+        v->stale_shaders = stale;
+}
+
 static lobe_result show(viewer *v) {
     lobe_result result;
     viewer_shown shown = viewer_swapchain_acquire(&v->device, &v->swapchain, &result);
@@ -235,6 +245,9 @@ static lobe_result show(viewer *v) {
         return result;
     shown = viewer_swapchain_present(&v->device, &v->swapchain, &result);
     v->frames_drawn += v->frames_drawn < UINT32_MAX;
+    forget_shaders(v);
+    if (v->redraws == 0 && (v->sides[0].awaits_times || v->sides[1].awaits_times))
+        v->redraws = 1; // the next frame shows this one's times
     if (shown == VIEWER_SHOWN)
         v->losses = 0;
     return viewer_graphics_judge(v, shown, result);

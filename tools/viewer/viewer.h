@@ -5,6 +5,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/cache_options.h"
 #include "tools/device_options.h"
 #include "tools/scene_options.h"
 #include "tools/view_options.h"
@@ -25,6 +26,7 @@ typedef struct viewer_request {
     scene_options opening;
     view_options view;
     lobe_light *lights; ///< NULL: the scene's own; the viewer frees them
+    cache_options cache;
     device_options device;
 } viewer_request;
 
@@ -51,12 +53,14 @@ typedef struct viewer {
     viewer_display display;
     viewer_frame frame;
     viewer_view view;
+    char cache_folder[CACHE_FOLDER_SIZE]; ///< what `view.cache` may point to
     viewer_look look;
     viewer_side sides[2];
     lobe_scene *scene;
     char *wanted_scene;       ///< to open before the next frame; NULL: none
     char *wanted_environment; ///< the same
     scene_options opening;    ///< how scenes are lit
+    double turned;            ///< degrees by which the user has turned the scene's environment
     char *environment;        ///< what the user lights scenes with; NULL: what was asked for first
     bool shows_panel, shows_help;
     bool swapchain_is_stale;
@@ -65,7 +69,8 @@ typedef struct viewer {
     bool waits;            ///< the last frame found nothing more to do
     unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
     uint32_t frames_drawn; ///< up to the number asked for
-    size_t stale_shaders;  ///< saved, but not drawn with since
+    size_t stale_shaders;  ///< saved, but not used by the last frame
+    bool reloads;          ///< the last look at them found more
     // Mouse and keys.
     viewer_drag drag;
     double cursor[2]; ///< pixels of the window's content
@@ -99,6 +104,8 @@ void viewer_set_comparison(viewer *v, viewer_comparison comparison);
 void viewer_drop(viewer *v, const char *path);
 /// Lights the scene by a file, "sky" or "none" before the next frame. Copied.
 void viewer_light(viewer *v, const char *environment);
+/// Moves the camera to a frame of its path.
+void viewer_go_to(viewer *v, uint32_t path_frame);
 /// Starts or ends recording the camera's path.
 void viewer_record_path(viewer *v, bool on);
 

@@ -107,10 +107,9 @@ typedef struct lobe_render_parameters {
     /// after what they were made from: it is looked into when maps are first needed, and again when
     /// the environment has changed. Those that are there are not made; others are added in the
     /// frame in which they are complete, which takes longer for it (with `submission`: in the next
-    /// one; never where frames are recorded into the host's commands). A damaged or foreign file is
-    /// passed over with a notice and replaced; a folder that takes no files is told in a warning.
-    /// Files may be removed at any time. Pictures are the same with and without. Read during the
-    /// call. NULL: none.
+    /// one; never where several are in flight). A damaged or foreign file is passed over with a
+    /// notice and replaced; a folder that takes no files is told in a warning. Files may be removed
+    /// at any time. Pictures are the same with and without. Read during the call. NULL: none.
     const char *environment_cache;
     /// Also deliver depth, normal, lobe count and level (one sample, at the pixel's centre).
     bool arbitrary_output_variables;
@@ -161,7 +160,10 @@ typedef struct lobe_frame {
     double milliseconds;      ///< device time of all submissions
     double host_milliseconds; ///< CPU time to compile and record them: see lobe_graph_report
     uint32_t submissions;     ///< how many frames of the graph it took
-    lobe_pass_time *passes;   ///< those that ran, in order of their first run
+    /// Of the work on the environment's filtered maps: left to do in frames to come, which are lit
+    /// otherwise than this one then. See `environment_parts`.
+    uint32_t environment_parts_left;
+    lobe_pass_time *passes; ///< those that ran, in order of their first run
     size_t pass_count;
     /// Size of the maps that the filter built: device bytes, and texels of the base maps they
     /// stand for. Their ratio is the memory a filter costs a texel.

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import tap
 from files import exr_write, gltf_triangle, gltf_write, png_read
-from program import check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
+from program import ROOT, check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
 from screen import Screen, Window
 
 SIZE = (320, 240)
 TEXT = f"{SIZE[0]}x{SIZE[1]}"
 STATE = {}
-FAULTS = Path(sys.argv[3]).resolve()
+FAULTS, HOT_RELOAD, SHADERS = (Path(argument).resolve() for argument in sys.argv[3:6])
 # Numbers of vulkan_core.h.
 SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST, DEVICE_LOST = 1000001003, -1000001004, -1000000000, -4
 
@@ -381,6 +381,50 @@ def test_closes():
     faults = [line for line in said.splitlines() if "error" in line and
               "broken.glb" not in line and "DEVICE_LOST" not in line]
     check(status == 0 and not faults and "Sanitizer" not in said, f"{status}: {said}")
+    return None
+
+
+def save(name, old, new):
+    """Changes a shader in one stroke, as editors do."""
+    text = (SHADERS / name).read_text()
+    check(text.count(old) == 1, f"{name}: '{old}' is not there once")
+    (SHADERS / "saved").write_text(text.replace(old, new))
+    (SHADERS / "saved").rename(SHADERS / name)
+
+
+def comes(condition):
+    """Whether it does within a minute."""
+    for _ in range(600):
+        if condition():
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def test_saved_shaders_are_seen():
+    if missing():
+        return missing()
+    shutil.rmtree(SHADERS, ignore_errors=True)
+    shutil.copytree(ROOT / "shaders", SHADERS)
+    hot = Window(screen(), "checkerboard", "--size", TEXT, "--filter", "direct",
+                 program=HOT_RELOAD)
+    hot.do("key", "Tab")
+    before = seen()
+    line = "radiance_out = vec4(value, 1.0);"
+    save("shading.frag", line, line.replace("value", "value.bgr"))
+    check(comes(lambda: seen() != before), "nothing to be seen of a saved shader")
+    hot.settle()
+    swapped = [b"".join(row[i + 2:i - 1 if i else None:-1] + row[i + 3:i + 4]
+                        for i in range(0, len(row), 4)) for row in before]
+    check(largest_difference(seen(), swapped) == 0, "red and blue have not changed places")
+    after = seen()
+    save("shading.frag", line.replace("value", "value.bgr"), "radiance_out = nothing;")
+    check(comes(lambda: "shading.frag:" in hot.said()), f"no mistake is told: {hot.said()}")
+    check(comes(lambda: seen() != after), "no mistake is shown")
+    check(seen()[:SIZE[1] // 2] == after[:SIZE[1] // 2], "the old shader is gone")
+    save("shading.frag", "radiance_out = nothing;", line)
+    check(comes(lambda: seen() == before), "the mistake stays")
+    check(hot.close() == 0, hot.said())
     return None
 
 
