@@ -1,9 +1,12 @@
 """What shells offer to who types a command line of `lobe`: subcommands, options, and the names of
 filters, knobs, scenes and files."""
 
+import os
+import pty
 import shutil
 import subprocess
 import sys
+import time
 
 import tap
 from program import FOLDER, check, fresh_folder, is_wrong_usage, succeeds
@@ -13,6 +16,26 @@ source "$1"
 COMP_LINE=$2 COMP_POINT=${#2}
 _lobe
 printf '%s\\n' "${COMPREPLY[@]}"
+"""
+
+# Writes what is offered into a file, and "." when a line is done with and forgotten.
+ZSH = """
+fpath=($PWD/zsh $fpath)
+autoload -Uz compinit
+compinit -u -D
+unsetopt auto_list auto_menu list_ambiguous list_beep
+compadd() {
+    local -a words
+    if (( ! ${@[(I)-[OAD]*]} )); then
+        builtin compadd -A words "$@"
+        print -rl -- $words >> offered
+    fi
+    builtin compadd "$@"
+}
+forget() { zle kill-buffer; print . >> offered }
+zle -N forget
+bindkey '^I' complete-word '^G' forget
+print . >> offered
 """
 
 
@@ -117,15 +140,67 @@ def test_fish():
     return None
 
 
+class Zsh:
+    """A shell at a terminal, at which keys are pressed."""
+
+    def __init__(self):
+        self.folder = fresh_folder("zsh")
+        (self.folder / "zsh").mkdir()
+        shutil.copy(script("zsh"), self.folder / "zsh/_lobe")
+        (self.folder / "start").write_text(ZSH, encoding="utf-8")
+        self.offered = self.folder / "offered"
+        process, self.terminal = pty.fork()
+        if process == 0:
+            os.chdir(self.folder)
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {
+                "PATH": "/usr/bin:/bin", "HOME": str(self.folder), "TERM": "dumb",
+                "LC_ALL": "C.UTF-8"})
+        os.set_blocking(self.terminal, False)
+        self.press("source ./start\n")
+
+    def press(self, keys):
+        """Returns the words that were offered, once all has come of the keys."""
+        os.write(self.terminal, keys.encode())
+        for _ in range(1000):
+            time.sleep(0.01)
+            try:
+                os.read(self.terminal, 65536)  # a full terminal would hold the shell up
+            except BlockingIOError:
+                pass
+            if self.offered.exists() and self.offered.read_text().endswith(".\n"):
+                words = set(self.offered.read_text().split("\n")) - {"", "."}
+                self.offered.unlink()
+                return words
+        raise AssertionError(f"zsh says nothing to {keys!r}")
+
+    def offers(self, line):
+        return self.press(line + "\t\a")
+
+    def close(self):
+        os.close(self.terminal)
+        os.wait()
+
+
 def test_zsh():
     if not shutil.which("zsh"):
         return "there is no zsh"
-    text = script("zsh").read_text()
     run("zsh", "-n", script("zsh"))
-    check(text.startswith("#compdef lobe\n"), text[:40])
-    check("'(-o --output)'" not in text or "{-o+,--output=}" in text, "output")
-    for name in (*filters(), *knobs(), *scenes()):
-        check(name in text, name)
+    shell = Zsh()
+    (shell.folder / "hall of mirrors.gltf").touch()
+    for line, words in (("lobe re", {"render", "report"}),
+                        ("lobe help com", {"compare", "completion"}),
+                        ("lobe compare --di", {"--diff"}),
+                        ("lobe render hall --filter ", set(filters())),
+                        ("lobe render hall --filter=le", {"lean", "leadr"}),
+                        ("lobe bench --filters direct,mo", {"moments"}),
+                        ("lobe render hall --set epsilon", {"epsilon0", "epsilon1"}),
+                        ("lobe render --depth ", {"half", "float"}),
+                        ("lobe view ha", {"hall", "hall\\ of\\ mirrors.gltf"})):
+        check(shell.offers(line) == words, f"{line}: {shell.offers(line)}")
+    for name, choices in knobs().items():
+        found = shell.offers(f"lobe render hall --set {name}=")
+        check(found == choices, f"{name}: {found}")
+    shell.close()
     return None
 
 

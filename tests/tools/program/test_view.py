@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 import tap
-from files import exr_write, gltf_triangle, gltf_write, png_read
+from files import exr_write, gltf_triangle, gltf_write, png_read, png_write
 from program import ROOT, check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
 from screen import Screen, Window
 
@@ -350,26 +350,38 @@ def test_surface_and_device_may_be_lost():
     return None
 
 
+def looks_rendered(*options):
+    """Whether the window shows what `lobe render` draws of something else."""
+    picture = STATE["folder"] / "dropped.png"
+    succeeds("render", *options, "--size", TEXT, "--set", "env_size=16", "-o", picture)
+    difference = largest_difference(seen(), png_rows(picture))
+    check(difference <= 1, f"{options}: differs by {difference} of 255")
+
+
 def test_takes_what_is_dropped():
     if missing():
         return missing()
-    before = seen()
-    broken = STATE["folder"] / "broken.glb"
-    broken.write_text("no model")
-    window().drop(broken)
-    check("broken.glb" in window().said(), f"nothing about the broken file: {window().said()}")
-    window().do("key", "Home")  # the message goes
-    check(seen() == before, "the scene is another one")
-    model, light = STATE["folder"] / "triangle.gltf", STATE["folder"] / "light.exr"
+    window()
+    before, folder = seen(), STATE["folder"]
+    for name in ("broken.glb", "broken.exr", "broken.hdr"):
+        (folder / name).write_text("nothing of the kind")
+        said = len(window().said())
+        window().drop(folder / name)
+        said = window().said()[said:]
+        check(said.count("\n") == 1 and name in said, f"about {name}: {said}")
+        check(seen() != before, f"no line about {name} is shown")
+        window().do("key", "Home")  # it goes
+        check(seen() == before, "the scene is another one")
+    maps, model, light = (folder / name for name in ("felt", "triangle.gltf", "light.exr"))
+    maps.mkdir()
+    png_write(maps / "felt_albedo.png", 4, 4, (200, 90, 30))
+    png_write(maps / "felt_rough.png", 4, 4, (120, 120, 120))
+    window().drop(maps)
+    looks_rendered(maps)
     gltf_write(model, gltf_triangle())
     exr_write(light, 32, 16, lambda x, y: (x / 32, 0.5, y / 16))
-    window().drop(model)
-    window().drop(light)
-    expected = STATE["folder"] / "dropped.png"
-    succeeds("render", model, "--size", TEXT, "--environment", light, "--background",
-             "--set", "env_size=16", "-o", expected)
-    difference = largest_difference(seen(), png_rows(expected))
-    check(difference <= 1, f"differs by {difference} of 255")
+    window().drop(model, light)
+    looks_rendered(model, "--environment", light, "--background")
     return None
 
 
@@ -379,7 +391,7 @@ def test_closes():
     status = window().close()
     said = window().said()
     faults = [line for line in said.splitlines() if "error" in line and
-              "broken.glb" not in line and "DEVICE_LOST" not in line]
+              "/broken." not in line and "DEVICE_LOST" not in line]
     check(status == 0 and not faults and "Sanitizer" not in said, f"{status}: {said}")
     return None
 
