@@ -139,6 +139,10 @@ bool imgui_takes_mouse(void) {
     return ImGui::GetIO().WantCaptureMouse;
 }
 
+void imgui_show_drag_pointer(void) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+}
+
 bool imgui_takes_keys(void) {
     return ImGui::GetIO().WantTextInput;
 }

@@ -50,6 +50,8 @@ size_t imgui_triangles(const imgui_vertex **vertices, size_t *vertex_count,
 
 /// The mouse is over a panel, or holds something of one.
 bool imgui_takes_mouse(void);
+/// In a frame: the pointer looks like what can be dragged to the left and to the right.
+void imgui_show_drag_pointer(void);
 /// A number is being typed.
 bool imgui_takes_keys(void);
 

@@ -54,7 +54,7 @@ void viewer_display_close(viewer_display *display) {
 // Pictures
 
 static lobe_resource picture_of(const viewer_display *display, const viewer_side *side) {
-    if (lobe_filter_supersamples(side->filter) && side->mean)
+    if (viewer_side_supersamples(side) && side->mean)
         return lobe_graph_import_texture(display->graph, side->mean);
     if (side->target.image.layout != VK_IMAGE_LAYOUT_UNDEFINED)
         return lobe_graph_import_image(display->graph, &side->target.image);
@@ -66,7 +66,7 @@ static lobe_resource picture_of(const viewer_display *display, const viewer_side
 static uint kind_of(const viewer_side *side, float *maximum) {
     const int view = (int)lobe_settings_get(side->filter, &side->settings, "view");
     *maximum = view == 1 ? 8.0f : 12.0f;
-    if (side->output != VIEWER_RADIANCE && !lobe_filter_supersamples(side->filter))
+    if (side->output != VIEWER_RADIANCE)
         return DISPLAY_COLOUR;
     return view == 0 ? DISPLAY_RADIANCE : DISPLAY_COUNT;
 }

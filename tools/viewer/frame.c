@@ -66,7 +66,7 @@ static lobe_result end(const viewer_device *device, VkCommandBuffer commands) {
 static lobe_result record_side(const viewer_view *view, viewer_side *side, VkCommandBuffer commands,
                                bool *recorded) {
     *recorded = false;
-    if (!side->stale || lobe_filter_supersamples(side->filter))
+    if (!side->stale || viewer_side_supersamples(side))
         return LOBE_OK;
     lobe_result result = begin(view->device, commands);
     if (result != LOBE_OK)

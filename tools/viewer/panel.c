@@ -6,6 +6,7 @@
 #include "third_party/imgui.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/panel.h"
+#include "tools/viewer/window.h"
 
 #define MAXIMUM_CHOICES 64
 
@@ -158,7 +159,7 @@ static void choose_output(viewer *v) {
 static void show_samples(const viewer *v) {
     char text[64];
     for (int i = 0; i < 2; ++i) {
-        if (!lobe_filter_supersamples(v->sides[i].filter) ||
+        if (!viewer_side_supersamples(&v->sides[i]) ||
             (i == 1 && v->look.comparison == VIEWER_SINGLE))
             continue;
         snprintf(text, sizeof text, "%u of %u", v->sides[i].samples, v->view.maximum_samples);
@@ -323,4 +324,6 @@ void viewer_panel(viewer *v) {
         show_help(v);
     if (v->message[0])
         show_message(v);
+    if (viewer_window_is_on_divider(v))
+        imgui_show_drag_pointer();
 }

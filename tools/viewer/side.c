@@ -10,6 +10,10 @@
 
 #include "tools/viewer/shaders/outputs.h"
 
+bool viewer_side_supersamples(const viewer_side *side) {
+    return side->output == VIEWER_RADIANCE && lobe_filter_supersamples(side->filter);
+}
+
 lobe_result viewer_side_open(const viewer_view *view, viewer_side *side) {
     side->stale = true;
     lobe_result result = lobe_renderer_create(view->device->lobe, view->log, &side->renderer);
@@ -47,7 +51,7 @@ lobe_result viewer_side_resize(const viewer_view *view, viewer_side *side) {
 }
 
 bool viewer_side_has_work(const viewer_view *view, const viewer_side *side) {
-    bool refines = lobe_filter_supersamples(side->filter) && side->samples < view->maximum_samples;
+    bool refines = viewer_side_supersamples(side) && side->samples < view->maximum_samples;
     return side->stale || (refines && !side->failed);
 }
 
@@ -163,7 +167,7 @@ static lobe_result render_samples(const viewer_view *view, viewer_side *side, ui
 }
 
 lobe_result viewer_side_refine(const viewer_view *view, viewer_side *side) {
-    if (!lobe_filter_supersamples(side->filter) || !viewer_side_has_work(view, side))
+    if (!viewer_side_supersamples(side) || !viewer_side_has_work(view, side))
         return LOBE_OK;
     lobe_result result = side->stale ? start_mean(view, side) : LOBE_OK;
     side->stale = false;
@@ -214,6 +218,19 @@ static void go_on_with_parts(viewer_side *side, uint32_t left) {
     side->parts_left = left;
 }
 
+/// The side's own filter and settings; where that one supersamples, of a single sample, the first
+/// that does not.
+static const lobe_filter *filter_to_draw(const viewer_side *side, lobe_settings *settings) {
+    size_t i = 0;
+    *settings = side->settings;
+    if (!lobe_filter_supersamples(side->filter))
+        return side->filter;
+    while (lobe_filter_supersamples(lobe_filter_get(i)))
+        ++i;
+    lobe_settings_default(lobe_filter_get(i), settings);
+    return lobe_filter_get(i);
+}
+
 static float reach(const lobe_camera *camera) {
     float squared = 0;
     for (int i = 0; i < 3; ++i)
@@ -223,7 +240,7 @@ static float reach(const lobe_camera *camera) {
 
 lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
                                VkCommandBuffer commands) {
-    if (!side->stale || lobe_filter_supersamples(side->filter))
+    if (!side->stale || viewer_side_supersamples(side))
         return LOBE_OK;
     struct outputs_constants constants = {
         .depth = side->output == VIEWER_DEPTH,
@@ -231,13 +248,15 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     };
     const bool outputs = side->output != VIEWER_RADIANCE;
     lobe_frame frame;
+    lobe_settings settings;
+    const lobe_filter *filter = filter_to_draw(side, &settings);
     adapt_parts(side);
     side->target.image.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     lobe_result result =
         lobe_renderer_render(side->renderer,
                              &(lobe_render_parameters){
-                                 .filter = side->filter,
-                                 .settings = &side->settings,
+                                 .filter = filter,
+                                 .settings = &settings,
                                  .camera = &view->camera,
                                  .environment_parts = side->parts,
                                  .environment_cache = view->cache,

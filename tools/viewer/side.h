@@ -60,6 +60,10 @@ typedef struct viewer_view {
     const lobe_log *log;
 } viewer_view;
 
+/// Whether its picture is the mean of many samples. Normals and depth never are: one sample shows
+/// what they are.
+bool viewer_side_supersamples(const viewer_side *side);
+
 /// Filter and settings are set by the caller.
 lobe_result viewer_side_open(const viewer_view *view, viewer_side *side);
 /// Keeps filter and settings.

@@ -27,15 +27,15 @@ static viewer *viewer_of(GLFWwindow *window) {
 // ---------------------------------------------------------------------------------------------
 // Mouse
 
-static bool is_on_divider(const viewer *v) {
-    return v->look.comparison == VIEWER_SPLIT &&
+bool viewer_window_is_on_divider(const viewer *v) {
+    return v->look.comparison == VIEWER_SPLIT && !imgui_takes_mouse() &&
            fabs(v->cursor[0] - v->look.divider * v->view.width) <= GRIP;
 }
 
 static viewer_drag drag_of(const viewer *v, int button, int modifiers) {
     if (imgui_takes_mouse())
         return VIEWER_DRAG_NONE;
-    if (button == GLFW_MOUSE_BUTTON_LEFT && is_on_divider(v))
+    if (button == GLFW_MOUSE_BUTTON_LEFT && viewer_window_is_on_divider(v))
         return VIEWER_DRAG_DIVIDER;
     if (button == GLFW_MOUSE_BUTTON_MIDDLE || modifiers & GLFW_MOD_SHIFT)
         return VIEWER_DRAG_PAN;

@@ -1,6 +1,8 @@
 #ifndef TOOLS_VIEWER_WINDOW_H
 #define TOOLS_VIEWER_WINDOW_H
 
+#include <stdbool.h>
+
 #include <lobe/result.h>
 
 struct viewer;
@@ -9,5 +11,8 @@ struct viewer;
 /// LOBE_ERROR_UNSUPPORTED with a line: no display, no Vulkan.
 lobe_result viewer_window_open(struct viewer *v);
 void viewer_window_close(struct viewer *v);
+
+/// Whether the mouse could grab the divider of a split view.
+bool viewer_window_is_on_divider(const struct viewer *v);
 
 #endif

@@ -213,10 +213,16 @@ def test_split_view_has_a_divider():
     changes("mousedown", 1, "mousemove", 80, 120, "mouseup", 1)
     check([row[:4 * 78] for row in seen()] == [row[:4 * 78] for row in before], "other than before")
     check([row[4 * 162:] for row in seen()] == right, "the camera moved with the divider")
-    window().do("mousedown", 1, "mousemove", 160, 120, "mouseup", 1)
-    changes("key", "c")
+    window().do("mousedown", 1, "mousemove", 160, 120, "mouseup", 1, "key", "v")
+    both = seen()
+    window().do("key", "v", "key", "v", "key", "c")  # the difference
+    check(part_that_differs(before, seen()) > 0.05, "no difference is shown")
     window().do("key", "c")
     check(seen() == before, "does not come back to one picture")
+    window().do("key", "v")
+    normals = [row[:4 * 158] + row[4 * 162:] for row in seen()]
+    check([row[:4 * 158] + row[4 * 162:] for row in both] == normals, "no normals on both sides")
+    window().do("key", "v", "key", "v")
     return None
 
 
