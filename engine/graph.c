@@ -83,7 +83,8 @@ void lobe_graph_destroy(lobe_graph **graph) {
     lobe_graph *gone = *graph;
     if (!gone)
         return;
-    engine_graph_finish_flights(gone);
+    // A device that is lost has finished, too.
+    (void)engine_graph_finish_flights(gone);
     forget_frame(gone);
     engine_graph_free_retained(gone);
     engine_graph_free_memory(gone);

@@ -57,19 +57,20 @@ lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     // Of a frame that the host submitted itself it knows that it is done.
     if (graph->flight->submission)
         result = engine_device_wait(graph->device, graph->flight->submission);
+    if (result != LOBE_OK)
+        return result;
     engine_graph_retire_flight(graph, graph->flight);
-    return result == LOBE_OK ? create_commands(graph, graph->flight) : result;
+    return create_commands(graph, graph->flight);
 }
 
-void engine_graph_finish_flights(lobe_graph *graph) {
+lobe_result engine_graph_finish_flights(lobe_graph *graph) {
     bool busy = false;
     for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
         busy = busy || graph->flights[n].busy;
-    if (!busy)
-        return;
-    (void)engine_device_wait_queue(graph->device);
-    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
+    const lobe_result result = busy ? engine_device_wait_queue(graph->device) : LOBE_OK;
+    for (uint32_t n = 0; busy && result == LOBE_OK && n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
         engine_graph_retire_flight(graph, &graph->flights[n]);
+    return result;
 }
 
 void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
@@ -78,7 +79,7 @@ void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
     if (count > LOBE_MAXIMUM_FRAMES_IN_FLIGHT)
         count = LOBE_MAXIMUM_FRAMES_IN_FLIGHT;
     if (count < graph->flight_count)
-        engine_graph_finish_flights(graph);
+        (void)engine_graph_finish_flights(graph);
     graph->flight_count = count;
 }
 

@@ -9,8 +9,8 @@ lobe_result engine_graph_create_flights(lobe_graph *graph);
 lobe_result engine_graph_begin_flight(lobe_graph *graph);
 
 /// Waits for all frames of the graph, so that anything they use can be freed; at once where none
-/// is under way. A device that is lost has finished, too.
-void engine_graph_finish_flights(lobe_graph *graph);
+/// is under way. On failure they may be under way still.
+lobe_result engine_graph_finish_flights(lobe_graph *graph);
 /// The device has finished with what is this flight's alone.
 void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight);
 

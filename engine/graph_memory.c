@@ -237,10 +237,13 @@ static void publish_transients(lobe_graph *graph) {
 lobe_result engine_graph_place_transients(lobe_graph *graph) {
     engine_stamp plan = plan_stamp(graph);
     if (graph->transients.plan != plan) {
+        lobe_result result = LOBE_OK;
         if (graph->transients.count > 0)
-            engine_graph_finish_flights(graph);
+            result = engine_graph_finish_flights(graph);
+        if (result != LOBE_OK)
+            return result;
         free_transients(graph);
-        lobe_result result = make_transients(graph);
+        result = make_transients(graph);
         if (result != LOBE_OK) {
             free_transients(graph);
             return result;

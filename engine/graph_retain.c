@@ -37,8 +37,10 @@ lobe_result engine_graph_release_retained(lobe_graph *graph) {
             link = &kept->next;
             continue;
         }
+        const lobe_result result = engine_graph_finish_flights(graph);
+        if (result != LOBE_OK)
+            return result;
         *link = kept->next;
-        engine_graph_finish_flights(graph);
         free_retained(graph, kept);
     }
     return LOBE_OK;
@@ -84,7 +86,9 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
         resource->usage = lasting_usage(graph, resource);
         if (!kept)
             continue;
-        engine_graph_finish_flights(graph);
+        const lobe_result result = engine_graph_finish_flights(graph);
+        if (result != LOBE_OK)
+            return result;
         engine_graph_free_object(graph->device, &kept->object);
         engine_memory_free(graph->device->memory, &kept->allocation);
         forget_content(kept);

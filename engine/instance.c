@@ -7,32 +7,47 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
-/// Whether `name` is an extension of the loader and drivers, or of `layer` where that is given.
-static bool has_extension(const char *layer, const char *name) {
-    uint32_t count = 0;
-    if (vkEnumerateInstanceExtensionProperties(layer, &count, NULL) != VK_SUCCESS || count == 0)
-        return false;
-    VkExtensionProperties *extensions = calloc(count, sizeof *extensions);
-    bool found = false;
-    if (extensions &&
-        vkEnumerateInstanceExtensionProperties(layer, &count, extensions) >= VK_SUCCESS)
-        for (uint32_t i = 0; i < count && !found; i++)
-            found = !strcmp(extensions[i].extensionName, name);
-    free(extensions);
-    return found;
+static lobe_result fail_memory(const lobe_log *log) {
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan: no host memory to look around");
 }
 
-static bool has_layer(const char *name) {
+/// Whether `name` is an extension of the loader and drivers.
+static lobe_result find_extension(const lobe_log *log, const char *name, bool *found) {
     uint32_t count = 0;
-    if (vkEnumerateInstanceLayerProperties(&count, NULL) != VK_SUCCESS || count == 0)
-        return false;
-    VkLayerProperties *layers = calloc(count, sizeof *layers);
+    *found = false;
+    lobe_result result =
+        VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
+    if (result != LOBE_OK || count == 0)
+        return result;
+    VkExtensionProperties *extensions = calloc(count, sizeof *extensions);
+    if (!extensions)
+        return fail_memory(log);
+    result = VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, extensions),
+                          "extensions");
+    for (uint32_t i = 0; result == LOBE_OK && i < count && !*found; i++)
+        *found = !strcmp(extensions[i].extensionName, name);
+    free(extensions);
+    return result;
+}
+
+static lobe_result require_layer(const lobe_log *log, const char *name) {
+    uint32_t count = 0;
     bool found = false;
-    if (layers && vkEnumerateInstanceLayerProperties(&count, layers) >= VK_SUCCESS)
-        for (uint32_t i = 0; i < count && !found; i++)
-            found = !strcmp(layers[i].layerName, name);
+    lobe_result result =
+        VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
+    if (result != LOBE_OK)
+        return result;
+    VkLayerProperties *layers = calloc(count + 1, sizeof *layers);
+    if (!layers)
+        return fail_memory(log);
+    result = VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, layers), "layers");
+    for (uint32_t i = 0; result == LOBE_OK && i < count && !found; i++)
+        found = !strcmp(layers[i].layerName, name);
     free(layers);
-    return found;
+    if (result != LOBE_OK || found)
+        return result;
+    return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED, "validation: the layer %s is not installed",
+                         name);
 }
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
@@ -135,16 +150,17 @@ lobe_result engine_instance_create_with(const lobe_log *log, const engine_valida
                                         engine_instance *instance) {
     const instance_request request = {.extensions = extensions, .extension_count = extension_count};
     *instance = (engine_instance){0};
-    if (validation && !has_layer(VALIDATION_LAYER))
-        return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
-                             "validation: the layer " VALIDATION_LAYER " is not installed");
-    instance->debug_utils =
-        validation != NULL || has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    instance->debug_utils = true; // which the layer brings
+    lobe_result result =
+        validation ? require_layer(log, VALIDATION_LAYER)
+                   : find_extension(log, VK_EXT_DEBUG_UTILS_EXTENSION_NAME, &instance->debug_utils);
+    if (result != LOBE_OK)
+        return result;
     const VkResult created = validation ? create_validated(instance, validation, &request)
                                         : create_plain(instance, &request);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
         return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
-    lobe_result result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");
+    result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");
     if (result == LOBE_OK && validation)
         result = create_messenger(log, validation, instance);
     if (result != LOBE_OK)

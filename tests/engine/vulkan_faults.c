@@ -1,27 +1,60 @@
 #include "tests/engine/vulkan_faults.h"
 
 #include <dlfcn.h>
-#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
 
 vulkan_faults faults;
 
-static bool fails(const char *name) {
-    if (++faults.calls != faults.failing)
+// ---------------------------------------------------------------------------------------------
+// What can fail
+
+typedef struct fallible {
+    const char *name;
+    bool failed; ///< once at least
+    struct fallible *next;
+} fallible;
+
+static fallible *all_fallible;
+
+static bool fails(fallible *function) {
+    if (faults.paused || ++faults.calls != faults.failing)
         return false;
-    faults.failed = name;
+    faults.failed = function->name;
+    function->failed = true;
     return true;
 }
+
+const char *vulkan_fault_left_out(void) {
+    for (const fallible *function = all_fallible; function; function = function->next)
+        if (!function->failed)
+            return function->name;
+    return NULL;
+}
+
+/// Each is listed before the program starts.
+#define LISTED(function)                                                                           \
+    static fallible fallible_##function = {.name = #function};                                     \
+    __attribute__((constructor)) static void list_##function(void) {                               \
+        fallible_##function.next = all_fallible;                                                   \
+        all_fallible = &fallible_##function;                                                       \
+    }
+
+// ---------------------------------------------------------------------------------------------
+// Functions of Vulkan
 
 #define REAL(name) ((PFN_##name)dlsym(RTLD_NEXT, #name))
 
 #define FALLIBLE(name, parameters, arguments)                                                      \
+    LISTED(name)                                                                                   \
     VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        return fails(#name) ? faults.fault : REAL(name) arguments;                                 \
+        return fails(&fallible_##name) ? faults.fault : REAL(name) arguments;                      \
     }
 
 #define MAKES(name, parameters, arguments)                                                         \
+    LISTED(name)                                                                                   \
     VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        if (fails(#name))                                                                          \
+        if (fails(&fallible_##name))                                                               \
             return faults.fault;                                                                   \
         VkResult result = REAL(name) arguments;                                                    \
         faults.alive += result == VK_SUCCESS;                                                      \
@@ -31,8 +64,9 @@ static bool fails(const char *name) {
 
 /// What is taken from a pool goes with it.
 #define TAKES(name, parameters, arguments)                                                         \
+    LISTED(name)                                                                                   \
     VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        if (fails(#name))                                                                          \
+        if (fails(&fallible_##name))                                                               \
             return faults.fault;                                                                   \
         VkResult result = REAL(name) arguments;                                                    \
         faults.made += result == VK_SUCCESS;                                                       \
@@ -68,11 +102,12 @@ OBJECT(Semaphore)
 OBJECT(ShaderModule)
 
 #define PIPELINES(kind)                                                                            \
+    LISTED(vkCreate##kind##Pipelines)                                                              \
     VKAPI_ATTR VkResult VKAPI_CALL vkCreate##kind##Pipelines(                                      \
         VkDevice device, VkPipelineCache cache, uint32_t count,                                    \
         const Vk##kind##PipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,        \
         VkPipeline *made) {                                                                        \
-        if (fails("vkCreate" #kind "Pipelines"))                                                   \
+        if (fails(&fallible_vkCreate##kind##Pipelines))                                            \
             return faults.fault;                                                                   \
         VkResult result =                                                                          \
             REAL(vkCreate##kind##Pipelines)(device, cache, count, create, callbacks, made);        \
@@ -152,9 +187,63 @@ FALLIBLE(vkResetDescriptorPool,
          (VkDevice device, VkDescriptorPool pool, VkDescriptorPoolResetFlags flags),
          (device, pool, flags))
 
+FALLIBLE(vkEnumerateDeviceExtensionProperties,
+         (VkPhysicalDevice physical, const char *layer, uint32_t *count,
+          VkExtensionProperties *properties),
+         (physical, layer, count, properties))
+FALLIBLE(vkEnumerateInstanceExtensionProperties,
+         (const char *layer, uint32_t *count, VkExtensionProperties *properties),
+         (layer, count, properties))
+FALLIBLE(vkEnumerateInstanceLayerProperties, (uint32_t * count, VkLayerProperties *properties),
+         (count, properties))
+FALLIBLE(vkGetPipelineCacheData, (VkDevice device, VkPipelineCache cache, size_t *size, void *data),
+         (device, cache, size, data))
+
 /// What is waited for is done all the same: a device that is lost runs nothing any more.
-VKAPI_ATTR VkResult VKAPI_CALL vkWaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo *wait,
-                                                uint64_t timeout) {
-    VkResult result = REAL(vkWaitSemaphores)(device, wait, timeout);
-    return fails("vkWaitSemaphores") ? faults.fault : result;
+#define WAITS(name, parameters, arguments)                                                         \
+    LISTED(name)                                                                                   \
+    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
+        VkResult result = REAL(name) arguments;                                                    \
+        return fails(&fallible_##name) ? faults.fault : result;                                    \
+    }
+
+WAITS(vkWaitSemaphores, (VkDevice device, const VkSemaphoreWaitInfo *wait, uint64_t timeout),
+      (device, wait, timeout))
+WAITS(vkDeviceWaitIdle, (VkDevice device), (device))
+WAITS(vkQueueWaitIdle, (VkQueue queue), (queue))
+
+// ---------------------------------------------------------------------------------------------
+// Functions of extensions, which are asked for by name
+
+static PFN_vkCreateDebugUtilsMessengerEXT real_create_messenger;
+static PFN_vkSetDebugUtilsObjectNameEXT real_set_name;
+
+LISTED(vkCreateDebugUtilsMessengerEXT)
+VKAPI_ATTR VkResult VKAPI_CALL vkCreateDebugUtilsMessengerEXT(
+    VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *create,
+    const VkAllocationCallbacks *callbacks, VkDebugUtilsMessengerEXT *made) {
+    return fails(&fallible_vkCreateDebugUtilsMessengerEXT)
+               ? faults.fault
+               : real_create_messenger(instance, create, callbacks, made);
+}
+
+LISTED(vkSetDebugUtilsObjectNameEXT)
+VKAPI_ATTR VkResult VKAPI_CALL
+vkSetDebugUtilsObjectNameEXT(VkDevice device, const VkDebugUtilsObjectNameInfoEXT *name) {
+    return fails(&fallible_vkSetDebugUtilsObjectNameEXT) ? faults.fault
+                                                         : real_set_name(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance,
+                                                               const char *name) {
+    const PFN_vkVoidFunction real = REAL(vkGetInstanceProcAddr)(instance, name);
+    if (real && strcmp(name, "vkCreateDebugUtilsMessengerEXT") == 0) {
+        real_create_messenger = (PFN_vkCreateDebugUtilsMessengerEXT)real;
+        return (PFN_vkVoidFunction)vkCreateDebugUtilsMessengerEXT;
+    }
+    if (real && strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0) {
+        real_set_name = (PFN_vkSetDebugUtilsObjectNameEXT)real;
+        return (PFN_vkVoidFunction)vkSetDebugUtilsObjectNameEXT;
+    }
+    return real;
 }
