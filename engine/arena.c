@@ -2,7 +2,6 @@
 
 #include <stdalign.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define FIRST_CHUNK_SIZE ((size_t)16 << 10)
@@ -17,7 +16,7 @@ static engine_arena_chunk *add_chunk(engine_arena *arena, size_t needed) {
     size_t size = arena->chunks ? 2 * arena->chunks->size : FIRST_CHUNK_SIZE;
     while (size < needed)
         size *= 2;
-    engine_arena_chunk *chunk = malloc(sizeof *chunk + size);
+    engine_arena_chunk *chunk = lobe_allocate(arena->allocator, 1, sizeof *chunk + size);
     if (!chunk)
         return NULL;
     *chunk = (engine_arena_chunk){.next = arena->chunks, .size = size};
@@ -54,7 +53,7 @@ char *engine_arena_copy_text(engine_arena *arena, const char *text) {
 static void free_chunks(engine_arena_chunk *chunk) {
     while (chunk) {
         engine_arena_chunk *next = chunk->next;
-        free(chunk);
+        lobe_release(chunk);
         chunk = next;
     }
 }

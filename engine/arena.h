@@ -3,8 +3,11 @@
 
 #include <stddef.h>
 
+#include <lobe/allocator.h>
+
 /// Host memory for things that are forgotten all at once. All zero: empty.
 typedef struct engine_arena {
+    const lobe_allocator *allocator; ///< where chunks come from; set before the first use
     struct engine_arena_chunk *chunks;
 } engine_arena;
 

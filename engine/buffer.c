@@ -1,6 +1,5 @@
 #include "engine/resource.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/device.h"
@@ -23,9 +22,9 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
     if (parameters->size == 0)
         return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT, "buffer '%s': a size of 0",
                              name);
-    *buffer = calloc(1, sizeof **buffer);
-    if (!*buffer || !((*buffer)->name = strdup(name))) {
-        free(*buffer);
+    *buffer = lobe_allocate(device->log.allocator, 1, sizeof **buffer);
+    if (!*buffer || !((*buffer)->name = lobe_copy_text(device->log.allocator, name))) {
+        lobe_release(*buffer);
         *buffer = NULL;
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': no host memory",
                              name);
@@ -59,7 +58,7 @@ void lobe_buffer_destroy(lobe_buffer **buffer) {
     // A device that is lost has finished, too.
     (void)engine_device_wait_all(device);
     engine_buffer_destroy_placed(device, &(*buffer)->buffer, &(*buffer)->allocation);
-    free((*buffer)->name);
-    free(*buffer);
+    lobe_release((*buffer)->name);
+    lobe_release(*buffer);
     *buffer = NULL;
 }

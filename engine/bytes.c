@@ -1,15 +1,17 @@
 #include "engine/bytes.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-static bool reserve(engine_bytes *bytes, size_t size) {
+#define FIRST_CAPACITY 64
+
+bool engine_bytes_reserve(engine_bytes *bytes, size_t size) {
     if (size <= bytes->capacity)
         return true;
-    size_t capacity = bytes->capacity < 4096 ? 4096 : bytes->capacity;
+    size_t capacity = bytes->capacity ? bytes->capacity : FIRST_CAPACITY;
     while (capacity < size && capacity <= SIZE_MAX / 2)
         capacity *= 2;
-    uint8_t *data = capacity >= size ? realloc(bytes->data, capacity) : NULL;
+    uint8_t *data =
+        capacity >= size ? lobe_reallocate(bytes->allocator, bytes->data, capacity, 1) : NULL;
     if (data == NULL)
         return false;
     bytes->data = data;
@@ -18,7 +20,7 @@ static bool reserve(engine_bytes *bytes, size_t size) {
 }
 
 bool engine_bytes_write(engine_bytes *bytes, size_t offset, const void *data, size_t size) {
-    if (size > SIZE_MAX - offset || !reserve(bytes, offset + size))
+    if (size > SIZE_MAX - offset || !engine_bytes_reserve(bytes, offset + size))
         return false;
     if (offset > bytes->size)
         memset(bytes->data + bytes->size, 0, offset - bytes->size);
@@ -30,6 +32,6 @@ bool engine_bytes_write(engine_bytes *bytes, size_t offset, const void *data, si
 }
 
 void engine_bytes_free(engine_bytes *bytes) {
-    free(bytes->data);
-    *bytes = (engine_bytes){0};
+    lobe_release(bytes->data);
+    *bytes = (engine_bytes){.allocator = bytes->allocator};
 }

@@ -6,16 +6,16 @@
 #include "engine/growing_array.h"
 
 void engine_dependency_graph_free(engine_dependency_graph *graph) {
-    free(graph->resources);
-    free(graph->passes);
-    free(graph->accesses);
-    free(graph->sources);
-    free(graph->edges);
-    free(graph->order);
-    free(graph->running);
-    free(graph->cycle);
-    free(graph->barriers);
-    free(graph->end_layouts);
+    lobe_release(graph->resources);
+    lobe_release(graph->passes);
+    lobe_release(graph->accesses);
+    lobe_release(graph->sources);
+    lobe_release(graph->edges);
+    lobe_release(graph->order);
+    lobe_release(graph->running);
+    lobe_release(graph->cycle);
+    lobe_release(graph->barriers);
+    lobe_release(graph->end_layouts);
     engine_arena_free(&graph->scratch);
     *graph = (engine_dependency_graph){0};
 }
@@ -51,8 +51,9 @@ static bool fail_memory(engine_dependency_graph *graph) {
 
 uint32_t engine_dependency_add_resource(engine_dependency_graph *graph,
                                         const engine_dependency_resource *resource) {
-    if (!engine_array_reserve((void **)&graph->resources, &graph->resource_capacity,
-                              (uint64_t)graph->resource_count + 1, sizeof *graph->resources)) {
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->resources,
+                              &graph->resource_capacity, (uint64_t)graph->resource_count + 1,
+                              sizeof *graph->resources)) {
         fail_memory(graph);
         return ENGINE_DEPENDENCY_NONE;
     }
@@ -67,8 +68,9 @@ uint32_t engine_dependency_add_resource(engine_dependency_graph *graph,
 }
 
 uint32_t engine_dependency_add_pass(engine_dependency_graph *graph, const char *name) {
-    if (!engine_array_reserve((void **)&graph->passes, &graph->pass_capacity,
-                              (uint64_t)graph->pass_count + 1, sizeof *graph->passes)) {
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->passes,
+                              &graph->pass_capacity, (uint64_t)graph->pass_count + 1,
+                              sizeof *graph->passes)) {
         fail_memory(graph);
         return ENGINE_DEPENDENCY_NONE;
     }
@@ -127,10 +129,11 @@ static void append_to_pass(engine_dependency_graph *graph, uint32_t pass, uint32
 static uint32_t append_access(engine_dependency_graph *graph,
                               const engine_dependency_access *access) {
     uint64_t sources = (uint64_t)graph->source_count + engine_access_size(access);
-    if (!engine_array_reserve((void **)&graph->accesses, &graph->access_capacity,
-                              (uint64_t)graph->access_count + 1, sizeof *graph->accesses) ||
-        !engine_array_reserve((void **)&graph->sources, &graph->source_capacity, sources,
-                              sizeof *graph->sources)) {
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->accesses,
+                              &graph->access_capacity, (uint64_t)graph->access_count + 1,
+                              sizeof *graph->accesses) ||
+        !engine_array_reserve(graph->scratch.allocator, (void **)&graph->sources,
+                              &graph->source_capacity, sources, sizeof *graph->sources)) {
         fail_memory(graph);
         return ENGINE_DEPENDENCY_NONE;
     }
@@ -214,8 +217,9 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
         last->hazards |= hazard;
         return true;
     }
-    if (!engine_array_reserve((void **)&graph->edges, &graph->edge_capacity,
-                              (uint64_t)graph->edge_count + 1, sizeof *graph->edges))
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->edges,
+                              &graph->edge_capacity, (uint64_t)graph->edge_count + 1,
+                              sizeof *graph->edges))
         return fail_memory(graph);
     graph->edges[graph->edge_count++] = (engine_dependency_edge){from, to, hazard};
     return true;

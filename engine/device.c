@@ -1,6 +1,5 @@
 #include "engine/device.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/device_features.h"
@@ -40,7 +39,11 @@ static lobe_result select_physical(lobe_device *device, const char *select) {
 
 static lobe_result open_device(lobe_device *device) {
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
-    const uint32_t extension_count = lobe_vulkan_extensions_fill(device->physical, extensions);
+    uint32_t extension_count;
+    lobe_result result =
+        engine_extensions_fill(device->physical, &device->log, extensions, &extension_count);
+    if (result != LOBE_OK)
+        return result;
     for (uint32_t i = 0; i < extension_count; i++)
         device->memory_budget |= !strcmp(extensions[i], VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     engine_features_enable(device->information.features, &device->features);
@@ -59,7 +62,7 @@ static lobe_result open_device(lobe_device *device) {
         .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
-    const lobe_result result =
+    result =
         VULKAN_CHECK(&device->log, vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
                      "device '%s'", device->information.name);
     if (result == LOBE_OK)
@@ -136,7 +139,7 @@ static void destroy_mutexes(lobe_device *device) {
 }
 
 lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device) {
-    *device = calloc(1, sizeof **device);
+    *device = lobe_allocate(lobe_log_allocator(parameters->log), 1, sizeof **device);
     if (!*device)
         return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
     create_mutexes(*device);
@@ -201,9 +204,13 @@ void lobe_device_destroy(lobe_device **device) {
     if (!(*device)->imported)
         engine_instance_destroy(&(*device)->instance);
     destroy_mutexes(*device);
-    free((void *)(*device)->information.features);
-    free(*device);
+    lobe_release((void *)(*device)->information.features);
+    lobe_release(*device);
     *device = NULL;
+}
+
+const lobe_allocator *lobe_device_allocator(const lobe_device *device) {
+    return device->log.allocator;
 }
 
 const lobe_device_information *lobe_device_describe(const lobe_device *device) {
@@ -222,7 +229,7 @@ lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
     result = engine_candidates_list(instance.vulkan, log, &candidates, count);
     if (result != LOBE_OK)
         goto cleanup;
-    *devices = calloc(*count, sizeof **devices);
+    *devices = lobe_allocate(lobe_log_allocator(log), *count, sizeof **devices);
     if (!*devices) {
         result = lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
         goto cleanup;
@@ -241,8 +248,8 @@ cleanup:
 
 void lobe_device_list_free(lobe_device_information **devices, size_t count) {
     for (size_t i = 0; *devices && i < count; i++)
-        free((void *)(*devices)[i].features);
-    free(*devices);
+        lobe_release((void *)(*devices)[i].features);
+    lobe_release(*devices);
     *devices = NULL;
 }
 

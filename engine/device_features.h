@@ -26,6 +26,11 @@ void engine_features_read(const VkPhysicalDeviceFeatures2 *enabled,
 void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_COUNT],
                             lobe_vulkan_features *enable);
 
+/// As lobe_vulkan_extensions_fill; LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *log,
+                                   const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
+                                   uint32_t *filled);
+
 /// The first that is required but absent; NULL where nothing is missing.
 const lobe_device_feature *
 engine_features_missing(const lobe_device_feature features[ENGINE_FEATURE_COUNT]);

@@ -2,7 +2,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/device_features.h"
@@ -31,18 +30,32 @@ static bool has_extension(const VkExtensionProperties *extensions, uint32_t coun
     return false;
 }
 
-uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
-                                     const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
-    uint32_t count = 0, filled = 0;
-    if (vkEnumerateDeviceExtensionProperties(physical_device, NULL, &count, NULL) != VK_SUCCESS)
-        return 0;
-    VkExtensionProperties *extensions = calloc(count + 1, sizeof *extensions);
-    if (extensions && vkEnumerateDeviceExtensionProperties(physical_device, NULL, &count,
-                                                           extensions) >= VK_SUCCESS)
+lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *log,
+                                   const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
+                                   uint32_t *filled) {
+    uint32_t count = 0;
+    *filled = 0;
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
+        return LOBE_OK;
+    VkExtensionProperties *extensions =
+        lobe_allocate(lobe_log_allocator(log), count, sizeof *extensions);
+    if (!extensions)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "Vulkan: no host memory for a device's extensions");
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
         for (size_t i = 0; i < KNOWN_COUNT; i++)
             if (has_extension(extensions, count, known[i].name))
-                names[filled++] = known[i].name;
-    free(extensions);
+                names[(*filled)++] = known[i].name;
+    lobe_release(extensions);
+    return LOBE_OK;
+}
+
+uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
+                                     const lobe_allocator *allocator,
+                                     const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
+    const lobe_log silent = {.allocator = allocator};
+    uint32_t filled;
+    (void)engine_extensions_fill(physical_device, &silent, names, &filled);
     return filled;
 }
 

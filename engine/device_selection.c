@@ -101,8 +101,9 @@ static void describe(engine_candidate *candidate) {
         information->timestamp_period = properties->limits.timestampPeriod;
 }
 
-static bool describe_features(engine_candidate *candidate) {
-    lobe_device_feature *features = calloc(ENGINE_FEATURE_COUNT, sizeof *features);
+static bool describe_features(engine_candidate *candidate, const lobe_allocator *allocator) {
+    lobe_device_feature *features =
+        lobe_allocate(allocator, ENGINE_FEATURE_COUNT, sizeof *features);
     if (!features)
         return false;
     engine_features_query(candidate->physical, features);
@@ -115,7 +116,7 @@ lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log 
                                       engine_candidate *candidate) {
     *candidate = (engine_candidate){.physical = physical};
     describe(candidate);
-    return describe_features(candidate)
+    return describe_features(candidate, lobe_log_allocator(log))
                ? LOBE_OK
                : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
                                candidate->information.name);
@@ -126,19 +127,20 @@ lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log 
 
 void engine_candidates_free(engine_candidate **candidates, size_t count) {
     for (size_t i = 0; *candidates && i < count; i++)
-        free((void *)(*candidates)[i].information.features);
-    free(*candidates);
+        lobe_release((void *)(*candidates)[i].information.features);
+    lobe_release(*candidates);
     *candidates = NULL;
 }
 
 static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count, const lobe_log *log,
                                 engine_candidate **candidates) {
-    *candidates = calloc(count, sizeof **candidates);
+    const lobe_allocator *allocator = lobe_log_allocator(log);
+    *candidates = lobe_allocate(allocator, count, sizeof **candidates);
     bool complete = *candidates != NULL;
     for (size_t i = 0; complete && i < count; i++) {
         (*candidates)[i].physical = physical[i];
         describe(&(*candidates)[i]);
-        complete = describe_features(&(*candidates)[i]);
+        complete = describe_features(&(*candidates)[i], allocator);
     }
     if (complete)
         return LOBE_OK;

@@ -24,7 +24,7 @@ bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
 /// The first that serves; UINT32_MAX (and no bits): none.
 uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
-/// Describes one device; `candidate->information.features` is to free().
+/// Describes one device; `candidate->information.features` is to lobe_release.
 lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log *log,
                                       engine_candidate *candidate);
 

@@ -1,7 +1,6 @@
 #include "engine/exr_encode.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/half.h"
@@ -67,8 +66,8 @@ static exr_result_t reserve(exr_writer *writer, const exr_block *block) {
         size += plane_size(&writer->channels[index], block);
     if (size <= writer->block_size)
         return EXR_ERR_SUCCESS;
-    free(writer->block);
-    writer->block = malloc(size);
+    lobe_release(writer->block);
+    writer->block = lobe_allocate(lobe_log_allocator(writer->log), size, 1);
     writer->block_size = writer->block != NULL ? size : 0;
     return writer->block != NULL ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
 }
@@ -196,7 +195,7 @@ void engine_exr_free_texels(exr_writer *writer) {
     if (writer->pipeline_started)
         exr_encoding_destroy(writer->context, &writer->pipeline);
     writer->pipeline_started = false;
-    free(writer->block);
+    lobe_release(writer->block);
     writer->block = NULL;
     writer->block_size = 0;
 }

@@ -2,7 +2,6 @@
 
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <lobe/file.h>
@@ -91,6 +90,6 @@ lobe_result engine_exr_open(const char *path, const lobe_log *log, exr_input *in
 void engine_exr_close(exr_input *input) {
     if (input->context != NULL)
         exr_finish(&input->context);
-    free(input->data);
+    lobe_release(input->data);
     *input = (exr_input){0};
 }

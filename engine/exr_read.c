@@ -1,7 +1,6 @@
 #include <lobe/exr.h>
 
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/exr_decode.h"
@@ -234,7 +233,8 @@ static lobe_result fail_without_memory(const exr_reader *reader) {
 }
 
 static lobe_result read_levels(exr_reader *reader, lobe_exr_contents *contents) {
-    contents->levels = calloc(reader->level_count, sizeof *contents->levels);
+    contents->levels = lobe_allocate(lobe_log_allocator(reader->input.log), reader->level_count,
+                                     sizeof *contents->levels);
     if (contents->levels == NULL)
         return fail_without_memory(reader);
     lobe_result result = LOBE_OK;
@@ -245,13 +245,21 @@ static lobe_result read_levels(exr_reader *reader, lobe_exr_contents *contents) 
     return result;
 }
 
+/// To its first zero byte, or its end.
+static char *copy_string(const lobe_allocator *allocator, const exr_attr_string_t *string) {
+    const size_t length = strnlen(string->str, (size_t)string->length);
+    char *copy = lobe_allocate(allocator, length + 1, 1);
+    return copy ? memcpy(copy, string->str, length) : NULL;
+}
+
 /// False where the attribute is of another type. A text that there is no memory for stays NULL.
-static bool copy_attribute(const exr_attribute_t *source, lobe_exr_attribute *target) {
+static bool copy_attribute(const lobe_allocator *allocator, const exr_attribute_t *source,
+                           lobe_exr_attribute *target) {
     *target = (lobe_exr_attribute){0};
     switch (source->type) {
     case EXR_ATTR_STRING:
         target->type = LOBE_EXR_TEXT;
-        target->text = strndup(source->string->str, (size_t)source->string->length);
+        target->text = copy_string(allocator, source->string);
         break;
     case EXR_ATTR_FLOAT:
         target->type = LOBE_EXR_NUMBER;
@@ -264,16 +272,18 @@ static bool copy_attribute(const exr_attribute_t *source, lobe_exr_attribute *ta
     default:
         return false;
     }
-    target->name = strdup(source->name);
+    target->name = lobe_copy_text(allocator, source->name);
     return true;
 }
 
 static lobe_result read_attributes(exr_reader *reader, lobe_exr_contents *contents) {
+    const lobe_allocator *allocator = lobe_log_allocator(reader->input.log);
     int32_t count = 0;
     exr_result_t code = exr_get_attribute_count(reader->input.context, reader->part, &count);
     if (code != EXR_ERR_SUCCESS)
         return engine_exr_fail(&reader->input, code);
-    contents->attributes = calloc((size_t)count + 1, sizeof *contents->attributes);
+    contents->attributes =
+        lobe_allocate(allocator, (size_t)count + 1, sizeof *contents->attributes);
     if (contents->attributes == NULL)
         return fail_without_memory(reader);
     for (int32_t index = 0; index < count; index++) {
@@ -283,7 +293,7 @@ static lobe_result read_attributes(exr_reader *reader, lobe_exr_contents *conten
         if (code != EXR_ERR_SUCCESS)
             return engine_exr_fail(&reader->input, code);
         lobe_exr_attribute *target = &contents->attributes[contents->attribute_count];
-        if (!copy_attribute(source, target))
+        if (!copy_attribute(allocator, source, target))
             continue;
         contents->attribute_count++;
         if (target->name == NULL || (target->type == LOBE_EXR_TEXT && target->text == NULL))
@@ -333,10 +343,10 @@ void lobe_exr_contents_free(lobe_exr_contents *contents) {
     for (uint32_t level = 0; level < contents->level_count; level++)
         lobe_image_free(&contents->levels[level]);
     for (size_t index = 0; index < contents->attribute_count; index++) {
-        free((char *)contents->attributes[index].name);
-        free((char *)contents->attributes[index].text);
+        lobe_release((char *)contents->attributes[index].name);
+        lobe_release((char *)contents->attributes[index].text);
     }
-    free(contents->levels);
-    free(contents->attributes);
+    lobe_release(contents->levels);
+    lobe_release(contents->attributes);
     *contents = (lobe_exr_contents){0};
 }

@@ -117,7 +117,8 @@ static lobe_result choose_extent(exr_writer *writer, const lobe_exr_parameters *
 }
 
 static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameters *parameters) {
-    writer->channels = calloc(4 * parameters->layer_count, sizeof *writer->channels);
+    writer->channels = lobe_allocate(lobe_log_allocator(writer->log), 4 * parameters->layer_count,
+                                     sizeof *writer->channels);
     if (writer->channels == NULL)
         return lobe_log_fail(writer->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
                              writer->path);
@@ -294,7 +295,7 @@ static lobe_result encode(exr_writer *writer) {
 
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
                            const lobe_log *log) {
-    exr_writer writer = {.path = path, .log = log};
+    exr_writer writer = {.path = path, .log = log, .output.allocator = lobe_log_allocator(log)};
     lobe_result result = choose_extent(&writer, parameters);
     if (result == LOBE_OK)
         result = collect_channels(&writer, parameters);
@@ -306,6 +307,6 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
     if (writer.context != NULL)
         exr_finish(&writer.context);
     engine_bytes_free(&writer.output);
-    free(writer.channels);
+    lobe_release(writer.channels);
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +53,8 @@ static lobe_result open_regular_file(file_reader *reader) {
 
 /// Room for the capacity, and for the zero byte behind it.
 static lobe_result reserve(file_reader *reader) {
-    uint8_t *larger = realloc(reader->data, reader->capacity + 1);
+    uint8_t *larger =
+        lobe_reallocate(lobe_log_allocator(reader->log), reader->data, reader->capacity + 1, 1);
     if (!larger)
         return fail_reading(reader, LOBE_ERROR_OUT_OF_MEMORY, "out of memory");
     reader->data = larger;
@@ -93,7 +95,7 @@ lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *
         *data = reader.data;
         *size = reader.size;
     } else {
-        free(reader.data);
+        lobe_release(reader.data);
     }
     if (reader.file >= 0)
         close(reader.file);
@@ -152,9 +154,10 @@ static int create_temporary(const char *path, char *name, size_t name_size) {
 static lobe_result write_and_rename(const char *path, const void *data, size_t size,
                                     const lobe_log *log) {
     size_t name_size = strlen(path) + 64;
-    char *name = malloc(name_size);
+    char *name = lobe_allocate(lobe_log_allocator(log), name_size, 1);
     if (name == NULL)
-        return fail_writing(path, log);
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be written: out of memory",
+                             path);
     lobe_result result = LOBE_OK;
     int file = create_temporary(path, name, name_size);
     if (file < 0) {
@@ -163,7 +166,7 @@ static lobe_result write_and_rename(const char *path, const void *data, size_t s
         result = fail_writing(path, log);
         unlink(name);
     }
-    free(name);
+    lobe_release(name);
     return result;
 }
 
@@ -174,10 +177,8 @@ lobe_result lobe_file_write(const char *path, const void *data, size_t size, con
     if (!S_ISREG(status.st_mode))
         return write_directly(path, data, size, log);
     // Through a symbolic link the file it points to is replaced, not the link.
-    char *target = realpath(path, NULL);
-    if (target == NULL)
+    char target[PATH_MAX];
+    if (realpath(path, target) == NULL)
         return fail_writing(path, log);
-    lobe_result result = write_and_rename(target, data, size, log);
-    free(target);
-    return result;
+    return write_and_rename(target, data, size, log);
 }

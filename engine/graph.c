@@ -2,7 +2,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "engine/graph_binding.h"
 #include "engine/graph_flight.h"
@@ -22,7 +21,7 @@
 // ---------------------------------------------------------------------------------------------
 // Failures
 
-lobe_result engine_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
+lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
     if (graph->result != LOBE_OK)
         return graph->result;
     char line[LINE_SIZE];
@@ -41,7 +40,7 @@ lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result) {
 }
 
 lobe_result engine_graph_fail_memory(lobe_graph *graph) {
-    return engine_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
+    return lobe_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
 }
 
 lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
@@ -49,7 +48,7 @@ lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
     if (graph->dependencies.fault.kind == ENGINE_FAULT_MEMORY)
         return engine_graph_fail_memory(graph);
     engine_dependency_explain(&graph->dependencies, line, sizeof line);
-    return engine_graph_fail(graph, LOBE_ERROR_GRAPH, "%s", line);
+    return lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "%s", line);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -57,11 +56,13 @@ lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
 
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     *graph = NULL;
-    lobe_graph *created = calloc(1, sizeof *created);
+    const lobe_allocator *allocator = device->log.allocator;
+    lobe_graph *created = lobe_allocate(allocator, 1, sizeof *created);
     if (!created)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "render graph: no host memory");
     created->device = device;
+    created->arena.allocator = created->dependencies.scratch.allocator = allocator;
     created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = engine_graph_create_flights(created);
     if (result != LOBE_OK)
@@ -91,10 +92,10 @@ void lobe_graph_destroy(lobe_graph **graph) {
     engine_graph_free_flights(gone);
     engine_dependency_graph_free(&gone->dependencies);
     engine_arena_free(&gone->arena);
-    free(gone->resources);
-    free(gone->passes);
-    free(gone->pass_reports);
-    free(gone);
+    lobe_release(gone->resources);
+    lobe_release(gone->passes);
+    lobe_release(gone->pass_reports);
+    lobe_release(gone);
     *graph = NULL;
 }
 
@@ -153,8 +154,8 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
 
 static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     if (graph->phase == ENGINE_GRAPH_SUBMITTED || graph->phase == ENGINE_GRAPH_EXECUTED)
-        return engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                                 "render graph: executed twice; begin a new frame in between");
+        return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                               "render graph: executed twice; begin a new frame in between");
     lobe_result result = lobe_graph_compile(graph);
     return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
 }
@@ -169,14 +170,14 @@ lobe_result lobe_graph_execute(lobe_graph *graph) {
 static lobe_result check_submission(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     uint32_t waits = submission->wait_count, signals = submission->signal_count;
     if (submission->commands && (waits || signals))
-        return engine_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "render graph: semaphores are for whoever submits the host's "
-                                 "command buffer");
+        return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
+                               "render graph: semaphores are for whoever submits the host's "
+                               "command buffer");
     if (waits > LOBE_VULKAN_MAXIMUM_SEMAPHORES || signals > LOBE_VULKAN_MAXIMUM_SEMAPHORES)
-        return engine_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "render graph: %u semaphores to wait for and %u to signal, more "
-                                 "than %d each",
-                                 waits, signals, LOBE_VULKAN_MAXIMUM_SEMAPHORES);
+        return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
+                               "render graph: %u semaphores to wait for and %u to signal, more "
+                               "than %d each",
+                               waits, signals, LOBE_VULKAN_MAXIMUM_SEMAPHORES);
     return LOBE_OK;
 }
 

@@ -216,11 +216,7 @@ struct lobe_graph {
 // ---------------------------------------------------------------------------------------------
 // Failures (graph.c)
 
-/// Logs the frame's first failure and remembers its code; later ones are silent. Returns the
-/// first one's code.
-lobe_result engine_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/// The same for a failure that was logged where it was found.
+/// lobe_graph_fail for a failure that was logged where it was found.
 lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result);
 /// The same for what the dependency graph found.
 lobe_result engine_graph_fail_dependency(lobe_graph *graph);

@@ -39,10 +39,10 @@ static void place(engine_alias_request *request, engine_alias_request **placed, 
     request->offset = offset;
 }
 
-bool engine_alias_plan(engine_alias_request *requests, size_t count, uint64_t *shared_size,
-                       uint64_t *separate_size) {
+bool engine_alias_plan(const lobe_allocator *allocator, engine_alias_request *requests,
+                       size_t count, uint64_t *shared_size, uint64_t *separate_size) {
     *shared_size = *separate_size = 0;
-    engine_alias_request **order = malloc((2 * count + 1) * sizeof *order);
+    engine_alias_request **order = lobe_allocate(allocator, 2 * count + 1, sizeof *order);
     if (!order)
         return false;
     engine_alias_request **alive = order + count;
@@ -61,6 +61,6 @@ bool engine_alias_plan(engine_alias_request *requests, size_t count, uint64_t *s
         *shared_size = end > *shared_size ? end : *shared_size;
         *separate_size = align_up(*separate_size, request->alignment) + request->size;
     }
-    free(order);
+    lobe_release(order);
     return true;
 }

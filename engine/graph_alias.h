@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/allocator.h>
+
 /// Something that needs memory from position `first` to position `last`, both included.
 typedef struct engine_alias_request {
     uint64_t size;      ///< bytes, above 0
@@ -18,7 +20,7 @@ typedef struct engine_alias_request {
 ///
 /// `shared_size` is the block's size, `separate_size` what it would be if nothing shared memory;
 /// the first is never above the second. False without host memory.
-bool engine_alias_plan(engine_alias_request *requests, size_t count, uint64_t *shared_size,
-                       uint64_t *separate_size);
+bool engine_alias_plan(const lobe_allocator *allocator, engine_alias_request *requests,
+                       size_t count, uint64_t *shared_size, uint64_t *separate_size);
 
 #endif

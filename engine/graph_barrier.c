@@ -183,8 +183,9 @@ static void start_resource(barrier_builder *builder, uint32_t index) {
 // Barriers
 
 static bool add_barrier(engine_dependency_graph *graph, const engine_dependency_barrier *barrier) {
-    if (!engine_array_reserve((void **)&graph->barriers, &graph->barrier_capacity,
-                              (uint64_t)graph->barrier_count + 1, sizeof *graph->barriers))
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->barriers,
+                              &graph->barrier_capacity, (uint64_t)graph->barrier_count + 1,
+                              sizeof *graph->barriers))
         return false;
     graph->barriers[graph->barrier_count++] = *barrier;
     return true;
@@ -414,8 +415,9 @@ static bool builder_create(barrier_builder *builder) {
     builder->general = engine_arena_allocate(scratch, resources * sizeof *builder->general);
     return builder->uses && builder->trackers && builder->started && builder->slots &&
            builder->general &&
-           engine_array_reserve((void **)&graph->end_layouts, &graph->end_layout_capacity,
-                                subresources + 1, sizeof *graph->end_layouts);
+           engine_array_reserve(graph->scratch.allocator, (void **)&graph->end_layouts,
+                                &graph->end_layout_capacity, subresources + 1,
+                                sizeof *graph->end_layouts);
 }
 
 bool engine_dependency_barriers(engine_dependency_graph *graph) {

@@ -18,10 +18,10 @@ typedef struct binding_site {
 } binding_site;
 
 static bool mismatch(const binding_site *site, const char *why) {
-    engine_graph_fail(site->pass->graph, LOBE_ERROR_GRAPH,
-                      "pass '%s', shader '%s': resource '%s' does not fit binding '%s': %s",
-                      site->pass->name, site->shader->name, site->resource->name,
-                      site->variable->name, why);
+    lobe_graph_fail(site->pass->graph, LOBE_ERROR_GRAPH,
+                    "pass '%s', shader '%s': resource '%s' does not fit binding '%s': %s",
+                    site->pass->name, site->shader->name, site->resource->name,
+                    site->variable->name, why);
     return false;
 }
 
@@ -192,9 +192,8 @@ static bool resolve_variable(lobe_pass *pass, engine_graph_command *command,
     if (!binding && !variable->used)
         return true;
     if (!binding) {
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s', shader '%s': nothing is bound to '%s'", pass->name,
-                          shader->name, variable->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "pass '%s', shader '%s': nothing is bound to '%s'",
+                        pass->name, shader->name, variable->name);
         return false;
     }
     engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
@@ -229,9 +228,9 @@ static bool resolve_shader(lobe_pass *pass, engine_graph_command *command, const
 
 static bool check_constants(lobe_pass *pass, const char *shader, size_t given, uint32_t wanted) {
     if (given != wanted)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s', shader '%s': %zu bytes of constants, the shader has %u",
-                          pass->name, shader, given, wanted);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s', shader '%s': %zu bytes of constants, the shader has %u",
+                        pass->name, shader, given, wanted);
     return given == wanted;
 }
 
@@ -239,7 +238,7 @@ static bool check_names(lobe_pass *pass, const engine_graph_binding_list *list,
                         const char *shader) {
     for (const engine_graph_binding *binding = list->first; binding; binding = binding->next)
         if (!binding->known) {
-            engine_graph_fail(
+            lobe_graph_fail(
                 pass->graph, LOBE_ERROR_GRAPH,
                 "pass '%s' binds resource '%s' to '%s', which shader '%s' does not "
                 "have",
@@ -283,8 +282,8 @@ static const char *last_shader(const lobe_pass *pass) {
 
 static bool resolve_pass(lobe_pass *pass) {
     if (pass->kind == LOBE_PASS_COMPUTE && !pass->first_command) {
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "compute pass '%s' has no dispatch",
-                          pass->name);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "compute pass '%s' has no dispatch",
+                        pass->name);
         return false;
     }
     for (engine_graph_command *command = pass->first_command; command; command = command->next) {
@@ -313,10 +312,10 @@ static lobe_result count_groups(lobe_pass *pass, engine_graph_command *command) 
         uint32_t local = command->pipeline->local_size[n];
         command->group_count[n] = threads / local + (threads % local != 0);
         if (command->group_count[n] > limits->maxComputeWorkGroupCount[n])
-            return engine_graph_fail(pass->graph, LOBE_ERROR_LIMIT,
-                                     "pass '%s', shader '%s': %u groups, the device allows %u",
-                                     pass->name, command->dispatch.shader, command->group_count[n],
-                                     limits->maxComputeWorkGroupCount[n]);
+            return lobe_graph_fail(pass->graph, LOBE_ERROR_LIMIT,
+                                   "pass '%s', shader '%s': %u groups, the device allows %u",
+                                   pass->name, command->dispatch.shader, command->group_count[n],
+                                   limits->maxComputeWorkGroupCount[n]);
     }
     return LOBE_OK;
 }

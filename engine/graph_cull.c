@@ -174,8 +174,9 @@ static void list_running(engine_dependency_graph *graph) {
 }
 
 bool engine_dependency_cull(engine_dependency_graph *graph) {
-    if (!engine_array_reserve((void **)&graph->running, &graph->running_capacity,
-                              (uint64_t)graph->pass_count + 1, sizeof *graph->running))
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->running,
+                              &graph->running_capacity, (uint64_t)graph->pass_count + 1,
+                              sizeof *graph->running))
         return engine_dependency_fail(graph,
                                       (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
     stamp_passes(graph);

@@ -141,8 +141,8 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
     engine_graph_flight *flight = graph->flight;
     uint32_t filled = 0;
     VkDescriptorSetLayout *layouts = engine_arena_allocate(&graph->arena, count * sizeof *layouts);
-    if (!layouts || !engine_array_reserve((void **)&flight->sets, &flight->set_capacity, count,
-                                          sizeof *flight->sets))
+    if (!layouts || !engine_array_reserve(graph->device->log.allocator, (void **)&flight->sets,
+                                          &flight->set_capacity, count, sizeof *flight->sets))
         return engine_graph_fail_memory(graph);
     for (command_walk walk = {0}; next_command(graph, &walk);)
         if (!walk.shares_set)

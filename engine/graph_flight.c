@@ -1,7 +1,5 @@
 #include "engine/graph_flight.h"
 
-#include <stdlib.h>
-
 #include "engine/graph_object.h"
 #include "engine/vulkan_check.h"
 
@@ -89,7 +87,7 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
     engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
     engine_staging_destroy(device, &flight->read_back);
     vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
-    free(flight->sets);
+    lobe_release(flight->sets);
     vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
     vkDestroyCommandPool(device->vulkan, flight->command_pool, device->callbacks);
 }

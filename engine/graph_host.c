@@ -25,15 +25,15 @@ static bool is_imported(const lobe_graph *graph, VkImage image) {
 
 static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const char *name) {
     if (!image->image || image->width == 0 || image->height == 0)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "host image '%s': a handle and an extent are needed (%ux%u)", name,
-                          image->width, image->height);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "host image '%s': a handle and an extent are needed (%ux%u)", name,
+                        image->width, image->height);
     else if (lobe_vulkan_format(image->format) == LOBE_FORMAT_NONE)
-        engine_graph_fail(graph, LOBE_ERROR_UNSUPPORTED, "host image '%s': VkFormat %d is unknown",
-                          name, (int)image->format);
+        lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED, "host image '%s': VkFormat %d is unknown",
+                        name, (int)image->format);
     else if (is_imported(graph, image->image))
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
-                          name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
+                        name);
     return graph->result == LOBE_OK;
 }
 
@@ -102,9 +102,9 @@ lobe_result engine_graph_check_host_images(lobe_graph *graph) {
         const engine_graph_resource *resource = &graph->resources[n];
         VkFlags missing = resource->host ? resource->usage & ~resource->host->usage : 0;
         if (missing)
-            return engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                                     "host image '%s' was not created with a usage for %s",
-                                     resource->name, missing_usage(missing));
+            return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                                   "host image '%s' was not created with a usage for %s",
+                                   resource->name, missing_usage(missing));
     }
     return LOBE_OK;
 }

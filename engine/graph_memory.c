@@ -1,7 +1,6 @@
 #include "engine/graph_memory.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/graph_alias.h"
@@ -56,10 +55,10 @@ static void free_transients(lobe_graph *graph) {
         engine_graph_free_object(graph->device, &transients->objects[n]);
     for (uint32_t n = 0; n < transients->block_count; n++)
         engine_memory_free(graph->device->memory, &transients->memory[n]);
-    free(transients->objects);
-    free(transients->requests);
-    free(transients->blocks);
-    free(transients->memory);
+    lobe_release(transients->objects);
+    lobe_release(transients->requests);
+    lobe_release(transients->blocks);
+    lobe_release(transients->memory);
     *transients = (engine_graph_transients){0};
 }
 
@@ -68,10 +67,14 @@ static lobe_result allocate_tables(lobe_graph *graph) {
     uint32_t count = 0;
     for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
         count += is_placed(graph, n);
-    transients->objects = calloc(count + 1, sizeof *transients->objects);
-    transients->requests = calloc(count + 1, sizeof *transients->requests);
-    transients->blocks = calloc(count + 1, sizeof *transients->blocks);
-    transients->memory = calloc(count + 1, sizeof *transients->memory);
+    transients->objects =
+        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->objects);
+    transients->requests =
+        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->requests);
+    transients->blocks =
+        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->blocks);
+    transients->memory =
+        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->memory);
     if (!transients->objects || !transients->requests || !transients->blocks || !transients->memory)
         return engine_graph_fail_memory(graph);
     transients->count = count;
@@ -137,14 +140,15 @@ static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
 }
 
 /// Plans one block; requests of others are left alone.
-static bool plan_block(engine_graph_transients *transients, uint32_t block, block_plan *plan,
+static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
                        engine_alias_request *scratch) {
+    engine_graph_transients *transients = &graph->transients;
     uint32_t count = 0;
     uint64_t shared = 0, separate = 0;
     for (uint32_t n = 0; n < transients->count; n++)
         if (transients->blocks[n] == block)
             scratch[count++] = transients->requests[n];
-    if (!engine_alias_plan(scratch, count, &shared, &separate))
+    if (!engine_alias_plan(graph->device->log.allocator, scratch, count, &shared, &separate))
         return false;
     for (uint32_t n = 0, m = 0; n < transients->count; n++)
         if (transients->blocks[n] == block)
@@ -176,15 +180,16 @@ static lobe_result allocate_block(lobe_graph *graph, uint32_t block, const block
 
 static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
     engine_graph_transients *transients = &graph->transients;
-    engine_alias_request *scratch = calloc(transients->count + 1, sizeof *scratch);
+    engine_alias_request *scratch =
+        lobe_allocate(graph->device->log.allocator, transients->count + 1, sizeof *scratch);
     lobe_result result = scratch ? LOBE_OK : engine_graph_fail_memory(graph);
     for (uint32_t n = 0; result == LOBE_OK && n < transients->block_count; n++) {
-        if (!plan_block(transients, n, &blocks[n], scratch))
+        if (!plan_block(graph, n, &blocks[n], scratch))
             result = engine_graph_fail_memory(graph);
         else
             result = allocate_block(graph, n, &blocks[n]);
     }
-    free(scratch);
+    lobe_release(scratch);
     return result;
 }
 
@@ -205,7 +210,8 @@ static lobe_result bind_objects(lobe_graph *graph) {
 
 static lobe_result make_transients(lobe_graph *graph) {
     lobe_result result = allocate_tables(graph);
-    block_plan *blocks = calloc(graph->transients.count + 1, sizeof *blocks);
+    block_plan *blocks =
+        lobe_allocate(graph->device->log.allocator, graph->transients.count + 1, sizeof *blocks);
     if (result == LOBE_OK && !blocks)
         result = engine_graph_fail_memory(graph);
     if (result == LOBE_OK)
@@ -214,7 +220,7 @@ static lobe_result make_transients(lobe_graph *graph) {
         result = allocate_blocks(graph, blocks);
     if (result == LOBE_OK)
         result = bind_objects(graph);
-    free(blocks);
+    lobe_release(blocks);
     return result;
 }
 

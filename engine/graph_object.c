@@ -1,6 +1,5 @@
 #include "engine/graph_object.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/vulkan_check.h"
@@ -53,7 +52,7 @@ void engine_graph_free_views(lobe_device *device, engine_graph_object *object) {
         engine_graph_view *view = object->views;
         object->views = view->next;
         vkDestroyImageView(device->vulkan, view->view, device->callbacks);
-        free(view);
+        lobe_release(view);
     }
 }
 
@@ -66,7 +65,7 @@ void engine_graph_free_object(lobe_device *device, engine_graph_object *object) 
 
 static lobe_result add_view(lobe_device *device, const engine_graph_resource *resource,
                             VkImageViewType type, const lobe_range *range) {
-    engine_graph_view *added = calloc(1, sizeof *added);
+    engine_graph_view *added = lobe_allocate(device->log.allocator, 1, sizeof *added);
     if (!added)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
                              resource->name);
@@ -83,7 +82,7 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
     *added = (engine_graph_view){.type = type, .range = *range};
     lobe_result result = engine_view_create(device, &parameters, &added->view);
     if (result != LOBE_OK) {
-        free(added);
+        lobe_release(added);
         return result;
     }
     added->next = resource->object->views;

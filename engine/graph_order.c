@@ -5,10 +5,12 @@
 #include "engine/growing_array.h"
 
 static bool reserve(engine_dependency_graph *graph) {
-    return engine_array_reserve((void **)&graph->order, &graph->order_capacity,
-                                (uint64_t)graph->pass_count + 1, sizeof *graph->order) &&
-           engine_array_reserve((void **)&graph->cycle, &graph->cycle_capacity,
-                                (uint64_t)graph->pass_count + 1, sizeof *graph->cycle);
+    return engine_array_reserve(graph->scratch.allocator, (void **)&graph->order,
+                                &graph->order_capacity, (uint64_t)graph->pass_count + 1,
+                                sizeof *graph->order) &&
+           engine_array_reserve(graph->scratch.allocator, (void **)&graph->cycle,
+                                &graph->cycle_capacity, (uint64_t)graph->pass_count + 1,
+                                sizeof *graph->cycle);
 }
 
 /// The first pass in order of declaration that waits for nothing; NONE where all wait.

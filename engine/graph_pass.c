@@ -18,8 +18,8 @@ lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const c
     const char *kept = engine_arena_copy_text(&graph->arena, name);
     uint32_t index = graph->dependencies.pass_count;
     if (!pass || !kept ||
-        !engine_array_reserve((void **)&graph->passes, &graph->pass_capacity, (uint64_t)index + 1,
-                              sizeof *graph->passes) ||
+        !engine_array_reserve(graph->device->log.allocator, (void **)&graph->passes,
+                              &graph->pass_capacity, (uint64_t)index + 1, sizeof *graph->passes) ||
         engine_dependency_add_pass(&graph->dependencies, kept) == ENGINE_DEPENDENCY_NONE) {
         engine_graph_fail_memory(graph);
         return NULL;
@@ -49,9 +49,9 @@ bool engine_graph_pass_is(lobe_pass *pass, lobe_pass_kind kind, const char *call
     if (!engine_graph_may_declare(pass->graph, pass->name))
         return false;
     if (pass->kind != kind)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': %s is for %s passes, this is a %s pass", pass->name, call,
-                          kind_names[kind], kind_names[pass->kind]);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': %s is for %s passes, this is a %s pass", pass->name, call,
+                        kind_names[kind], kind_names[pass->kind]);
     return pass->kind == kind;
 }
 
@@ -62,9 +62,8 @@ engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource
     lobe_graph *graph = pass->graph;
     if (handle.version != 0 && handle.index < graph->dependencies.resource_count)
         return &graph->resources[handle.index];
-    engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                      "pass '%s' uses a resource handle that this frame never gave out",
-                      pass->name);
+    lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                    "pass '%s' uses a resource handle that this frame never gave out", pass->name);
     return NULL;
 }
 
@@ -94,11 +93,11 @@ static bool is_bound(const engine_graph_binding_list *list, const char *name) {
 static bool check_binding_name(lobe_pass *pass, const engine_graph_binding_list *list,
                                const char *name) {
     if (!name)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding without a name",
-                          pass->name);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding without a name",
+                        pass->name);
     else if (is_bound(list, name))
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' binds '%s' twice", pass->name,
-                          name);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' binds '%s' twice", pass->name,
+                        name);
     return pass->graph->result == LOBE_OK;
 }
 
@@ -138,9 +137,9 @@ static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
     if (!engine_graph_may_declare(pass->graph, pass->name))
         return binding->resource;
     if (pass->kind == LOBE_PASS_TRANSFER) {
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': a transfer pass has no shader to bind '%s' to", pass->name,
-                          binding->name ? binding->name : "");
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': a transfer pass has no shader to bind '%s' to", pass->name,
+                        binding->name ? binding->name : "");
         return binding->resource;
     }
     return engine_graph_bind(pass, &pass->bindings, binding, kind);
@@ -181,11 +180,11 @@ engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_com
 static bool check_constants(lobe_pass *pass, const char *shader, const void *constants,
                             size_t size) {
     if (!shader) {
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': no shader", pass->name);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': no shader", pass->name);
     } else if (size > ENGINE_MAXIMUM_PUSH_CONSTANTS || (size > 0 && !constants)) {
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s', shader '%s': %zu bytes of constants, not in [0, %d]",
-                          pass->name, shader, size, ENGINE_MAXIMUM_PUSH_CONSTANTS);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s', shader '%s': %zu bytes of constants, not in [0, %d]",
+                        pass->name, shader, size, ENGINE_MAXIMUM_PUSH_CONSTANTS);
     }
     return pass->graph->result == LOBE_OK;
 }
@@ -244,10 +243,10 @@ static void bind_indices(lobe_pass *pass, engine_graph_command *command) {
         return;
     uint64_t end = ((uint64_t)draw->first_index + draw->index_count) * sizeof(uint32_t);
     if (indices->is_image || end > indices->size) {
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s' draws indices %u to %llu, which resource '%s' does not hold",
-                          pass->name, draw->first_index, (unsigned long long)(end / 4),
-                          indices->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s' draws indices %u to %llu, which resource '%s' does not hold",
+                        pass->name, draw->first_index, (unsigned long long)(end / 4),
+                        indices->name);
         return;
     }
     command->index_access =

@@ -23,27 +23,27 @@ static const engine_access_state depth_state = {
 
 static bool check_slot(lobe_pass *pass, const engine_graph_attachment *slot, const char *what) {
     if (slot->access != ENGINE_DEPENDENCY_NONE)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' has two attachments for %s",
-                          pass->name, what);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' has two attachments for %s",
+                        pass->name, what);
     return slot->access == ENGINE_DEPENDENCY_NONE;
 }
 
 static bool check_location(lobe_pass *pass, uint32_t location) {
     if (location >= ENGINE_MAXIMUM_COLOUR_ATTACHMENTS)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': colour location %u is not in [0, %d]", pass->name, location,
-                          ENGINE_MAXIMUM_COLOUR_ATTACHMENTS - 1);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': colour location %u is not in [0, %d]", pass->name, location,
+                        ENGINE_MAXIMUM_COLOUR_ATTACHMENTS - 1);
     return location < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS;
 }
 
 static bool check_format(lobe_pass *pass, const engine_graph_resource *resource, bool depth) {
     bool fits = resource->is_image && (resource->format == LOBE_FORMAT_D32_FLOAT) == depth;
     if (!fits)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': resource '%s' (%s) cannot be a %s attachment", pass->name,
-                          resource->name,
-                          resource->is_image ? lobe_format_name(resource->format) : "buffer",
-                          depth ? "depth" : "colour");
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': resource '%s' (%s) cannot be a %s attachment", pass->name,
+                        resource->name,
+                        resource->is_image ? lobe_format_name(resource->format) : "buffer",
+                        depth ? "depth" : "colour");
     return fits;
 }
 
@@ -117,14 +117,14 @@ static bool check_attachment(lobe_pass *pass, const engine_graph_attachment *att
         pass->samples = image->samples;
     }
     if (extent.width != pass->extent.width || extent.height != pass->extent.height)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': attachment '%s' has %ux%u texels, another has %ux%u",
-                          pass->name, image->name, extent.width, extent.height, pass->extent.width,
-                          pass->extent.height);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': attachment '%s' has %ux%u texels, another has %ux%u",
+                        pass->name, image->name, extent.width, extent.height, pass->extent.width,
+                        pass->extent.height);
     else if (image->samples != pass->samples)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s': attachment '%s' has %u samples, another has %u", pass->name,
-                          image->name, image->samples, pass->samples);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': attachment '%s' has %u samples, another has %u", pass->name,
+                        image->name, image->samples, pass->samples);
     return graph->result == LOBE_OK;
 }
 
@@ -134,22 +134,22 @@ static bool check_resolve(lobe_pass *pass, uint32_t location) {
         return true;
     const engine_graph_resource *target = attached(graph, &pass->resolve[location]);
     if (pass->colour[location].access == ENGINE_DEPENDENCY_NONE) {
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s' resolves to '%s' from location %u, which has no attachment",
-                          pass->name, target->name, location);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s' resolves to '%s' from location %u, which has no attachment",
+                        pass->name, target->name, location);
         return false;
     }
     const engine_graph_resource *source = attached(graph, &pass->colour[location]);
     VkExtent2D extent = extent_of(graph, &pass->resolve[location]);
     if (source->samples == 1 || target->samples != 1 || source->format != target->format ||
         extent.width != pass->extent.width || extent.height != pass->extent.height)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s' cannot resolve '%s' (%s, %ux%u, %u samples) to '%s' (%s, "
-                          "%ux%u, %u samples)",
-                          pass->name, source->name, lobe_format_name(source->format),
-                          pass->extent.width, pass->extent.height, source->samples, target->name,
-                          lobe_format_name(target->format), extent.width, extent.height,
-                          target->samples);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s' cannot resolve '%s' (%s, %ux%u, %u samples) to '%s' (%s, "
+                        "%ux%u, %u samples)",
+                        pass->name, source->name, lobe_format_name(source->format),
+                        pass->extent.width, pass->extent.height, source->samples, target->name,
+                        lobe_format_name(target->format), extent.width, extent.height,
+                        target->samples);
     return graph->result == LOBE_OK;
 }
 
@@ -164,8 +164,8 @@ static bool check_raster(lobe_pass *pass) {
         if (!check_resolve(pass, n))
             return false;
     if (pass->samples == 0)
-        engine_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "raster pass '%s' has no attachments",
-                          pass->name);
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "raster pass '%s' has no attachments",
+                        pass->name);
     return pass->graph->result == LOBE_OK;
 }
 

@@ -1,7 +1,5 @@
 #include "engine/graph_record.h"
 
-#include <stdlib.h>
-
 #include "engine/format.h"
 #include "engine/graph_host.h"
 

@@ -13,17 +13,17 @@ bool engine_graph_may_declare(lobe_graph *graph, const char *what) {
         return false;
     if (graph->phase == ENGINE_GRAPH_DECLARING)
         return true;
-    engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                      "'%s' was declared after the frame was compiled; begin a new one first",
-                      what);
+    lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                    "'%s' was declared after the frame was compiled; begin a new one first", what);
     return false;
 }
 
 lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
                                         const engine_dependency_resource *dependency) {
     uint32_t index = graph->dependencies.resource_count;
-    if (!engine_array_reserve((void **)&graph->resources, &graph->resource_capacity,
-                              (uint64_t)index + 1, sizeof *graph->resources)) {
+    if (!engine_array_reserve(graph->device->log.allocator, (void **)&graph->resources,
+                              &graph->resource_capacity, (uint64_t)index + 1,
+                              sizeof *graph->resources)) {
         engine_graph_fail_memory(graph);
         return (lobe_resource){0};
     }
@@ -51,16 +51,16 @@ static bool check_extent(lobe_graph *graph, const lobe_image_description *image)
     if (limit > LOBE_IMAGE_MAXIMUM_EXTENT)
         limit = LOBE_IMAGE_MAXIMUM_EXTENT;
     if (image->width == 0 || image->height == 0)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': an extent of %ux%u texels",
-                          image->name, image->width, image->height);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': an extent of %ux%u texels",
+                        image->name, image->width, image->height);
     else if (image->width > limit || image->height > limit)
-        engine_graph_fail(graph, LOBE_ERROR_LIMIT,
-                          "image '%s': %ux%u texels, the device allows %u at most", image->name,
-                          image->width, image->height, limit);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "image '%s': %ux%u texels, the device allows %u at most", image->name,
+                        image->width, image->height, limit);
     else if (image->layers > graph->device->limits.maxImageArrayLayers)
-        engine_graph_fail(graph, LOBE_ERROR_LIMIT,
-                          "image '%s': %u layers, the device allows %u at most", image->name,
-                          image->layers, graph->device->limits.maxImageArrayLayers);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "image '%s': %u layers, the device allows %u at most", image->name,
+                        image->layers, graph->device->limits.maxImageArrayLayers);
     return graph->result == LOBE_OK;
 }
 
@@ -75,18 +75,18 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     uint32_t levels = possible_levels(image->width, image->height);
     uint32_t samples = at_least_one(image->samples);
     if (image->format <= LOBE_FORMAT_NONE || image->format >= LOBE_FORMAT_COUNT)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': no format", image->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': no format", image->name);
     else if (image->levels > levels)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "image '%s': %u levels, but %ux%u texels have %u at most", image->name,
-                          image->levels, image->width, image->height, levels);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "image '%s': %u levels, but %ux%u texels have %u at most", image->name,
+                        image->levels, image->width, image->height, levels);
     else if (samples != 1 && samples != 2 && samples != 4)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': %u samples, not 1, 2 or 4",
-                          image->name, samples);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': %u samples, not 1, 2 or 4",
+                        image->name, samples);
     else if (samples > 1 && (image->levels > 1 || image->layers > 1))
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "image '%s': multisampled images have one level and one layer",
-                          image->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "image '%s': multisampled images have one level and one layer",
+                        image->name);
     return graph->result == LOBE_OK;
 }
 
@@ -113,9 +113,9 @@ static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
     for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
         if (graph->resources[n].origin == ENGINE_GRAPH_RETAINED &&
             strcmp(graph->resources[n].name, resource->name) == 0) {
-            engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                              "retained resource '%s' is declared twice in one frame",
-                              resource->name);
+            lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                            "retained resource '%s' is declared twice in one frame",
+                            resource->name);
             return false;
         }
     for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
@@ -167,11 +167,11 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
     const char *name = keep_name(graph, given, given);
     uint64_t limit = graph->device->limits.maxStorageBufferRange;
     if (name && description->size == 0)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': a size of 0", name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': a size of 0", name);
     else if (name && description->size > limit)
-        engine_graph_fail(graph, LOBE_ERROR_LIMIT,
-                          "buffer '%s': %zu bytes, the device allows %llu at most", name,
-                          description->size, (unsigned long long)limit);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "buffer '%s': %zu bytes, the device allows %llu at most", name,
+                        description->size, (unsigned long long)limit);
     if (graph->result != LOBE_OK)
         return (lobe_resource){0};
     engine_graph_resource resource = {
@@ -248,9 +248,9 @@ lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void 
     if (!engine_graph_may_declare(graph, given))
         return (lobe_resource){0};
     if (size == 0 || size > ENGINE_MAXIMUM_UPLOAD) {
-        engine_graph_fail(graph, size ? LOBE_ERROR_LIMIT : LOBE_ERROR_GRAPH,
-                          "upload '%s': %zu bytes, not in [1, %zu]", given, size,
-                          ENGINE_MAXIMUM_UPLOAD);
+        lobe_graph_fail(graph, size ? LOBE_ERROR_LIMIT : LOBE_ERROR_GRAPH,
+                        "upload '%s': %zu bytes, not in [1, %zu]", given, size,
+                        ENGINE_MAXIMUM_UPLOAD);
         return (lobe_resource){0};
     }
     engine_graph_resource resource = {.name = keep_name(graph, given, given),

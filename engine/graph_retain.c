@@ -1,6 +1,5 @@
 #include "engine/graph_retain.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/format.h"
@@ -16,10 +15,10 @@ void engine_graph_begin_retained(lobe_graph *graph) {
 static void free_retained(lobe_graph *graph, engine_graph_retained *kept) {
     engine_graph_free_object(graph->device, &kept->object);
     engine_memory_free(graph->device->memory, &kept->allocation);
-    free(kept->name);
-    free(kept->stamps);
-    free(kept->layouts);
-    free(kept);
+    lobe_release(kept->name);
+    lobe_release(kept->stamps);
+    lobe_release(kept->layouts);
+    lobe_release(kept);
 }
 
 void engine_graph_free_retained(lobe_graph *graph) {
@@ -121,22 +120,24 @@ void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
 static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) {
     const engine_graph_resource *resource = &graph->resources[index];
     uint32_t subresources = resource->levels * resource->layers;
-    engine_graph_retained *kept = calloc(1, sizeof *kept);
+    const lobe_allocator *allocator = graph->device->log.allocator;
+    engine_graph_retained *kept = lobe_allocate(allocator, 1, sizeof *kept);
     if (!kept)
         return NULL;
-    *kept = (engine_graph_retained){.name = strdup(resource->name),
-                                    .identity = graph->dependencies.resources[index].identity,
-                                    .usage = resource->usage,
-                                    .subresource_count = subresources,
-                                    .stamps = calloc(subresources, sizeof *kept->stamps),
-                                    .layouts = calloc(subresources, sizeof *kept->layouts),
-                                    .declared = true};
+    *kept = (engine_graph_retained){
+        .name = lobe_copy_text(allocator, resource->name),
+        .identity = graph->dependencies.resources[index].identity,
+        .usage = resource->usage,
+        .subresource_count = subresources,
+        .stamps = lobe_allocate(allocator, subresources, sizeof *kept->stamps),
+        .layouts = lobe_allocate(allocator, subresources, sizeof *kept->layouts),
+        .declared = true};
     if (kept->name && kept->stamps && kept->layouts)
         return kept;
-    free(kept->name);
-    free(kept->stamps);
-    free(kept->layouts);
-    free(kept);
+    lobe_release(kept->name);
+    lobe_release(kept->stamps);
+    lobe_release(kept->layouts);
+    lobe_release(kept);
     return NULL;
 }
 

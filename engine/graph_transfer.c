@@ -70,11 +70,11 @@ lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range s
     if (graph->result == LOBE_OK &&
         !same_shape(graph, &graph->dependencies.accesses[command->source_access],
                     &graph->dependencies.accesses[command->target_access]))
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "pass '%s' copies '%s' to '%s', which differ in kind, extent, texel "
-                          "size, samples, or number of levels and layers",
-                          pass->name, graph->resources[source.index].name,
-                          graph->resources[target.index].name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s' copies '%s' to '%s', which differ in kind, extent, texel "
+                        "size, samples, or number of levels and layers",
+                        pass->name, graph->resources[source.index].name,
+                        graph->resources[target.index].name);
     return target;
 }
 
@@ -120,7 +120,7 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
     command->read_back_size = engine_graph_range_bytes(
         source, &graph->dependencies.accesses[command->source_access].range);
     if (source->is_image && source->samples > 1)
-        engine_graph_fail(graph, LOBE_ERROR_GRAPH,
-                          "resource '%s' is multisampled: resolve it before it is read back",
-                          source->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "resource '%s' is multisampled: resolve it before it is read back",
+                        source->name);
 }

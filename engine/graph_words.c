@@ -42,35 +42,35 @@ const char *engine_graph_origin_word(engine_graph_origin origin) {
     return words[origin];
 }
 
-static void print_interval(FILE *stream, const char *what, uint32_t first, uint32_t count,
-                           uint32_t all, const char *before) {
+static void print_interval(engine_text_builder *out, const char *what, uint32_t first,
+                           uint32_t count, uint32_t all, const char *before) {
     if (count == all)
         return;
     if (count == 1)
-        fprintf(stream, "%s %s %u", before, what, first);
+        engine_text_add(out, "%s %s %u", before, what, first);
     else
-        fprintf(stream, "%s %ss %u to %u", before, what, first, first + count - 1);
+        engine_text_add(out, "%s %ss %u to %u", before, what, first, first + count - 1);
 }
 
-void engine_graph_print_range(FILE *stream, const engine_graph_resource *resource,
+void engine_graph_print_range(engine_text_builder *out, const engine_graph_resource *resource,
                               const lobe_range *range) {
     bool all_levels = range->level_count == resource->levels;
-    print_interval(stream, "level", range->first_level, range->level_count, resource->levels, "");
-    print_interval(stream, "layer", range->first_layer, range->layer_count, resource->layers,
+    print_interval(out, "level", range->first_level, range->level_count, resource->levels, "");
+    print_interval(out, "layer", range->first_layer, range->layer_count, resource->layers,
                    all_levels ? "" : ",");
 }
 
-void engine_graph_print_shape(FILE *stream, const engine_graph_resource *resource) {
+void engine_graph_print_shape(engine_text_builder *out, const engine_graph_resource *resource) {
     if (!resource->is_image) {
-        fprintf(stream, "%llu bytes", (unsigned long long)resource->size);
+        engine_text_add(out, "%llu bytes", (unsigned long long)resource->size);
         return;
     }
-    fprintf(stream, "%s %ux%u", lobe_format_name(resource->format), resource->width,
-            resource->height);
+    engine_text_add(out, "%s %ux%u", lobe_format_name(resource->format), resource->width,
+                    resource->height);
     if (resource->layers > 1)
-        fprintf(stream, ", %u layers", resource->layers);
+        engine_text_add(out, ", %u layers", resource->layers);
     if (resource->levels > 1)
-        fprintf(stream, ", %u levels", resource->levels);
+        engine_text_add(out, ", %u levels", resource->levels);
     if (resource->samples > 1)
-        fprintf(stream, ", %u samples", resource->samples);
+        engine_text_add(out, ", %u samples", resource->samples);
 }

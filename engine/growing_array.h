@@ -2,12 +2,14 @@
 #define ENGINE_GROWING_ARRAY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 
-/// Makes room for `needed` items of `size` bytes, doubling; keeps what is there. Zeroes nothing.
-static inline bool engine_array_reserve(void **items, uint32_t *capacity, uint64_t needed,
-                                        size_t size) {
+#include <lobe/allocator.h>
+
+/// Makes room for `needed` items of `size` bytes, doubling; keeps what is there.
+static inline bool engine_array_reserve(const lobe_allocator *allocator, void **items,
+                                        uint32_t *capacity, uint64_t needed, size_t size) {
     if (needed <= *capacity)
         return true;
     uint64_t grown = *capacity ? *capacity : 8;
@@ -15,7 +17,7 @@ static inline bool engine_array_reserve(void **items, uint32_t *capacity, uint64
         grown *= 2;
     if (grown > UINT32_MAX)
         return false;
-    void *moved = realloc(*items, (size_t)grown * size);
+    void *moved = lobe_reallocate(allocator, *items, (size_t)grown, size);
     if (!moved)
         return false;
     *items = moved;

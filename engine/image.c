@@ -1,7 +1,5 @@
 #include <lobe/image.h>
 
-#include <stdlib.h>
-
 typedef struct format_information {
     const char *name;
     uint8_t size; ///< bytes of a texel
@@ -52,7 +50,7 @@ lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t 
         height > LOBE_IMAGE_MAXIMUM_EXTENT)
         return lobe_log_fail(log, LOBE_ERROR_LIMIT, "image: %ux%u texels is outside 1x1 to %ux%u",
                              width, height, LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
-    void *texels = calloc((size_t)width * height, size);
+    void *texels = lobe_allocate(lobe_log_allocator(log), (size_t)width * height, size);
     if (texels == NULL)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
                              "image: no memory for %ux%u texels of %s", width, height,
@@ -64,6 +62,6 @@ lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t 
 void lobe_image_free(lobe_image *image) {
     if (image == NULL)
         return;
-    free(image->texels);
+    lobe_release(image->texels);
     *image = (lobe_image){0};
 }

@@ -1,6 +1,5 @@
 #include "engine/instance.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/vulkan_check.h"
@@ -19,14 +18,15 @@ static lobe_result find_extension(const lobe_log *log, const char *name, bool *f
         VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
     if (result != LOBE_OK || count == 0)
         return result;
-    VkExtensionProperties *extensions = calloc(count, sizeof *extensions);
+    VkExtensionProperties *extensions =
+        lobe_allocate(lobe_log_allocator(log), count, sizeof *extensions);
     if (!extensions)
         return fail_memory(log);
     result = VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, extensions),
                           "extensions");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !*found; i++)
         *found = !strcmp(extensions[i].extensionName, name);
-    free(extensions);
+    lobe_release(extensions);
     return result;
 }
 
@@ -37,13 +37,13 @@ static lobe_result require_layer(const lobe_log *log, const char *name) {
         VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
     if (result != LOBE_OK)
         return result;
-    VkLayerProperties *layers = calloc(count + 1, sizeof *layers);
+    VkLayerProperties *layers = lobe_allocate(lobe_log_allocator(log), count, sizeof *layers);
     if (!layers)
         return fail_memory(log);
     result = VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, layers), "layers");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !found; i++)
         found = !strcmp(layers[i].layerName, name);
-    free(layers);
+    lobe_release(layers);
     if (result != LOBE_OK || found)
         return result;
     return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED, "validation: the layer %s is not installed",
@@ -80,6 +80,7 @@ typedef struct instance_request {
     const char *layer; ///< NULL: none
     const char *const *extensions;
     uint32_t extension_count;
+    const lobe_allocator *allocator;
 } instance_request;
 
 static VkResult create_plain(engine_instance *instance, const instance_request *request) {
@@ -88,7 +89,8 @@ static VkResult create_plain(engine_instance *instance, const instance_request *
         .pEngineName = "lobe",
         .apiVersion = VK_API_VERSION_1_3,
     };
-    const char **extensions = calloc(request->extension_count + 1, sizeof *extensions);
+    const char **extensions =
+        lobe_allocate(request->allocator, request->extension_count + 1, sizeof *extensions);
     if (!extensions)
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     uint32_t count = 0;
@@ -108,7 +110,7 @@ static VkResult create_plain(engine_instance *instance, const instance_request *
         .ppEnabledExtensionNames = extensions,
     };
     const VkResult result = vkCreateInstance(&create, NULL, &instance->vulkan);
-    free(extensions);
+    lobe_release(extensions);
     return result;
 }
 
@@ -148,7 +150,9 @@ lobe_result engine_instance_create(const lobe_log *log, const engine_validation 
 lobe_result engine_instance_create_with(const lobe_log *log, const engine_validation *validation,
                                         const char *const *extensions, uint32_t extension_count,
                                         engine_instance *instance) {
-    const instance_request request = {.extensions = extensions, .extension_count = extension_count};
+    const instance_request request = {.extensions = extensions,
+                                      .extension_count = extension_count,
+                                      .allocator = lobe_log_allocator(log)};
     *instance = (engine_instance){0};
     instance->debug_utils = true; // which the layer brings
     lobe_result result =

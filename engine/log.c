@@ -3,6 +3,10 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+const lobe_allocator *lobe_log_allocator(const lobe_log *log) {
+    return log ? log->allocator : NULL;
+}
+
 static void write_line(const lobe_log *log, lobe_log_level level, const char *format,
                        va_list arguments) {
     if (!log || !log->write)

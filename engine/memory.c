@@ -1,7 +1,6 @@
 #include "engine/memory.h"
 
 #include <pthread.h>
-#include <stdlib.h>
 
 #include "engine/range_allocator.h"
 #include "engine/vulkan_check.h"
@@ -32,7 +31,7 @@ struct engine_memory {
 
 lobe_result engine_memory_create(const engine_memory_parameters *parameters,
                                  engine_memory **memory) {
-    *memory = calloc(1, sizeof **memory);
+    *memory = lobe_allocate(parameters->log->allocator, 1, sizeof **memory);
     if (!*memory)
         return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "device memory: no host memory to manage it");
@@ -58,7 +57,7 @@ static void release_block(engine_memory *memory, engine_memory_block *block) {
     memory->allocated -= block->size;
     memory->allocated_of_heap[memory->properties.memoryTypes[block->type].heapIndex] -= block->size;
     engine_range_allocator_destroy(&block->ranges);
-    free(block);
+    lobe_release(block);
 }
 
 void engine_memory_destroy(engine_memory **memory) {
@@ -70,7 +69,7 @@ void engine_memory_destroy(engine_memory **memory) {
         release_block(*memory, block);
     }
     pthread_mutex_destroy(&(*memory)->mutex);
-    free(*memory);
+    lobe_release(*memory);
     *memory = NULL;
 }
 
@@ -196,9 +195,10 @@ static lobe_result add_block(engine_memory *memory, const engine_memory_request 
     lobe_result result = choose_block_size(memory, request, type, &size);
     if (result != LOBE_OK)
         return result;
-    engine_memory_block *block = calloc(1, sizeof *block);
-    if (!block || !engine_range_allocator_create(&block->ranges, size)) {
-        free(block);
+    const lobe_allocator *allocator = memory->parameters.log->allocator;
+    engine_memory_block *block = lobe_allocate(allocator, 1, sizeof *block);
+    if (!block || !engine_range_allocator_create(allocator, size, &block->ranges)) {
+        lobe_release(block);
         return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
                              "'%s': no host memory to manage device memory", request->name);
     }

@@ -1,6 +1,5 @@
 #include "engine/pipeline.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/device.h"
@@ -68,8 +67,9 @@ static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
 static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
                                        size_t count, pipeline_key *key) {
     engine_pipelines *pipelines = device->pipelines;
-    if (!engine_array_reserve((void **)&pipelines->wanted, &pipelines->wanted_capacity,
-                              (uint64_t)count + 1, sizeof *pipelines->wanted))
+    if (!engine_array_reserve(device->log.allocator, (void **)&pipelines->wanted,
+                              &pipelines->wanted_capacity, (uint64_t)count + 1,
+                              sizeof *pipelines->wanted))
         return fail_memory(device, key);
     key->specialisation = pipelines->wanted;
     for (size_t i = 0; i < count; i++)
@@ -123,7 +123,7 @@ typedef struct specialisation {
 static lobe_result create_specialisation(lobe_device *device, const pipeline_key *key,
                                          specialisation *created) {
     const size_t count = key->specialisation_count;
-    created->entries = calloc(count + 1, sizeof *created->entries);
+    created->entries = lobe_allocate(device->log.allocator, count + 1, sizeof *created->entries);
     if (!created->entries)
         return fail_memory(device, key);
     for (size_t i = 0; i < count; i++)
@@ -148,9 +148,9 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
 static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
     vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
     engine_pipeline_layout_destroy(device, &cached->pipeline);
-    free((void *)cached->pipeline.name);
-    free(cached->key.specialisation);
-    free(cached);
+    lobe_release((void *)cached->pipeline.name);
+    lobe_release(cached->key.specialisation);
+    lobe_release(cached);
 }
 
 static void apply_local_size(const pipeline_key *key, engine_pipeline *pipeline) {
@@ -198,9 +198,10 @@ static lobe_result create_compute(lobe_device *device, const cached_pipeline *ca
                         "pipeline '%s'", pipeline->name);
 }
 
-static char *name_of(const pipeline_key *key) {
-    return key->shaders[1] ? engine_text("%s + %s", key->shaders[0]->name, key->shaders[1]->name)
-                           : engine_text("%s", key->shaders[0]->name);
+static char *name_of(const lobe_allocator *allocator, const pipeline_key *key) {
+    const engine_shader *const *shaders = key->shaders;
+    return shaders[1] ? engine_text(allocator, "%s + %s", shaders[0]->name, shaders[1]->name)
+                      : lobe_copy_text(allocator, shaders[0]->name);
 }
 
 /// `raster` is NULL for a compute pipeline.
@@ -219,7 +220,7 @@ static lobe_result create_vulkan(lobe_device *device, const engine_raster_parame
                                                &specialised.information, pipeline);
     else if (result == LOBE_OK)
         result = create_compute(device, cached, &specialised.information, pipeline);
-    free(specialised.entries);
+    lobe_release(specialised.entries);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline,
                            pipeline->name);
@@ -227,10 +228,10 @@ static lobe_result create_vulkan(lobe_device *device, const engine_raster_parame
 }
 
 /// A key that does not change with the next one that is looked for; false without memory.
-static bool keep_key(const pipeline_key *key, pipeline_key *kept) {
+static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, pipeline_key *kept) {
     const size_t size = key->specialisation_count * sizeof *key->specialisation;
     *kept = *key;
-    kept->specialisation = malloc(size + 1);
+    kept->specialisation = lobe_allocate(allocator, size + 1, 1);
     if (kept->specialisation)
         memcpy(kept->specialisation, key->specialisation, size);
     return kept->specialisation != NULL;
@@ -239,11 +240,12 @@ static bool keep_key(const pipeline_key *key, pipeline_key *kept) {
 /// Makes the pipeline of a key.
 static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
                        const pipeline_key *key, const engine_pipeline **pipeline) {
-    cached_pipeline *cached = calloc(1, sizeof *cached);
-    char *name = name_of(key);
-    if (!cached || !name || !keep_key(key, &cached->key)) {
-        free(cached);
-        free(name);
+    const lobe_allocator *allocator = device->log.allocator;
+    cached_pipeline *cached = lobe_allocate(allocator, 1, sizeof *cached);
+    char *name = name_of(allocator, key);
+    if (!cached || !name || !keep_key(allocator, key, &cached->key)) {
+        lobe_release(cached);
+        lobe_release(name);
         return fail_memory(device, key);
     }
     cached->pipeline.name = name;
@@ -272,7 +274,7 @@ static lobe_result find_or_add(lobe_device *device, const engine_raster_paramete
 
 lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines) {
-    *pipelines = calloc(1, sizeof **pipelines);
+    *pipelines = lobe_allocate(device->log.allocator, 1, sizeof **pipelines);
     if (!*pipelines)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
     return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
@@ -287,8 +289,8 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
     }
     engine_sampler_cache_destroy(device, &(*pipelines)->samplers);
     engine_pipeline_cache_destroy(device, &(*pipelines)->cache);
-    free((*pipelines)->wanted);
-    free(*pipelines);
+    lobe_release((*pipelines)->wanted);
+    lobe_release(*pipelines);
     *pipelines = NULL;
 }
 

@@ -1,6 +1,5 @@
 #include "engine/pipeline_cache.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include <lobe/file.h>
@@ -73,12 +72,13 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
     *cache = (engine_pipeline_cache){0};
     if (!file)
         return create_cache(device, NULL, 0, cache);
-    cache->file = strdup(file);
+    cache->file = lobe_copy_text(device->log.allocator, file);
     if (!cache->file)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline cache: no memory");
+    const lobe_log silent = {.allocator = device->log.allocator};
     uint8_t *content = NULL;
     size_t size = 0;
-    const bool found = lobe_file_read(file, NULL, NULL, &content, &size) == LOBE_OK;
+    const bool found = lobe_file_read(file, NULL, &silent, &content, &size) == LOBE_OK;
     cache_header header = {0};
     const uint8_t *data = found ? usable_part(device, content, size, &header) : NULL;
     if (found && !data)
@@ -86,22 +86,22 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
                        "pipeline cache '%s' is damaged or of another driver: it is replaced", file);
     cache->checksum = data ? header.checksum : 0;
     const lobe_result result = create_cache(device, data, data ? header.size : 0, cache);
-    free(content);
+    lobe_release(content);
     return result;
 }
 
-/// The file's new content, to free(). NULL where there is none or no memory for it.
+/// The file's new content, to lobe_release. NULL where there is none or no memory for it.
 static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *size,
                            uint64_t *checksum) {
     size_t data_size = 0;
     if (vkGetPipelineCacheData(device->vulkan, cache, &data_size, NULL) != VK_SUCCESS)
         return NULL;
-    uint8_t *content = malloc(sizeof(cache_header) + data_size);
+    uint8_t *content = lobe_allocate(device->log.allocator, 1, sizeof(cache_header) + data_size);
     if (!content)
         return NULL;
     uint8_t *data = content + sizeof(cache_header);
     if (vkGetPipelineCacheData(device->vulkan, cache, &data_size, data) != VK_SUCCESS) {
-        free(content);
+        lobe_release(content);
         return NULL;
     }
     cache_header header = {.size = data_size, .checksum = checksum_of(data, data_size)};
@@ -113,20 +113,21 @@ static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *s
 }
 
 static void save(lobe_device *device, const engine_pipeline_cache *cache) {
+    const lobe_log silent = {.allocator = device->log.allocator};
     size_t size = 0;
     uint64_t checksum = 0;
     uint8_t *content = content_of(device, cache->vulkan, &size, &checksum);
     if (content && checksum != cache->checksum &&
-        lobe_file_write(cache->file, content, size, NULL) != LOBE_OK)
+        lobe_file_write(cache->file, content, size, &silent) != LOBE_OK)
         lobe_log_print(&device->log, LOBE_LOG_WARNING, "pipeline cache '%s' cannot be written",
                        cache->file);
-    free(content);
+    lobe_release(content);
 }
 
 void engine_pipeline_cache_destroy(lobe_device *device, engine_pipeline_cache *cache) {
     if (cache->file && cache->vulkan)
         save(device, cache);
     vkDestroyPipelineCache(device->vulkan, cache->vulkan, device->callbacks);
-    free(cache->file);
+    lobe_release(cache->file);
     *cache = (engine_pipeline_cache){0};
 }

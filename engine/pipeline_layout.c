@@ -56,7 +56,7 @@ static lobe_result merge_bindings(const lobe_log *log, const engine_shader *cons
     size_t most = 1;
     for (size_t i = 0; i < count; i++)
         most += shaders[i]->binding_count;
-    pipeline->bindings = calloc(most, sizeof *pipeline->bindings);
+    pipeline->bindings = lobe_allocate(log->allocator, most, sizeof *pipeline->bindings);
     if (!pipeline->bindings)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
                              pipeline->name);
@@ -86,7 +86,8 @@ static void merge_push_constants(const engine_shader *const *shaders, size_t cou
 // Vulkan's layouts
 
 static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipeline) {
-    VkDescriptorSetLayoutBinding *bindings = calloc(pipeline->binding_count + 1, sizeof *bindings);
+    VkDescriptorSetLayoutBinding *bindings =
+        lobe_allocate(device->log.allocator, pipeline->binding_count + 1, sizeof *bindings);
     if (!bindings)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "pipeline '%s': no host memory", pipeline->name);
@@ -107,7 +108,7 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
                      vkCreateDescriptorSetLayout(device->vulkan, &create, device->callbacks,
                                                  &pipeline->set_layout),
                      "pipeline '%s'", pipeline->name);
-    free(bindings);
+    lobe_release(bindings);
     return result;
 }
 
@@ -148,5 +149,5 @@ lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shad
 void engine_pipeline_layout_destroy(lobe_device *device, engine_pipeline *pipeline) {
     vkDestroyPipelineLayout(device->vulkan, pipeline->layout, device->callbacks);
     vkDestroyDescriptorSetLayout(device->vulkan, pipeline->set_layout, device->callbacks);
-    free(pipeline->bindings);
+    lobe_release(pipeline->bindings);
 }

@@ -3,7 +3,6 @@
 #include <png.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <lobe/file.h>
 
@@ -53,10 +52,20 @@ static bool is_opaque(const lobe_image *image) {
     return true;
 }
 
+static png_voidp allocate(png_structp png, png_alloc_size_t size) {
+    return lobe_allocate(png_get_mem_ptr(png), size, 1);
+}
+
+static void release(png_structp png, png_voidp memory) {
+    (void)png;
+    lobe_release(memory);
+}
+
 static bool create(png_writer *writer) {
     snprintf(writer->message, sizeof writer->message, "out of memory");
-    writer->png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, writer, remember_error, ignore_warning);
+    writer->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, writer, remember_error,
+                                            ignore_warning, (png_voidp)writer->output.allocator,
+                                            allocate, release); // only read
     if (writer->png != NULL)
         writer->information = png_create_info_struct(writer->png);
     return writer->information != NULL;
@@ -84,7 +93,7 @@ static bool encode(png_writer *writer, const lobe_image *image) {
 /// On success the writer's output is the whole file. `name` is for messages.
 static lobe_result encode_image(png_writer *writer, const char *name, const lobe_image *image,
                                 const lobe_log *log) {
-    *writer = (png_writer){0};
+    *writer = (png_writer){.output.allocator = lobe_log_allocator(log)};
     if (image->format != LOBE_FORMAT_RGBA8_SRGB && image->format != LOBE_FORMAT_RGBA8_UNORM)
         return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
                              "%s: PNG files are written from RGBA8 images, not from %s", name,
@@ -125,14 +134,28 @@ static bool fits_file(const image_codec_extent *extent, size_t size) {
     return (uint64_t)extent->width * extent->height / 8 / 1032 <= size;
 }
 
+static void *resize(void *allocator, void *memory, size_t size) {
+    return lobe_reallocate(allocator, memory, size, 1);
+}
+
+static lobe_result fail_reading(const library_memory *memory, const char *path, const char *message,
+                                const lobe_log *log) {
+    if (memory->failed)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it", path);
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+}
+
 static lobe_result decode(const char *path, const uint8_t *data, size_t size, const lobe_log *log,
                           lobe_image *image) {
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
+    library_memory memory = {.resize = resize,
+                             .release = lobe_release,
+                             .user = (void *)lobe_log_allocator(log)}; // only read
     image_codec_extent extent;
     if (size < 8 || png_sig_cmp(data, 0, 8) != 0)
         return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not a PNG file", path);
-    if (!png_measure(data, size, &extent, message))
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+    if (!png_measure(data, size, &memory, &extent, message) || memory.failed)
+        return fail_reading(&memory, path, message, log);
     if (extent.width > LOBE_IMAGE_MAXIMUM_EXTENT || extent.height > LOBE_IMAGE_MAXIMUM_EXTENT)
         return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
                              extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
@@ -144,8 +167,10 @@ static lobe_result decode(const char *path, const uint8_t *data, size_t size, co
     lobe_result result = lobe_image_allocate(
         image, extent.sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_SRGB,
         extent.width, extent.height, log);
-    if (result == LOBE_OK && !png_decode(data, size, &extent, true, image->texels, message))
-        result = lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+    if (result != LOBE_OK)
+        return result;
+    if (!png_decode(data, size, &memory, &extent, true, image->texels, message) || memory.failed)
+        return fail_reading(&memory, path, message, log);
     return result;
 }
 
@@ -158,6 +183,6 @@ lobe_result lobe_png_read(const char *path, const lobe_log *log, lobe_image *ima
         result = decode(path, data, size, log, image);
     if (result != LOBE_OK)
         lobe_image_free(image);
-    free(data);
+    lobe_release(data);
     return result;
 }

@@ -31,7 +31,7 @@ static lobe_result fail_memory(const lobe_profile *profile) {
 }
 
 lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile) {
-    *profile = calloc(1, sizeof **profile);
+    *profile = lobe_allocate(lobe_log_allocator(log), 1, sizeof **profile);
     if (!*profile)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
     if (log)
@@ -46,15 +46,15 @@ void lobe_profile_destroy(lobe_profile **profile) {
     if (!gone)
         return;
     for (uint32_t n = 0; n < gone->pass_count; n++) {
-        free(gone->passes[n].name);
-        free(gone->passes[n].milliseconds);
+        lobe_release(gone->passes[n].name);
+        lobe_release(gone->passes[n].milliseconds);
     }
-    free(gone->passes);
-    free(gone->frame.milliseconds);
-    free(gone->host.milliseconds);
-    free(gone->times);
-    free(gone->scratch);
-    free(gone);
+    lobe_release(gone->passes);
+    lobe_release(gone->frame.milliseconds);
+    lobe_release(gone->host.milliseconds);
+    lobe_release(gone->times);
+    lobe_release(gone->scratch);
+    lobe_release(gone);
     *profile = NULL;
 }
 
@@ -69,20 +69,22 @@ static time_series *find_pass(lobe_profile *profile, const char *name) {
 }
 
 static bool add_pass(lobe_profile *profile, const char *name) {
-    if (!engine_array_reserve((void **)&profile->passes, &profile->pass_capacity,
-                              (uint64_t)profile->pass_count + 1, sizeof *profile->passes))
+    if (!engine_array_reserve(profile->log.allocator, (void **)&profile->passes,
+                              &profile->pass_capacity, (uint64_t)profile->pass_count + 1,
+                              sizeof *profile->passes))
         return false;
     time_series *added = &profile->passes[profile->pass_count];
-    *added = (time_series){.name = strdup(name)};
+    *added = (time_series){.name = lobe_copy_text(profile->log.allocator, name)};
     if (!added->name)
         return false;
     profile->pass_count++;
     return true;
 }
 
-static bool make_room_for_run(time_series *series) {
-    return engine_array_reserve((void **)&series->milliseconds, &series->capacity,
-                                (uint64_t)series->runs + 1, sizeof *series->milliseconds);
+static bool make_room_for_run(const lobe_profile *profile, time_series *series) {
+    return engine_array_reserve(profile->log.allocator, (void **)&series->milliseconds,
+                                &series->capacity, (uint64_t)series->runs + 1,
+                                sizeof *series->milliseconds);
 }
 
 /// All that can fail comes first, so that a frame counts as a whole or not at all.
@@ -93,9 +95,10 @@ static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
             !add_pass(profile, report->passes[n].name))
             return false;
     for (uint32_t n = 0; n < profile->pass_count; n++)
-        if (!make_room_for_run(&profile->passes[n]))
+        if (!make_room_for_run(profile, &profile->passes[n]))
             return false;
-    return make_room_for_run(&profile->frame) && make_room_for_run(&profile->host);
+    return make_room_for_run(profile, &profile->frame) &&
+           make_room_for_run(profile, &profile->host);
 }
 
 static void add_time(time_series *series, double milliseconds) {
@@ -150,10 +153,12 @@ static lobe_profile_times times_of(const lobe_profile *profile, const time_serie
 }
 
 static lobe_result reserve_results(lobe_profile *profile) {
-    if (engine_array_reserve((void **)&profile->times, &profile->time_capacity,
-                             (uint64_t)profile->pass_count + 1, sizeof *profile->times) &&
-        engine_array_reserve((void **)&profile->scratch, &profile->scratch_capacity,
-                             profile->frame.runs, sizeof *profile->scratch))
+    if (engine_array_reserve(profile->log.allocator, (void **)&profile->times,
+                             &profile->time_capacity, (uint64_t)profile->pass_count + 1,
+                             sizeof *profile->times) &&
+        engine_array_reserve(profile->log.allocator, (void **)&profile->scratch,
+                             &profile->scratch_capacity, profile->frame.runs,
+                             sizeof *profile->scratch))
         return LOBE_OK;
     return fail_memory(profile);
 }

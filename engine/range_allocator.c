@@ -3,9 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool engine_range_allocator_create(engine_range_allocator *allocator, uint64_t size) {
+bool engine_range_allocator_create(const lobe_allocator *host, uint64_t size,
+                                   engine_range_allocator *allocator) {
     *allocator = (engine_range_allocator){.size = size, .free_capacity = 8};
-    allocator->free = malloc(allocator->free_capacity * sizeof *allocator->free);
+    allocator->free = lobe_allocate(host, allocator->free_capacity, sizeof *allocator->free);
     if (!allocator->free)
         return false;
     allocator->free[allocator->free_count++] = (engine_range){0, size};
@@ -13,7 +14,7 @@ bool engine_range_allocator_create(engine_range_allocator *allocator, uint64_t s
 }
 
 void engine_range_allocator_destroy(engine_range_allocator *allocator) {
-    free(allocator->free);
+    lobe_release(allocator->free);
     *allocator = (engine_range_allocator){0};
 }
 
@@ -30,7 +31,7 @@ static bool reserve(engine_range_allocator *allocator, size_t count) {
     if (count <= allocator->free_capacity)
         return true;
     const size_t capacity = 2 * count;
-    engine_range *ranges = realloc(allocator->free, capacity * sizeof *ranges);
+    engine_range *ranges = lobe_reallocate(NULL, allocator->free, capacity, sizeof *ranges);
     if (!ranges)
         return false;
     allocator->free = ranges;

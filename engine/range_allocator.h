@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/allocator.h>
+
 /// Hands out ranges of a number line [0, size). Knows nothing of what they stand for.
 typedef struct engine_range {
     uint64_t offset, size;
@@ -17,8 +19,9 @@ typedef struct engine_range_allocator {
     uint64_t size;
 } engine_range_allocator;
 
-/// False without host memory.
-bool engine_range_allocator_create(engine_range_allocator *allocator, uint64_t size);
+/// False without memory of the host, which `host` gives.
+bool engine_range_allocator_create(const lobe_allocator *host, uint64_t size,
+                                   engine_range_allocator *allocator);
 void engine_range_allocator_destroy(engine_range_allocator *allocator);
 
 /// Takes `size` > 0 at a multiple of `alignment` (a power of two) from the free range that is left

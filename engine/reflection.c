@@ -168,7 +168,7 @@ static lobe_result reflect_binding(const reflection *reflection,
         return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
                              "shader '%s': '%s' is not in descriptor set 0", shader->name,
                              resource->name);
-    char *name = strdup(resource->name);
+    char *name = lobe_copy_text(reflection->log->allocator, resource->name);
     if (!name)
         return fail_memory(reflection);
     *binding = (engine_shader_binding){
@@ -195,7 +195,8 @@ static lobe_result reflect_bindings_of(const reflection *reflection, spvc_resour
         return LOBE_OK;
     engine_shader *shader = reflection->shader;
     engine_shader_binding *bindings =
-        realloc(shader->bindings, (shader->binding_count + found_count) * sizeof *shader->bindings);
+        lobe_reallocate(reflection->log->allocator, shader->bindings,
+                        shader->binding_count + found_count, sizeof *shader->bindings);
     if (!bindings)
         return fail_memory(reflection);
     shader->bindings = bindings;
@@ -302,7 +303,8 @@ static lobe_result reflect_specialisation(const reflection *reflection) {
     if (count == 0)
         return LOBE_OK;
     engine_shader *shader = reflection->shader;
-    shader->specialisation_ids = calloc(count, sizeof *shader->specialisation_ids);
+    shader->specialisation_ids =
+        lobe_allocate(reflection->log->allocator, count, sizeof *shader->specialisation_ids);
     if (!shader->specialisation_ids)
         return fail_memory(reflection);
     shader->specialisation_count = count;
@@ -342,9 +344,9 @@ lobe_result engine_reflect(const lobe_log *log, const uint32_t *words, size_t wo
 
 void engine_reflection_free(engine_shader *shader) {
     for (size_t i = 0; i < shader->binding_count; i++)
-        free((void *)shader->bindings[i].name);
-    free(shader->bindings);
-    free(shader->specialisation_ids);
+        lobe_release((void *)shader->bindings[i].name);
+    lobe_release(shader->bindings);
+    lobe_release(shader->specialisation_ids);
     shader->bindings = NULL;
     shader->specialisation_ids = NULL;
     shader->binding_count = shader->specialisation_count = 0;

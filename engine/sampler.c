@@ -1,7 +1,6 @@
 #include "engine/sampler.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "engine/device.h"
 #include "engine/vulkan_check.h"
@@ -72,13 +71,13 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
             *sampler = known->sampler;
             return LOBE_OK;
         }
-    engine_cached_sampler *added = calloc(1, sizeof *added);
+    engine_cached_sampler *added = lobe_allocate(device->log.allocator, 1, sizeof *added);
     if (!added)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
     added->settings = offered;
     const lobe_result result = create(device, &offered, &added->sampler);
     if (result != LOBE_OK) {
-        free(added);
+        lobe_release(added);
         return result;
     }
     added->next = cache->samplers;
@@ -91,7 +90,7 @@ void engine_sampler_cache_destroy(lobe_device *device, engine_sampler_cache *cac
     for (engine_cached_sampler *sampler = cache->samplers, *next; sampler; sampler = next) {
         next = sampler->next;
         vkDestroySampler(device->vulkan, sampler->sampler, device->callbacks);
-        free(sampler);
+        lobe_release(sampler);
     }
     cache->samplers = NULL;
 }

@@ -34,9 +34,10 @@ struct engine_shaders {
 
 static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *codes, size_t count,
                              const char *folder) {
-    shader_table *table = calloc(1, sizeof *table);
-    if (!table || (folder && !(table->folder = strdup(folder)))) {
-        free(table);
+    const lobe_allocator *allocator = shaders->device->log.allocator;
+    shader_table *table = lobe_allocate(allocator, 1, sizeof *table);
+    if (!table || (folder && !(table->folder = lobe_copy_text(allocator, folder)))) {
+        lobe_release(table);
         return lobe_log_fail(&shaders->device->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "shaders: no host memory");
     }
@@ -95,7 +96,7 @@ static void free_loaded(lobe_device *device, loaded_shader *loaded) {
     vkDestroyShaderModule(device->vulkan, loaded->shader.module, device->callbacks);
     engine_reflection_free(&loaded->shader);
     free_words(loaded->code, &loaded->words);
-    free(loaded);
+    lobe_release(loaded);
 }
 
 static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
@@ -118,7 +119,7 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
 static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
                         engine_shader_words *words, loaded_shader **result_shader) {
     lobe_device *device = shaders->device;
-    loaded_shader *loaded = calloc(1, sizeof *loaded);
+    loaded_shader *loaded = lobe_allocate(device->log.allocator, 1, sizeof *loaded);
     if (!loaded) {
         free_words(code, words);
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
@@ -180,7 +181,7 @@ static lobe_result load_again(engine_shaders *shaders, const engine_shader_code 
 
 lobe_result engine_shaders_create(lobe_device *device, const char *folder,
                                   engine_shaders **shaders) {
-    *shaders = calloc(1, sizeof **shaders);
+    *shaders = lobe_allocate(device->log.allocator, 1, sizeof **shaders);
     if (!*shaders)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
     (*shaders)->device = device;
@@ -201,11 +202,11 @@ void engine_shaders_destroy(engine_shaders **shaders) {
     }
     for (shader_table *table = (*shaders)->tables, *next; table; table = next) {
         next = table->next;
-        free(table->folder);
-        free(table->owned);
-        free(table);
+        lobe_release(table->folder);
+        lobe_release(table->owned);
+        lobe_release(table);
     }
-    free(*shaders);
+    lobe_release(*shaders);
     *shaders = NULL;
 }
 
@@ -218,9 +219,9 @@ lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *co
 }
 
 /// Name and words lie behind the code, in one piece of memory.
-static engine_shader_code *copy_code(const lobe_shader *shader) {
+static engine_shader_code *copy_code(const lobe_allocator *allocator, const lobe_shader *shader) {
     const size_t name_size = strlen(shader->name) + 1;
-    engine_shader_code *code = malloc(sizeof *code + shader->size + name_size);
+    engine_shader_code *code = lobe_allocate(allocator, 1, sizeof *code + shader->size + name_size);
     if (!code)
         return NULL;
     uint32_t *words = (uint32_t *)(code + 1);
@@ -234,8 +235,8 @@ static engine_shader_code *copy_code(const lobe_shader *shader) {
 static void remove_last_table(engine_shaders *shaders) {
     shader_table *gone = shaders->tables;
     shaders->tables = gone->next;
-    free(gone->owned);
-    free(gone);
+    lobe_release(gone->owned);
+    lobe_release(gone);
 }
 
 /// Takes the code over, in failure too.
@@ -243,7 +244,7 @@ static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
     engine_shaders *shaders = device->shaders;
     lobe_result result = add_table(shaders, code, 1, NULL);
     if (result != LOBE_OK) {
-        free(code);
+        lobe_release(code);
         return result;
     }
     shaders->tables->owned = code;
@@ -260,7 +261,7 @@ lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shade
         return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT,
                              "shader '%s': a name and whole words of SPIR-V are needed",
                              shader->name ? shader->name : "");
-    engine_shader_code *code = copy_code(shader);
+    engine_shader_code *code = copy_code(device->log.allocator, shader);
     if (!code)
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
                              shader->name);

@@ -2,11 +2,12 @@
 
 #include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include <lobe/file.h>
+
+#include "engine/text.h"
 
 /// Deep enough for any sensible nesting; ends files that include each other.
 #define MAXIMUM_DEPTH 16
@@ -28,7 +29,7 @@ typedef struct expansion {
     const engine_shader_folders *folders;
     const engine_shader_code *code;
     engine_source_files *files;
-    FILE *output;
+    engine_text_builder output;
 } expansion;
 
 // ---------------------------------------------------------------------------------------------
@@ -51,11 +52,12 @@ static lobe_result fail_memory(const expansion *expansion) {
 
 static lobe_result remember(expansion *expansion, const char *path) {
     engine_source_files *files = expansion->files;
-    source_file *grown = realloc(files->files, (files->count + 1) * sizeof *grown);
+    source_file *grown = lobe_reallocate(lobe_log_allocator(expansion->log), files->files,
+                                         files->count + 1, sizeof *grown);
     if (!grown)
         return fail_memory(expansion);
     files->files = grown;
-    char *copy = strdup(path);
+    char *copy = lobe_copy_text(lobe_log_allocator(expansion->log), path);
     if (!copy)
         return fail_memory(expansion);
     grown[files->count++] = look_at(copy);
@@ -74,10 +76,10 @@ bool engine_source_files_changed(const engine_source_files *files) {
 
 void engine_source_files_free(engine_source_files *files) {
     for (size_t i = 0; files && i < files->count; i++)
-        free(files->files[i].path);
+        lobe_release(files->files[i].path);
     if (files)
-        free(files->files);
-    free(files);
+        lobe_release(files->files);
+    lobe_release(files);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -121,7 +123,7 @@ static lobe_result expand_line(expansion *expansion, const char *path, int depth
                                size_t length, unsigned number) {
     char name[PATH_MAX], included[PATH_MAX];
     if (!parse_include(line, length, name) || !resolve(expansion, path, name, included)) {
-        fprintf(expansion->output, "%.*s\n", (int)length, line);
+        engine_text_add(&expansion->output, "%.*s\n", (int)length, line);
         return LOBE_OK;
     }
     if (depth == MAXIMUM_DEPTH) {
@@ -129,9 +131,9 @@ static lobe_result expand_line(expansion *expansion, const char *path, int depth
                        expansion->code->name, path, number);
         return LOBE_ERROR_SHADER;
     }
-    fprintf(expansion->output, "#line 1 \"%s\"\n", included);
+    engine_text_add(&expansion->output, "#line 1 \"%s\"\n", included);
     const lobe_result result = expand_file(expansion, included, depth + 1);
-    fprintf(expansion->output, "#line %u \"%s\"\n", number + 1, path);
+    engine_text_add(&expansion->output, "#line %u \"%s\"\n", number + 1, path);
     return result;
 }
 
@@ -151,19 +153,20 @@ static lobe_result expand_text(expansion *expansion, const char *path, int depth
 }
 
 static lobe_result expand_file(expansion *expansion, const char *path, int depth) {
+    const lobe_log silent = {.allocator = lobe_log_allocator(expansion->log)};
     uint8_t *data = NULL;
     size_t size = 0;
     lobe_result result = remember(expansion, path);
     if (result != LOBE_OK)
         return result;
-    result = lobe_file_read(path, NULL, NULL, &data, &size);
+    result = lobe_file_read(path, NULL, &silent, &data, &size);
     if (result != LOBE_OK) {
         lobe_log_print(expansion->log, expansion->level, "shader '%s': the source %s: %s",
                        expansion->code->name, path, lobe_result_message(result));
         return LOBE_ERROR_SHADER;
     }
     result = expand_text(expansion, path, depth, (const char *)data, size);
-    free(data);
+    lobe_release(data);
     return result;
 }
 
@@ -171,24 +174,23 @@ lobe_result engine_shader_source_read(const lobe_log *log, lobe_log_level level,
                                       const engine_shader_folders *folders,
                                       const engine_shader_code *code,
                                       engine_shader_source *source) {
-    *source = (engine_shader_source){.files = calloc(1, sizeof *source->files)};
-    expansion expansion = {log, level, folders, code, source->files, NULL};
+    const lobe_allocator *allocator = lobe_log_allocator(log);
+    *source = (engine_shader_source){.files = lobe_allocate(allocator, 1, sizeof *source->files)};
+    expansion expansion = {log,  level,         folders,
+                           code, source->files, {.bytes.allocator = allocator}};
     if (!source->files)
-        return fail_memory(&expansion);
-    size_t size = 0;
-    expansion.output = open_memstream(&source->text, &size);
-    if (!expansion.output)
         return fail_memory(&expansion);
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/%s", folders->own ? folders->own : ".", code->source);
     lobe_result result = expand_file(&expansion, path, 0);
-    if (fclose(expansion.output) != 0 && result == LOBE_OK)
+    source->text = engine_text_finish(&expansion.output);
+    if (!source->text && result == LOBE_OK)
         result = fail_memory(&expansion);
     return result;
 }
 
 void engine_shader_source_free(engine_shader_source *source) {
-    free(source->text);
+    lobe_release(source->text);
     engine_source_files_free(source->files);
     *source = (engine_shader_source){0};
 }

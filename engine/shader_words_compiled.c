@@ -1,13 +1,13 @@
 #include "engine/shader_words.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
 
 #include "engine/shader_source.h"
+#include "engine/text.h"
 
 typedef struct compilation {
     const lobe_log *log;
@@ -48,23 +48,17 @@ static lobe_result fail(const compilation *compilation, const char *messages) {
     return LOBE_ERROR_SHADER;
 }
 
-/// "AOV FAST" as "#define AOV\n#define FAST\n", to free(). NULL without memory.
-static char *preamble_of(const char *definitions) {
-    char *text = NULL, *rest = NULL;
-    size_t size = 0;
-    char *copy = strdup(definitions);
-    FILE *stream = copy ? open_memstream(&text, &size) : NULL;
-    if (!stream) {
-        free(copy);
-        return NULL;
+/// "AOV FAST" as "#define AOV\n#define FAST\n", to lobe_release. NULL without memory.
+static char *preamble_of(const lobe_allocator *allocator, const char *definitions) {
+    engine_text_builder text = {.bytes.allocator = allocator};
+    for (const char *name = definitions; *name;) {
+        const int length = (int)strcspn(name, " ");
+        if (length > 0)
+            engine_text_add(&text, "#define %.*s\n", length, name);
+        name += length;
+        name += strspn(name, " ");
     }
-    for (char *name = strtok_r(copy, " ", &rest); name; name = strtok_r(NULL, " ", &rest))
-        fprintf(stream, "#define %s\n", name);
-    free(copy);
-    if (fclose(stream) == 0)
-        return text;
-    free(text);
-    return NULL;
+    return engine_text_finish(&text);
 }
 
 static lobe_result parse(compilation *compilation, const char *text, const char *preamble) {
@@ -103,7 +97,7 @@ static lobe_result link_program(compilation *compilation) {
 
 static lobe_result copy_words(const compilation *compilation, engine_shader_words *words) {
     const size_t count = glslang_program_SPIRV_get_size(compilation->program);
-    uint32_t *copy = malloc(count * sizeof *copy);
+    uint32_t *copy = lobe_allocate(lobe_log_allocator(compilation->log), count, sizeof *copy);
     if (!copy)
         return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "shader '%s': no host memory", compilation->code->name);
@@ -114,7 +108,8 @@ static lobe_result copy_words(const compilation *compilation, engine_shader_word
 }
 
 static lobe_result compile(compilation *compilation, const char *text, engine_shader_words *words) {
-    char *preamble = preamble_of(compilation->code->definitions);
+    char *preamble =
+        preamble_of(lobe_log_allocator(compilation->log), compilation->code->definitions);
     if (!preamble)
         return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "shader '%s': no host memory", compilation->code->name);
@@ -130,7 +125,7 @@ static lobe_result compile(compilation *compilation, const char *text, engine_sh
     if (compilation->shader)
         glslang_shader_delete(compilation->shader);
     glslang_finalize_process();
-    free(preamble);
+    lobe_release(preamble);
     return result;
 }
 
@@ -154,7 +149,7 @@ bool engine_shader_words_are_stale(const engine_shader_words *words) {
 }
 
 void engine_shader_words_free(engine_shader_words *words) {
-    free((void *)words->words);
+    lobe_release((void *)words->words);
     engine_source_files_free(words->files);
     *words = (engine_shader_words){0};
 }

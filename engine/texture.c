@@ -1,6 +1,5 @@
 #include "engine/resource.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "engine/device.h"
@@ -71,9 +70,9 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
     lobe_result result = check_content(&device->log, name, parameters->image);
     if (result != LOBE_OK)
         return result;
-    *texture = calloc(1, sizeof **texture);
-    if (!*texture || !((*texture)->name = strdup(name))) {
-        free(*texture);
+    *texture = lobe_allocate(device->log.allocator, 1, sizeof **texture);
+    if (!*texture || !((*texture)->name = lobe_copy_text(device->log.allocator, name))) {
+        lobe_release(*texture);
         *texture = NULL;
         return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "texture '%s': no host memory",
                              name);
@@ -121,7 +120,7 @@ void lobe_texture_destroy(lobe_texture **texture) {
     vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
     vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
     engine_memory_free(device->memory, &(*texture)->allocation);
-    free((*texture)->name);
-    free(*texture);
+    lobe_release((*texture)->name);
+    lobe_release(*texture);
     *texture = NULL;
 }

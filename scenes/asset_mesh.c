@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -11,7 +10,9 @@
 
 #include "scenes/box_projection.h"
 #include "scenes/javascript_mesh.h"
+#include "scenes/library_memory.h"
 #include "scenes/mesh.h"
+#include "scenes/path_in_folder.h"
 #include "scenes/ply.h"
 #include "third_party/gzip.h"
 
@@ -37,9 +38,11 @@ static lobe_result read_file(const asset_mesh *wanted, const char *path, const l
     if (status || !gzip_recognise(packed, *size))
         return status;
     char message[GZIP_MESSAGE_SIZE];
-    bool done = gzip_unpack(packed, *size, MAXIMUM_UNPACKED, bytes, size, message);
-    free(packed);
-    return done ? LOBE_OK : lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+    library_memory memory = scene_library_memory(log);
+    bool done = gzip_unpack(packed, *size, MAXIMUM_UNPACKED, &memory, bytes, size, message);
+    lobe_release(packed);
+    const lobe_result failure = memory.failed ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_MALFORMED;
+    return done ? LOBE_OK : lobe_log_fail(log, failure, "%s: %s", path, message);
 }
 
 static lobe_result read_mesh(const char *path, const uint8_t *bytes, size_t size,
@@ -52,17 +55,17 @@ static lobe_result read_mesh(const char *path, const uint8_t *bytes, size_t size
 
 static lobe_result load_file(const asset_mesh *wanted, const char *assets, const lobe_log *log,
                              lobe_mesh *mesh) {
-    char *path = NULL;
+    char *path = path_in_folder(assets, wanted->file, log);
     uint8_t *bytes = NULL;
     size_t size = 0;
-    if (asprintf(&path, "%s/%s", assets, wanted->file) < 0)
+    if (!path)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory",
                              wanted->scene);
     lobe_result status = read_file(wanted, path, log, &bytes, &size);
     if (!status)
         status = read_mesh(path, bytes, size, log, mesh);
-    free(bytes);
-    free(path);
+    lobe_release(bytes);
+    lobe_release(path);
     return status;
 }
 

@@ -1,7 +1,6 @@
 #include "scenes/box_projection.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "scenes/mesh.h"
 #include "scenes/vector.h"
@@ -25,8 +24,9 @@ static const double least_cosine = 0.5;
 
 // Each vertex takes the mean of the directions around it. Rounding makes charts few and their
 // borders short, where the surface is rough.
-static bool smooth_directions(const lobe_mesh *mesh, vector3 *directions) {
-    vector3 *sums = malloc(mesh->vertex_count * sizeof *sums);
+static bool smooth_directions(const lobe_allocator *allocator, const lobe_mesh *mesh,
+                              vector3 *directions) {
+    vector3 *sums = lobe_allocate(allocator, mesh->vertex_count, sizeof *sums);
     for (size_t i = 0; sums && i < mesh->vertex_count; i++)
         directions[i] = vector3_load(mesh->vertices[i].normal);
     for (int round = 0; sums && round < SMOOTHING_ROUNDS; round++) {
@@ -43,7 +43,7 @@ static bool smooth_directions(const lobe_mesh *mesh, vector3 *directions) {
             if (vector3_normalise(&sums[i], 0))
                 directions[i] = sums[i];
     }
-    free(sums);
+    lobe_release(sums);
     return sums != NULL;
 }
 
@@ -109,15 +109,17 @@ static void project(lobe_scene_vertex *vertex, const projection_axis *axis, doub
 }
 
 // Replaces the vertices by the split ones, with their coordinates.
-static bool split_vertices(lobe_mesh *mesh, vertex_split *split, double tile) {
+static bool split_vertices(const lobe_allocator *allocator, lobe_mesh *mesh, vertex_split *split,
+                           double tile) {
     size_t count = 0;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         split->first[i] = (uint32_t)count;
         count += count_bits(split->used[i]);
     }
-    lobe_scene_vertex *vertices = malloc(count * sizeof *vertices), *next = vertices;
+    lobe_scene_vertex *vertices = lobe_allocate(allocator, count, sizeof *vertices),
+                      *next = vertices;
     if (!vertices || count > UINT32_MAX) {
-        free(vertices);
+        lobe_release(vertices);
         return false;
     }
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -126,34 +128,35 @@ static bool split_vertices(lobe_mesh *mesh, vertex_split *split, double tile) {
                 *next = mesh->vertices[i];
                 project(next++, &axes[axis], tile);
             }
-    free(mesh->vertices);
+    lobe_release(mesh->vertices);
     mesh->vertices = vertices;
     mesh->vertex_count = count;
     return true;
 }
 
-static bool split_and_project(lobe_mesh *mesh, double tile) {
-    vector3 *directions = malloc(mesh->vertex_count * sizeof *directions);
-    vertex_split split = {.triangle_axes = calloc(mesh->index_count / 3, 1),
-                          .used = calloc(mesh->vertex_count, 1),
-                          .first = calloc(mesh->vertex_count, sizeof *split.first)};
+static bool split_and_project(const lobe_allocator *allocator, lobe_mesh *mesh, double tile) {
+    vector3 *directions = lobe_allocate(allocator, mesh->vertex_count, sizeof *directions);
+    vertex_split split = {.triangle_axes = lobe_allocate(allocator, mesh->index_count / 3, 1),
+                          .used = lobe_allocate(allocator, mesh->vertex_count, 1),
+                          .first =
+                              lobe_allocate(allocator, mesh->vertex_count, sizeof *split.first)};
     bool done = directions && split.triangle_axes && split.used && split.first &&
-                smooth_directions(mesh, directions);
+                smooth_directions(allocator, mesh, directions);
     if (done) {
         choose_axes(mesh, directions, &split);
-        done = split_vertices(mesh, &split, tile);
+        done = split_vertices(allocator, mesh, &split, tile);
     }
     if (done)
         redirect(mesh, &split);
-    free(directions);
-    free(split.triangle_axes);
-    free(split.used);
-    free(split.first);
+    lobe_release(directions);
+    lobe_release(split.triangle_axes);
+    lobe_release(split.used);
+    lobe_release(split.first);
     return done;
 }
 
 lobe_result box_projection_apply(lobe_mesh *mesh, double tile, const lobe_log *log) {
-    if (!split_and_project(mesh, tile))
+    if (!split_and_project(lobe_log_allocator(log), mesh, tile))
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
                              "mesh '%s': out of memory for texture coordinates", mesh->name);
     mesh->has_texture_coordinates[0] = true;

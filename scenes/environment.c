@@ -1,7 +1,6 @@
 #include "scenes/environment.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/environment_direction.h"
@@ -14,9 +13,9 @@
 
 lobe_result environment_allocate(const char *name, const lobe_log *log,
                                  lobe_environment **environment) {
-    *environment = calloc(1, sizeof **environment);
+    *environment = lobe_allocate(lobe_log_allocator(log), 1, sizeof **environment);
     if (*environment)
-        (*environment)->name = strdup(name);
+        (*environment)->name = lobe_copy_text(lobe_log_allocator(log), name);
     if (!*environment || !(*environment)->name) {
         lobe_environment_destroy(environment);
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
@@ -85,7 +84,7 @@ void lobe_environment_destroy(lobe_environment **environment) {
     if (!environment || !*environment)
         return;
     lobe_image_free(&(*environment)->image);
-    free((*environment)->name);
-    free(*environment);
+    lobe_release((*environment)->name);
+    lobe_release(*environment);
     *environment = NULL;
 }

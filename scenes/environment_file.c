@@ -1,7 +1,6 @@
 #include <lobe/environment.h>
 
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <lobe/exr.h>
@@ -83,7 +82,7 @@ static lobe_result read_image(const char *path, const lobe_log *log, lobe_image 
     if (result != LOBE_OK)
         return result;
     if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0) {
-        free(bytes); // there may be little room for it twice
+        lobe_release(bytes); // there may be little room for it twice
         return read_exr(path, log, image, said);
     }
     if (radiance_hdr_recognise(bytes, size))
@@ -91,7 +90,7 @@ static lobe_result read_image(const char *path, const lobe_log *log, lobe_image 
     else
         result = lobe_log_fail(log, size < 4 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
                                "%s: neither an OpenEXR file nor a Radiance picture", path);
-    free(bytes);
+    lobe_release(bytes);
     return result;
 }
 

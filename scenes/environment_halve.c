@@ -1,7 +1,6 @@
 #include "scenes/environment_halve.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/environment_direction.h"
@@ -106,6 +105,7 @@ void environment_halve(lobe_environment *environment) {
     image->width = grid[0] * work.columns.after;
     image->height = grid[1] * work.rows.after;
     // The rest is given back where that can be done; where not, it does no harm.
-    void *smaller = realloc(image->texels, 4 * sizeof(float) * image->width * image->height);
+    void *smaller = lobe_reallocate(NULL, image->texels, (size_t)image->width * image->height,
+                                    4 * sizeof(float));
     image->texels = smaller ? smaller : image->texels;
 }

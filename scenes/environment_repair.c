@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/environment_direction.h"
@@ -121,8 +120,8 @@ lobe_result environment_repair(lobe_environment *environment, const lobe_log *lo
     environment_grid(environment->layout, grid);
     work.face[0] = image->width / grid[0];
     work.face[1] = image->height / grid[1];
-    work.above = malloc(4 * sizeof(float) * image->width);
-    work.current = malloc(4 * sizeof(float) * image->width);
+    work.above = lobe_allocate(lobe_log_allocator(log), 4 * (size_t)image->width, sizeof(float));
+    work.current = lobe_allocate(lobe_log_allocator(log), 4 * (size_t)image->width, sizeof(float));
     const bool room = work.above && work.current;
     if (room) {
         clear_empty_parts(&work);
@@ -130,8 +129,8 @@ lobe_result environment_repair(lobe_environment *environment, const lobe_log *lo
             mend_row(&work, y);
         report(&work, log);
     }
-    free(work.above);
-    free(work.current);
+    lobe_release(work.above);
+    lobe_release(work.current);
     return room ? LOBE_OK
                 : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                                 environment->name);

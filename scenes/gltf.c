@@ -1,7 +1,6 @@
 #include "scenes/gltf.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/gltf_container.h"
@@ -17,6 +16,7 @@
 typedef struct buffer_reader {
     const char *path;
     const lobe_file_source *files;
+    const lobe_allocator *allocator;
     lobe_result result;
     char line[1024];
 } buffer_reader;
@@ -29,7 +29,7 @@ static void keep_line(void *user, lobe_log_level level, const char *message) {
 
 static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
-    lobe_log log = {keep_line, reader};
+    lobe_log log = {.write = keep_line, .user = reader, .allocator = reader->allocator};
     uint8_t *bytes = NULL;
     reader->result = scene_file_read(reader->files, path, reader->path, &log, &bytes, size);
     return bytes;
@@ -39,19 +39,22 @@ static lobe_result parse(const gltf_container *container, const char *path,
                          const lobe_file_source *files, const lobe_log *log,
                          const gltf_document **document) {
     const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("");
+    const lobe_allocator *allocator = lobe_log_allocator(log);
+    char *folder = lobe_copy_text(allocator, path);
     if (!folder)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    folder[slash ? slash + 1 - path : 0] = 0;
     char message[256];
-    buffer_reader reader = {.path = path, .files = files};
+    buffer_reader reader = {.path = path, .files = files, .allocator = allocator};
     gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
                           .size = container->binary ? container->size : container->json_size,
                           .binary = container->binary,
                           .folder = folder,
                           .read = read_buffer,
+                          .release = lobe_release,
                           .user = &reader};
     *document = gltf_document_parse(&source, message, sizeof message);
-    free(folder);
+    lobe_release(folder);
     if (*document)
         return LOBE_OK;
     if (reader.result != LOBE_OK)
@@ -83,31 +86,33 @@ static lobe_result read_document(const lobe_scene_open_parameters *parameters, c
         result = gltf_schema_check(path, container.json, container.json_size, log);
     if (result == LOBE_OK)
         result = parse(&container, path, parameters->files, log, document);
-    free(bytes);
+    lobe_release(bytes);
     return result;
 }
 
 // ---------------------------------------------------------------------------------------------
 // From the document to the scene
 
-static int64_t *allocate_unconverted(size_t count) {
-    int64_t *states = malloc(count * sizeof *states);
+static int64_t *allocate_unconverted(const gltf_import *import, size_t count) {
+    int64_t *states = lobe_allocate(lobe_log_allocator(import->log), count, sizeof *states);
     for (size_t i = 0; states && i < count; i++)
         states[i] = GLTF_NOT_CONVERTED;
     return states;
 }
 
 static bool allocate_primitives(gltf_import *import) {
+    const lobe_allocator *allocator = lobe_log_allocator(import->log);
     const gltf_document *document = import->document;
     size_t count = 0;
-    import->first_primitives = calloc(document->mesh_count + 1, sizeof *import->first_primitives);
+    import->first_primitives =
+        lobe_allocate(allocator, document->mesh_count + 1, sizeof *import->first_primitives);
     if (!import->first_primitives)
         return false;
     for (size_t i = 0; i < document->mesh_count; i++) {
         import->first_primitives[i] = count;
         count += document->meshes[i].primitive_count;
     }
-    import->primitives = malloc((count + 1) * sizeof *import->primitives);
+    import->primitives = lobe_allocate(allocator, count + 1, sizeof *import->primitives);
     for (size_t i = 0; import->primitives && i < count; i++)
         import->primitives[i] =
             (gltf_primitive_state){GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED};
@@ -116,20 +121,20 @@ static bool allocate_primitives(gltf_import *import) {
 
 static lobe_result allocate_states(gltf_import *import) {
     const gltf_document *document = import->document;
-    import->materials = allocate_unconverted(document->material_count + 1);
-    import->images[0] = allocate_unconverted(document->image_count + 1);
-    import->images[1] = allocate_unconverted(document->image_count + 1);
+    import->materials = allocate_unconverted(import, document->material_count + 1);
+    import->images[0] = allocate_unconverted(import, document->image_count + 1);
+    import->images[1] = allocate_unconverted(import, document->image_count + 1);
     if (allocate_primitives(import) && import->materials && import->images[0] && import->images[1])
         return LOBE_OK;
     return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", import->path);
 }
 
 static void free_states(gltf_import *import) {
-    free(import->first_primitives);
-    free(import->primitives);
-    free(import->materials);
-    free(import->images[0]);
-    free(import->images[1]);
+    lobe_release(import->first_primitives);
+    lobe_release(import->primitives);
+    lobe_release(import->materials);
+    lobe_release(import->images[0]);
+    lobe_release(import->images[1]);
 }
 
 static void note_extensions(gltf_import *import) {

@@ -1,5 +1,4 @@
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/gltf.h"
@@ -29,10 +28,10 @@ static void decode_percent(const char *uri, char *out) {
 }
 
 // The path of a file that is named relative to the glTF file; to be freed.
-static char *resolve(const char *base, const char *uri) {
+static char *resolve(const lobe_allocator *allocator, const char *base, const char *uri) {
     const char *slash = strrchr(base, '/');
     size_t folder = slash ? (size_t)(slash - base) + 1 : 0;
-    char *path = malloc(folder + strlen(uri) + 1);
+    char *path = lobe_allocate(allocator, folder + strlen(uri) + 1, 1);
     if (!path)
         return NULL;
     memcpy(path, base, folder);
@@ -54,14 +53,14 @@ static lobe_result read_external(const gltf_import *import, const char *uri, ima
                              "%s: image '%.64s': neither a relative path nor a PNG or JPEG "
                              "as a base64 data URI",
                              import->path, uri);
-    char *path = resolve(import->path, uri);
+    char *path = resolve(lobe_log_allocator(import->log), import->path, uri);
     if (!path)
         return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                              import->path);
     lobe_result result = scene_file_read(import->files, path, import->path, import->log,
                                          &source->owned, &source->size);
     source->bytes = source->owned;
-    free(path);
+    lobe_release(path);
     return result;
 }
 
@@ -116,7 +115,7 @@ lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decode
         result = find_bytes(import, image, &source);
     if (result == LOBE_OK)
         result = decode(import, &source, SCENE_IMAGE_COLOUR, decoded);
-    free(source.owned);
+    lobe_release(source.owned);
     return result;
 }
 
@@ -135,7 +134,7 @@ lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int3
             result = decode(import, &source, use, &decoded);
         if (result == LOBE_OK)
             result = scene_add_image(import->scene, source.name, &decoded, import->log, &index);
-        free(source.owned);
+        lobe_release(source.owned);
         if (result != LOBE_OK)
             return result;
         *known = index;

@@ -1,5 +1,4 @@
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/gltf.h"
@@ -33,8 +32,9 @@ typedef struct vertex_source {
 } vertex_source;
 
 // glTF 2.0, section 3.7.2.1: without normals the triangles are flat, so none shares a vertex.
-static bool source_every_corner(uint32_t *indices, size_t index_count, vertex_source *source) {
-    source->elements = malloc(index_count * sizeof *source->elements);
+static bool source_every_corner(const lobe_allocator *allocator, uint32_t *indices,
+                                size_t index_count, vertex_source *source) {
+    source->elements = lobe_allocate(allocator, index_count, sizeof *source->elements);
     if (!source->elements)
         return false;
     memcpy(source->elements, indices, index_count * sizeof *indices);
@@ -46,11 +46,12 @@ static bool source_every_corner(uint32_t *indices, size_t index_count, vertex_so
 
 // Primitives often share long accessors and index a part: only that part is taken, in the order
 // of first use. Where all is used, the order stays.
-static bool source_used_elements(uint32_t *indices, size_t index_count, size_t element_count,
-                                 vertex_source *source) {
-    uint32_t *vertex_of = calloc(element_count, sizeof *vertex_of); // plus one; 0: unused
-    uint32_t *elements =
-        malloc((index_count < element_count ? index_count : element_count) * sizeof *elements);
+static bool source_used_elements(const lobe_allocator *allocator, uint32_t *indices,
+                                 size_t index_count, size_t element_count, vertex_source *source) {
+    uint32_t *vertex_of =
+        lobe_allocate(allocator, element_count, sizeof *vertex_of); // plus one; 0: unused
+    uint32_t *elements = lobe_allocate(
+        allocator, index_count < element_count ? index_count : element_count, sizeof *elements);
     size_t used = 0;
     for (size_t i = 0; vertex_of && elements && i < index_count; i++) {
         if (vertex_of[indices[i]] == 0) {
@@ -64,17 +65,18 @@ static bool source_used_elements(uint32_t *indices, size_t index_count, size_t e
         indices[i] = vertex_of[indices[i]] - 1;
     *source = (vertex_source){partial ? elements : NULL, used};
     if (!partial)
-        free(elements);
-    free(vertex_of);
+        lobe_release(elements);
+    lobe_release(vertex_of);
     return done;
 }
 
 static lobe_result choose_vertices(gltf_import *import, const gltf_attributes *attributes,
                                    uint32_t *indices, size_t index_count, vertex_source *source) {
+    const lobe_allocator *allocator = lobe_log_allocator(import->log);
     size_t element_count = attributes->elements[GLTF_POSITION].count;
     bool done = attributes->present[GLTF_NORMAL]
-                    ? source_used_elements(indices, index_count, element_count, source)
-                    : source_every_corner(indices, index_count, source);
+                    ? source_used_elements(allocator, indices, index_count, element_count, source)
+                    : source_every_corner(allocator, indices, index_count, source);
     if (!done)
         return out_of_memory(import, attributes->name);
     if (source->count > GLTF_MAXIMUM_VERTICES - import->vertices)
@@ -96,7 +98,7 @@ static lobe_result fill_mesh(gltf_import *import, const gltf_attributes *attribu
         memcpy(mesh->indices, indices, index_count * sizeof *indices);
         result = gltf_read_vertices(import, attributes, source.elements, mesh);
     }
-    free(source.elements);
+    lobe_release(source.elements);
     return result;
 }
 
@@ -159,7 +161,7 @@ static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primiti
                                 &indices, &index_count);
     if (result == LOBE_OK)
         result = fill_mesh(import, &attributes, indices, index_count, mesh);
-    free(indices);
+    lobe_release(indices);
     if (result != LOBE_OK)
         return result;
     import->notes.degenerate_triangles += mesh_drop_degenerate(mesh);

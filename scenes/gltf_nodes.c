@@ -1,6 +1,5 @@
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/gltf.h"
@@ -96,10 +95,11 @@ typedef struct node_tree {
 
 static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
     size_t count = import->document->node_count + 1;
-    tree->parents = malloc(count * sizeof *tree->parents);
-    tree->stack = malloc(count * sizeof *tree->stack);
-    tree->visited = calloc(count, sizeof *tree->visited);
-    tree->worlds = malloc(count * sizeof *tree->worlds);
+    const lobe_allocator *allocator = lobe_log_allocator(import->log);
+    tree->parents = lobe_allocate(allocator, count, sizeof *tree->parents);
+    tree->stack = lobe_allocate(allocator, count, sizeof *tree->stack);
+    tree->visited = lobe_allocate(allocator, count, sizeof *tree->visited);
+    tree->worlds = lobe_allocate(allocator, count, sizeof *tree->worlds);
     if (tree->parents && tree->stack && tree->visited && tree->worlds)
         return LOBE_OK;
     return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for %zu nodes",
@@ -107,10 +107,10 @@ static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
 }
 
 static void free_tree(node_tree *tree) {
-    free(tree->parents);
-    free(tree->stack);
-    free(tree->visited);
-    free(tree->worlds);
+    lobe_release(tree->parents);
+    lobe_release(tree->stack);
+    lobe_release(tree->visited);
+    lobe_release(tree->worlds);
 }
 
 static lobe_result find_parents(const gltf_import *import, node_tree *tree) {

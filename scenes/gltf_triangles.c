@@ -1,5 +1,4 @@
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "scenes/gltf.h"
 
@@ -79,7 +78,7 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
         result = count_triangles(import, primitive->mode, name, order.count, &triangles);
     if (result != LOBE_OK)
         return result;
-    uint32_t *list = malloc(3 * triangles * sizeof *list);
+    uint32_t *list = lobe_allocate(lobe_log_allocator(import->log), 3 * triangles, sizeof *list);
     if (!list)
         return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY,
                              "%s: %s: out of memory for triangles", import->path, name);
@@ -91,7 +90,7 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
             list[3 * t + k] = index;
             if (index < element_count)
                 continue;
-            free(list);
+            lobe_release(list);
             return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
                                  "%s: %s: index %zu is %u, of %zu vertices", import->path, name,
                                  corner[k], index, element_count);

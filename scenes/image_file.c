@@ -2,11 +2,11 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <lobe/file.h>
 
+#include "scenes/library_memory.h"
 #include "third_party/image_codec.h"
 
 // The densest that either format packs: deflate shrinks to 1/1032, on 8 texels a byte.
@@ -48,6 +48,13 @@ static lobe_format choose_format(const image_codec_extent *extent, scene_image_u
     return extent->sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_UNORM;
 }
 
+static lobe_result fail(const library_memory *memory, const char *name, const char *message,
+                        const lobe_log *log) {
+    if (memory->failed)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+}
+
 lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
                                scene_image_use use, const lobe_log *log, lobe_image *image) {
     *image = (lobe_image){0};
@@ -56,12 +63,13 @@ lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
         return lobe_log_fail(log, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
                              "%s: neither PNG nor JPEG", name);
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
+    library_memory memory = scene_library_memory(log);
     image_codec_extent extent = {0};
     bool png = kind == IMAGE_FILE_PNG;
-    bool done = png ? png_measure(bytes, size, &extent, message)
+    bool done = png ? png_measure(bytes, size, &memory, &extent, message)
                     : jpeg_measure(bytes, size, &extent, message);
-    if (!done)
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+    if (!done || memory.failed)
+        return fail(&memory, name, message, log);
     lobe_result result = check_extent(&extent, size, name, log);
     if (result != LOBE_OK)
         return result;
@@ -69,13 +77,13 @@ lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
     result = lobe_image_allocate(image, format, extent.width, extent.height, log);
     if (result != LOBE_OK)
         return result;
-    done = png ? png_decode(bytes, size, &extent, format == LOBE_FORMAT_RGBA16_UNORM, image->texels,
-                            message)
+    done = png ? png_decode(bytes, size, &memory, &extent, format == LOBE_FORMAT_RGBA16_UNORM,
+                            image->texels, message)
                : jpeg_decode(bytes, size, &extent, image->texels, message);
-    if (done)
+    if (done && !memory.failed)
         return LOBE_OK;
     lobe_image_free(image);
-    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+    return fail(&memory, name, message, log);
 }
 
 lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
@@ -86,6 +94,6 @@ lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_l
     lobe_result result = lobe_file_read(path, NULL, log, &bytes, &size);
     if (result == LOBE_OK)
         result = scene_image_decode(bytes, size, path, use, log, image);
-    free(bytes);
+    lobe_release(bytes);
     return result;
 }

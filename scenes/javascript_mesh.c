@@ -107,7 +107,10 @@ static lobe_result read_array(javascript_mesh *reader, const char *member, add_t
 
 lobe_result javascript_mesh_read(const char *text, size_t size, const char *name,
                                  const lobe_log *log, lobe_mesh *mesh) {
-    javascript_mesh reader = {.name = name, .log = log, .text = {text, text + size}};
+    javascript_mesh reader = {.name = name,
+                              .log = log,
+                              .polygons.allocator = lobe_log_allocator(log),
+                              .text = {text, text + size}};
     *mesh = (lobe_mesh){0};
     lobe_result status = read_array(&reader, "positions", add_position);
     if (!status)

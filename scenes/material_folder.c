@@ -3,7 +3,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/carrier.h"
@@ -11,6 +10,7 @@
 #include "scenes/image_channel.h"
 #include "scenes/image_file.h"
 #include "scenes/material_file.h"
+#include "scenes/path_in_folder.h"
 #include "scenes/scene.h"
 
 // What stands in for a map that the folder lacks.
@@ -45,10 +45,10 @@ static lobe_result consider_file(material_folder *folder, const char *name) {
     }
     if (folder->files[map] && strcmp(folder->files[map], name) < 0)
         return LOBE_OK;
-    char *copy = strdup(name);
+    char *copy = lobe_copy_text(lobe_log_allocator(folder->log), name);
     if (!copy)
         return out_of_memory(folder);
-    free(folder->files[map]);
+    lobe_release(folder->files[map]);
     folder->files[map] = copy;
     return LOBE_OK;
 }
@@ -86,11 +86,11 @@ static lobe_result load(const material_folder *folder, material_map map, scene_i
     *image = (lobe_image){0};
     if (!folder->files[map])
         return LOBE_OK;
-    char *path = NULL;
-    if (asprintf(&path, "%s/%s", folder->path, folder->files[map]) < 0)
+    char *path = path_in_folder(folder->path, folder->files[map], folder->log);
+    if (!path)
         return out_of_memory(folder);
     lobe_result status = scene_image_load(path, use, folder->log, image);
-    free(path);
+    lobe_release(path);
     return status;
 }
 
@@ -239,7 +239,7 @@ lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, con
     if (!status)
         status = scene_complete(folder.scene, log);
     for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
-        free(folder.files[map]);
+        lobe_release(folder.files[map]);
     if (status)
         lobe_scene_destroy(&folder.scene);
     *result = folder.scene;

@@ -1,17 +1,17 @@
 #include "scenes/mesh.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/vector.h"
 
 #define MESH_MAXIMUM_COUNT ((size_t)1 << 31)
 
-static lobe_result allocate_arrays(lobe_mesh *mesh, const char *name) {
-    mesh->name = strdup(name);
-    mesh->vertices = calloc(mesh->vertex_count, sizeof *mesh->vertices);
-    mesh->indices = calloc(mesh->index_count, sizeof *mesh->indices);
+static lobe_result allocate_arrays(const lobe_allocator *allocator, lobe_mesh *mesh,
+                                   const char *name) {
+    mesh->name = lobe_copy_text(allocator, name);
+    mesh->vertices = lobe_allocate(allocator, mesh->vertex_count, sizeof *mesh->vertices);
+    mesh->indices = lobe_allocate(allocator, mesh->index_count, sizeof *mesh->indices);
     if (!mesh->name || !mesh->vertices || !mesh->indices)
         return LOBE_ERROR_OUT_OF_MEMORY;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
@@ -31,7 +31,7 @@ lobe_result mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count
                              "mesh '%s': %zu vertices and %zu indices cannot be", name,
                              vertex_count, index_count);
     }
-    lobe_result result = allocate_arrays(mesh, name);
+    lobe_result result = allocate_arrays(lobe_log_allocator(log), mesh, name);
     if (result == LOBE_OK)
         return LOBE_OK;
     mesh_free(mesh);
@@ -40,9 +40,9 @@ lobe_result mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count
 }
 
 void mesh_free(lobe_mesh *mesh) {
-    free(mesh->name);
-    free(mesh->vertices);
-    free(mesh->indices);
+    lobe_release(mesh->name);
+    lobe_release(mesh->vertices);
+    lobe_release(mesh->indices);
     *mesh = (lobe_mesh){0};
 }
 

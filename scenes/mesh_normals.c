@@ -1,11 +1,10 @@
-#include <stdlib.h>
 
 #include "scenes/mesh.h"
 #include "scenes/vector.h"
 
 // The cross product of two edges is twice the area times the normal: summing it weights by area.
-static vector3 *sum_triangle_normals(const lobe_mesh *mesh) {
-    vector3 *sums = calloc(mesh->vertex_count, sizeof *sums);
+static vector3 *sum_triangle_normals(const lobe_mesh *mesh, const lobe_log *log) {
+    vector3 *sums = lobe_allocate(lobe_log_allocator(log), mesh->vertex_count, sizeof *sums);
     if (!sums)
         return NULL;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
@@ -32,12 +31,12 @@ static lobe_result out_of_memory(const lobe_mesh *mesh, const lobe_log *log) {
 }
 
 lobe_result mesh_compute_normals(lobe_mesh *mesh, const lobe_log *log) {
-    vector3 *sums = sum_triangle_normals(mesh);
+    vector3 *sums = sum_triangle_normals(mesh, log);
     if (!sums)
         return out_of_memory(mesh, log);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         store_normal(&mesh->vertices[i], sums[i]);
-    free(sums);
+    lobe_release(sums);
     return LOBE_OK;
 }
 
@@ -51,12 +50,12 @@ lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *re
             continue;
         }
         if (!sums)
-            sums = sum_triangle_normals(mesh);
+            sums = sum_triangle_normals(mesh, log);
         if (!sums)
             return out_of_memory(mesh, log);
         store_normal(&mesh->vertices[i], sums[i]);
         ++*repaired;
     }
-    free(sums);
+    lobe_release(sums);
     return LOBE_OK;
 }

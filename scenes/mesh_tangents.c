@@ -1,5 +1,4 @@
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "scenes/mesh.h"
 #include "scenes/vector.h"
@@ -77,7 +76,7 @@ static bool append_copies(lobe_mesh *mesh, const unsigned char *handedness, uint
         copies[i] = handedness[i] == BOTH_HANDED ? (uint32_t)count++ : (uint32_t)i;
     if (count > UINT32_MAX)
         return false;
-    lobe_scene_vertex *vertices = realloc(mesh->vertices, count * sizeof *vertices);
+    lobe_scene_vertex *vertices = lobe_reallocate(NULL, mesh->vertices, count, sizeof *vertices);
     if (!vertices)
         return false;
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -103,17 +102,18 @@ static void redirect_left_handed(lobe_mesh *mesh, const lobe_texture_use *use,
     }
 }
 
-static bool split_by_handedness(lobe_mesh *mesh, const lobe_texture_use *use) {
-    unsigned char *handedness = calloc(mesh->vertex_count, 1);
-    uint32_t *copies = calloc(mesh->vertex_count, sizeof *copies);
+static bool split_by_handedness(const lobe_allocator *allocator, lobe_mesh *mesh,
+                                const lobe_texture_use *use) {
+    unsigned char *handedness = lobe_allocate(allocator, mesh->vertex_count, 1);
+    uint32_t *copies = lobe_allocate(allocator, mesh->vertex_count, sizeof *copies);
     bool done = handedness && copies;
     if (done)
         collect_handedness(mesh, use, handedness);
     done = done && append_copies(mesh, handedness, copies);
     if (done)
         redirect_left_handed(mesh, use, handedness, copies);
-    free(handedness);
-    free(copies);
+    lobe_release(handedness);
+    lobe_release(copies);
     return done;
 }
 
@@ -143,14 +143,15 @@ static void store_tangent(lobe_scene_vertex *vertex, vector3 sum) {
 
 lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                   const lobe_log *log) {
+    const lobe_allocator *allocator = lobe_log_allocator(log);
     const lobe_texture_use none = LOBE_TEXTURE_NONE;
     use = use ? use : &none;
     bool mapped =
         use->texture_coordinates < 2 && mesh->has_texture_coordinates[use->texture_coordinates];
     vector3 *sums = NULL;
-    bool allocated = !mapped || split_by_handedness(mesh, use);
+    bool allocated = !mapped || split_by_handedness(allocator, mesh, use);
     if (allocated)
-        sums = calloc(mesh->vertex_count, sizeof *sums);
+        sums = lobe_allocate(allocator, mesh->vertex_count, sizeof *sums);
     if (!sums)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for tangents",
                              mesh->name);
@@ -160,7 +161,7 @@ lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
         sum_tangents(mesh, use, sums);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         store_tangent(&mesh->vertices[i], sums[i]);
-    free(sums);
+    lobe_release(sums);
     return LOBE_OK;
 }
 

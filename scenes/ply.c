@@ -144,7 +144,10 @@ static lobe_result read_data(ply_reader *reader) {
 lobe_result ply_read(const void *bytes, size_t size, const char *name, const lobe_log *log,
                      lobe_mesh *mesh) {
     const char *begin = bytes;
-    ply_reader reader = {.name = name, .log = log, .cursor = {begin, begin + size}};
+    ply_reader reader = {.name = name,
+                         .log = log,
+                         .polygons.allocator = lobe_log_allocator(log),
+                         .cursor = {begin, begin + size}};
     *mesh = (lobe_mesh){0};
     lobe_result status = ply_header_read(&reader.cursor, name, log, &reader.header);
     if (!status)

@@ -1,22 +1,23 @@
 #include "scenes/polygon_mesh.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/mesh.h"
 
 // An array without a capacity of its own: its room is the power of two not below its count.
-static bool grow(void **array, size_t count, size_t element_size) {
+static bool grow(const polygon_mesh *polygons, void **array, size_t count, size_t element_size) {
     if ((count & (count - 1)) != 0)
         return true;
-    void *larger = realloc(*array, (count ? 2 * count : 1) * element_size);
+    void *larger =
+        lobe_reallocate(polygons->allocator, *array, count ? 2 * count : 1, element_size);
     if (larger)
         *array = larger;
     return larger != NULL;
 }
 
 bool polygon_mesh_add_position(polygon_mesh *polygons, const double position[3]) {
-    if (!grow((void **)&polygons->positions, polygons->position_count, sizeof *polygons->positions))
+    if (!grow(polygons, (void **)&polygons->positions, polygons->position_count,
+              sizeof *polygons->positions))
         return false;
     float *added = polygons->positions[polygons->position_count++];
     for (int axis = 0; axis < 3; axis++)
@@ -27,7 +28,8 @@ bool polygon_mesh_add_position(polygon_mesh *polygons, const double position[3])
 bool polygon_mesh_add_triangle(polygon_mesh *polygons, uint32_t a, uint32_t b, uint32_t c) {
     const uint32_t corners[3] = {a, b, c};
     for (int k = 0; k < 3; k++) {
-        if (!grow((void **)&polygons->indices, polygons->index_count, sizeof *polygons->indices))
+        if (!grow(polygons, (void **)&polygons->indices, polygons->index_count,
+                  sizeof *polygons->indices))
             return false;
         polygons->indices[polygons->index_count++] = corners[k];
     }
@@ -67,7 +69,7 @@ lobe_result polygon_mesh_finish(const polygon_mesh *polygons, const char *name, 
 }
 
 void polygon_mesh_free(polygon_mesh *polygons) {
-    free(polygons->positions);
-    free(polygons->indices);
-    *polygons = (polygon_mesh){0};
+    lobe_release(polygons->positions);
+    lobe_release(polygons->indices);
+    *polygons = (polygon_mesh){.allocator = polygons->allocator};
 }

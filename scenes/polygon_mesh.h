@@ -9,9 +9,10 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// Positions and polygons as a file lists them, before they become a mesh. Zero it first; free it
-/// with polygon_mesh_free.
+/// Positions and polygons as a file lists them, before they become a mesh. All zero, but for the
+/// allocator, at first; free it with polygon_mesh_free.
 typedef struct polygon_mesh {
+    const lobe_allocator *allocator;
     float (*positions)[3];
     size_t position_count;
     uint32_t *indices; ///< three a triangle

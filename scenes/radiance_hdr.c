@@ -1,7 +1,6 @@
 #include "scenes/radiance_hdr.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scenes/image_file.h"
@@ -251,7 +250,7 @@ static lobe_result decode(hdr_reader *reader) {
         columns ? reader->length : reader->line_count, reader->log);
     if (result != LOBE_OK)
         return result;
-    uint8_t *line = malloc(4 * (size_t)reader->length);
+    uint8_t *line = lobe_allocate(lobe_log_allocator(reader->log), reader->length, 4);
     if (!line)
         return lobe_log_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                              reader->name);
@@ -261,7 +260,7 @@ static lobe_result decode(hdr_reader *reader) {
         if (!cause)
             place_line(reader, i, line);
     }
-    free(line);
+    lobe_release(line);
     return cause ? fail(reader, cause) : LOBE_OK;
 }
 

@@ -1,6 +1,5 @@
 #include "scenes/scene_file.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 lobe_result scene_file_copy(const char *path, const void *content, size_t content_size,
@@ -10,7 +9,7 @@ lobe_result scene_file_copy(const char *path, const void *content, size_t conten
     if (content_size > LOBE_FILE_MAXIMUM_SIZE)
         return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: more than %zu bytes", path,
                              LOBE_FILE_MAXIMUM_SIZE);
-    uint8_t *copy = malloc(content_size + 1);
+    uint8_t *copy = lobe_allocate(lobe_log_allocator(log), content_size + 1, 1);
     if (!copy)
         return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     if (content_size > 0)

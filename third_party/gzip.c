@@ -1,7 +1,6 @@
 #include "third_party/gzip.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <zlib.h>
 
@@ -13,6 +12,7 @@ typedef struct gzip_job {
     uint8_t *bytes; // unpacked so far
     size_t size, room, maximum;
     size_t left; // packed bytes that zlib has not been told of
+    library_memory *memory;
     const char *cause;
 } gzip_job;
 
@@ -26,12 +26,20 @@ static bool fail(gzip_job *job, const char *cause) {
     return false;
 }
 
+static voidpf allocate(voidpf user, uInt count, uInt size) {
+    return library_memory_resize(user, NULL, (size_t)count * size);
+}
+
+static void release(voidpf user, voidpf piece) {
+    ((library_memory *)user)->release(piece);
+}
+
 // Room for a piece more, and for the zero byte behind it.
 static bool grow(gzip_job *job) {
     if (job->room - job->size > PIECE)
         return true;
     size_t room = 2 * job->room + 2 * PIECE;
-    uint8_t *larger = realloc(job->bytes, room);
+    uint8_t *larger = library_memory_resize(job->memory, job->bytes, room);
     if (!larger)
         return fail(job, "out of memory");
     job->bytes = larger;
@@ -76,17 +84,21 @@ static bool unpack(gzip_job *job) {
     return true;
 }
 
-bool gzip_unpack(const void *bytes, size_t size, size_t maximum, uint8_t **unpacked,
-                 size_t *unpacked_size, char message[GZIP_MESSAGE_SIZE]) {
-    gzip_job job = {.maximum = maximum, .left = size, .cause = "out of memory"};
+bool gzip_unpack(const void *bytes, size_t size, size_t maximum, library_memory *memory,
+                 uint8_t **unpacked, size_t *unpacked_size, char message[GZIP_MESSAGE_SIZE]) {
+    gzip_job job = {.maximum = maximum, .left = size, .memory = memory};
     job.stream.next_in = (Bytef *)bytes; // read only
-    bool done = inflateInit2(&job.stream, GZIP_WINDOW) == Z_OK && unpack(&job);
+    job.stream.zalloc = allocate;
+    job.stream.zfree = release;
+    job.stream.opaque = memory;
+    bool started = inflateInit2(&job.stream, GZIP_WINDOW) == Z_OK;
+    bool done = started ? unpack(&job) : fail(&job, "out of memory");
     inflateEnd(&job.stream);
     if (done) {
         job.bytes[job.size] = 0;
     } else {
         snprintf(message, GZIP_MESSAGE_SIZE, "%s", job.cause);
-        free(job.bytes);
+        memory->release(job.bytes);
         job.bytes = NULL;
     }
     *unpacked = job.bytes;

@@ -2,7 +2,6 @@
 
 #include <setjmp.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <png.h>
@@ -10,6 +9,7 @@
 typedef struct png_job {
     png_structp png;
     png_infop info;
+    library_memory *memory;
     const uint8_t *bytes;
     size_t size, position;
     image_codec_extent extent;
@@ -38,9 +38,18 @@ static void on_read(png_structp png, png_bytep out, size_t size) {
     job->position += size;
 }
 
+static png_voidp on_allocate(png_structp png, png_alloc_size_t size) {
+    return library_memory_resize(png_get_mem_ptr(png), NULL, size);
+}
+
+static void on_release(png_structp png, png_voidp piece) {
+    ((const library_memory *)png_get_mem_ptr(png))->release(piece);
+}
+
 static bool open_job(png_job *job) {
     snprintf(job->message, IMAGE_CODEC_MESSAGE_SIZE, "out of memory");
-    job->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, job, on_error, on_warning);
+    job->png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, job, on_error, on_warning,
+                                        job->memory, on_allocate, on_release);
     if (!job->png)
         return false;
     job->info = png_create_info_struct(job->png);
@@ -53,7 +62,7 @@ static bool open_job(png_job *job) {
 
 static void close_job(png_job *job) {
     png_destroy_read_struct(&job->png, &job->info, NULL);
-    free(job->rows);
+    job->memory->release(job->rows);
 }
 
 // libpng reports errors by a long jump to here: `step` owns nothing.
@@ -96,22 +105,24 @@ static void read_texels(png_job *job) {
     png_read_end(job->png, NULL);
 }
 
-bool png_measure(const void *bytes, size_t size, image_codec_extent *extent,
+bool png_measure(const void *bytes, size_t size, library_memory *memory, image_codec_extent *extent,
                  char message[IMAGE_CODEC_MESSAGE_SIZE]) {
-    png_job job = {.bytes = bytes, .size = size, .message = message};
+    png_job job = {.memory = memory, .bytes = bytes, .size = size, .message = message};
     bool done = open_job(&job) && run(&job, read_header);
     *extent = job.extent;
     close_job(&job);
     return done;
 }
 
-bool png_decode(const void *bytes, size_t size, const image_codec_extent *extent, bool sixteen_bits,
-                void *rgba, char message[IMAGE_CODEC_MESSAGE_SIZE]) {
-    png_job job = {.bytes = bytes, .size = size, .message = message, .rgba = rgba};
+bool png_decode(const void *bytes, size_t size, library_memory *memory,
+                const image_codec_extent *extent, bool sixteen_bits, void *rgba,
+                char message[IMAGE_CODEC_MESSAGE_SIZE]) {
+    png_job job = {
+        .memory = memory, .bytes = bytes, .size = size, .message = message, .rgba = rgba};
     job.sixteen_bits = sixteen_bits && extent->sixteen_bits;
     bool done = open_job(&job);
     if (done)
-        job.rows = malloc(extent->height * sizeof *job.rows);
+        job.rows = library_memory_resize(memory, NULL, extent->height * sizeof *job.rows);
     done = done && job.rows && run(&job, read_header) && run(&job, read_texels);
     close_job(&job);
     return done;

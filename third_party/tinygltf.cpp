@@ -1,7 +1,6 @@
 #include "third_party/tinygltf.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -74,8 +73,8 @@ bool read_file(std::vector<unsigned char> *out, std::string *, const std::string
                void *user) {
     const gltf_source &source = *static_cast<Reading *>(user)->source;
     size_t size = 0;
-    std::unique_ptr<void, decltype(&std::free)> bytes(
-        source.read(source.user, undo_form_decoding(path).c_str(), &size), &std::free);
+    std::unique_ptr<void, void (*)(void *)> bytes(
+        source.read(source.user, undo_form_decoding(path).c_str(), &size), source.release);
     if (!bytes)
         return false;
     const unsigned char *begin = static_cast<const unsigned char *>(bytes.get());

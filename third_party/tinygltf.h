@@ -194,9 +194,10 @@ typedef struct gltf_source {
     size_t size;
     bool binary;        ///< GLB
     const char *folder; ///< buffers' files are relative to it
-    /// Reads an external buffer; `path` is relative to where the process runs. Returns memory to
-    /// be freed with free(), or NULL, on which parsing fails. Must not throw.
+    /// Reads an external buffer; `path` is relative to where the process runs. NULL: parsing fails.
+    /// `release` gets back what was read. Neither may throw.
     void *(*read)(void *user, const char *path, size_t *size);
+    void (*release)(void *bytes);
     void *user;
 } gltf_source;
 

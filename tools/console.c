@@ -26,5 +26,5 @@ static void write_line_but_debug(void *user, lobe_log_level level, const char *m
 }
 
 lobe_log console_log(bool verbose) {
-    return (lobe_log){verbose ? write_line : write_line_but_debug, NULL};
+    return (lobe_log){.write = verbose ? write_line : write_line_but_debug};
 }

@@ -233,7 +233,7 @@ static lobe_result write_graph(const render_request *request, render_state *stat
         result = output_file_write(request->graph, text, &state->log);
     else
         lobe_log_print(&state->log, LOBE_LOG_ERROR, "%s: out of memory", request->graph);
-    free(text);
+    lobe_release(text);
     return result;
 }
 
@@ -330,7 +330,7 @@ static int run_request(const option_table *table, render_request *request) {
     warn_of_what_is_ignored(request, &state.log);
     lobe_result result = render(request, &state);
     free_state(&state);
-    free(request->lights);
+    lobe_release(request->lights);
     return result == LOBE_OK ? 0 : 1;
 }
 

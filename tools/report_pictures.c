@@ -122,7 +122,7 @@ static lobe_result write_picture(const report *report, lobe_image *picture, cons
         html_base64(report->page, data, size);
         fputs("\">\n", report->page);
     }
-    free(data);
+    lobe_release(data);
     lobe_image_free(picture);
     return result;
 }

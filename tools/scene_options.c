@@ -73,7 +73,7 @@ option scene_option_no_lights(scene_options *options) {
 }
 
 static void remove_lights(lobe_scene *scene) {
-    free(scene->lights);
+    lobe_release(scene->lights);
     scene->lights = NULL;
     scene->light_count = 0;
 }

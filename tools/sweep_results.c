@@ -426,7 +426,7 @@ lobe_result sweep_results_read(const char *path, const lobe_log *log, sweep_resu
         result = lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not JSON, or cut off, at byte %zu",
                                path, end ? (size_t)(end - (const char *)text) : size);
     cJSON_Delete(root);
-    free(text);
+    lobe_release(text);
     if (result != LOBE_OK)
         sweep_results_free(results);
     return result;

@@ -112,7 +112,7 @@ int view_options_parse_lights(const option_table *table, const view_options *opt
     *lights = NULL;
     if (options->lights.count == 0)
         return 0;
-    lobe_light *parsed = calloc(options->lights.count, sizeof *parsed);
+    lobe_light *parsed = lobe_allocate(NULL, options->lights.count, sizeof *parsed);
     if (!parsed) {
         fprintf(stderr, "%s: out of memory\n", table->program);
         return 1;
@@ -120,7 +120,7 @@ int view_options_parse_lights(const option_table *table, const view_options *opt
     for (size_t i = 0; i < options->lights.count; ++i) {
         const char *wrong = parse_light(options->lights.values[i], &parsed[i]);
         if (wrong) {
-            free(parsed);
+            lobe_release(parsed);
             return options_usage_error(table, "--light: '%s' %s", options->lights.values[i], wrong);
         }
     }
@@ -155,7 +155,7 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     if (lights) {
         if (scene->has_added_light)
             lobe_scene_set_environment(scene, NULL); // now there is light of its own
-        free(scene->lights);
+        lobe_release(scene->lights);
         scene->lights = lights;
         scene->light_count = options->lights.count;
     }

@@ -23,8 +23,8 @@ option view_option_field_of_view(view_options *options);
 option view_option_path(view_options *options);
 option view_option_light(view_options *options);
 
-/// Reads the lights' texts. On success `*lights` (NULL where there are none) is to free() by the
-/// caller. Returns 0, or the exit status after a line on standard error.
+/// Reads the lights' texts. On success `*lights` (NULL where there are none) is to lobe_release by
+/// the caller. Returns 0, or the exit status after a line on standard error.
 int view_options_parse_lights(const option_table *table, const view_options *options,
                               lobe_light **lights);
 

@@ -68,7 +68,7 @@ static void open_device(host_device *host) {
     vulkan->features = &host->features.core;
     vulkan->extensions = host->extensions;
     vulkan->extension_count =
-        lobe_vulkan_extensions_fill(vulkan->physical_device, host->extensions);
+        lobe_vulkan_extensions_fill(vulkan->physical_device, NULL, host->extensions);
     vulkan->queue_family = lobe_vulkan_queue_family(vulkan->physical_device);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {

@@ -247,7 +247,7 @@ static void cut_off_files_are_refused(void **state) {
         assert_null(contents.levels);
         assert_int_equal(contents.level_count, 0);
     }
-    free(data);
+    lobe_release(data);
     free_levels(levels, count);
 }
 

@@ -394,7 +394,7 @@ static void absurd_windows_are_refused(void **state) {
         assert_int_equal(recorder.errors, 1);
         assert_null(image.texels);
     }
-    free(content.data);
+    lobe_release(content.data);
 }
 
 static void a_file_cut_off_anywhere_is_refused(void **state) {
@@ -414,7 +414,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state) {
             }
             save(path, &content, content.size - 1);
             expect_file_error(path, NULL, LOBE_ERROR_MALFORMED);
-            free(content.data);
+            lobe_release(content.data);
         }
     }
 }
@@ -448,7 +448,7 @@ static void any_byte_may_be_wrong(void **state) {
             expect_order(path);
             content.data[offset] ^= masks[offset % 3];
         }
-        free(content.data);
+        lobe_release(content.data);
     }
 }
 
@@ -468,7 +468,7 @@ static void damage_to_what_openexr_unpacks_is_seen(void **state) {
             expect_order(path);
             content.data[offset] ^= 0x55;
         }
-        free(content.data);
+        lobe_release(content.data);
     }
 }
 

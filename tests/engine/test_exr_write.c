@@ -288,8 +288,8 @@ static void equal_parameters_give_equal_bytes(void **state) {
     }
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(data[0], data[1], sizes[0]);
-    free(data[0]);
-    free(data[1]);
+    lobe_release(data[0]);
+    lobe_release(data[1]);
     lobe_image_free(&image);
 }
 
@@ -396,7 +396,7 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
     size_t size;
     assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     assert_int_equal(size, 3);
-    free(data);
+    lobe_release(data);
     lobe_image_free(&image);
 }
 

@@ -18,7 +18,7 @@ static void expect_content(const char *path, const void *expected, size_t expect
     assert_int_equal(size, expected_size);
     assert_memory_equal(data, expected, size);
     assert_int_equal(data[size], 0);
-    free(data);
+    lobe_release(data);
 }
 
 static void what_was_written_is_read(void **state) {
@@ -44,7 +44,7 @@ static void an_empty_file_has_data(void **state) {
     assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     assert_int_equal(size, 0);
     assert_non_null(data);
-    free(data);
+    lobe_release(data);
 }
 
 static void a_file_without_a_known_size_is_read_to_its_end(void **state) {
@@ -55,7 +55,7 @@ static void a_file_without_a_known_size_is_read_to_its_end(void **state) {
     assert_true(size > 100);
     assert_int_equal(data[size - 1], '\n');
     assert_int_equal(data[size], 0);
-    free(data);
+    lobe_release(data);
 }
 
 static void expect_read_error(const char *path, lobe_result expected) {

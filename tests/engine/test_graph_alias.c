@@ -51,7 +51,7 @@ static void random_requests_never_overlap(void **state) {
                                                  .first = first,
                                                  .last = first + next_random(&seed) % 8};
         }
-        assert_true(engine_alias_plan(requests, count, &shared, &separate));
+        assert_true(engine_alias_plan(NULL, requests, count, &shared, &separate));
         assert_sound(requests, count, shared, separate);
         assert_true(shared >= largest_sum(requests, count, 48));
     }
@@ -64,7 +64,7 @@ static void a_chain_needs_two_places(void **state) {
     for (uint32_t n = 0; n < 10; n++)
         requests[n] =
             (engine_alias_request){.size = 1000, .alignment = 256, .first = n, .last = n + 1};
-    assert_true(engine_alias_plan(requests, 10, &shared, &separate));
+    assert_true(engine_alias_plan(NULL, requests, 10, &shared, &separate));
     assert_sound(requests, 10, shared, separate);
     assert_int_equal(shared, 1024 + 1000);
     assert_int_equal(separate, 9 * 1024 + 1000);
@@ -78,7 +78,7 @@ static void all_alive_at_once_share_nothing(void **state) {
         {.size = 200, .alignment = 16, .last = 5},
     };
     uint64_t shared, separate;
-    assert_true(engine_alias_plan(requests, 3, &shared, &separate));
+    assert_true(engine_alias_plan(NULL, requests, 3, &shared, &separate));
     assert_sound(requests, 3, shared, separate);
     assert_int_equal(shared, separate);
     assert_int_equal(shared, 604); // 300, padded to 304, 200, 100
@@ -87,7 +87,7 @@ static void all_alive_at_once_share_nothing(void **state) {
 static void nothing_needs_nothing(void **state) {
     (void)state;
     uint64_t shared = 1, separate = 1;
-    assert_true(engine_alias_plan(NULL, 0, &shared, &separate));
+    assert_true(engine_alias_plan(NULL, NULL, 0, &shared, &separate));
     assert_int_equal(shared, 0);
     assert_int_equal(separate, 0);
 }

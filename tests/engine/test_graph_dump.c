@@ -71,14 +71,14 @@ static void text_tells_what_happened(void **state) {
     assert_contains(text, "'waste' 64 bytes; 0 bytes of memory, not used");
     assert_contains(text, "without aliasing");
     assert_contains(text, "'a \"name\" with \\ and ? in it'");
-    free(text);
+    lobe_release(text);
     declare(fixture);
     graph_fixture_execute(fixture);
     text = lobe_graph_dump_text(fixture->graph);
     assert_contains(text, "skipped compute  'paint'\n");
     assert_contains(text, "skipped compute  'halve'\n");
     assert_contains(text, "run     compute  'add'");
-    free(text);
+    lobe_release(text);
 }
 
 static void graphviz_has_passes_and_contents(void **state) {
@@ -96,7 +96,7 @@ static void graphviz_has_passes_and_contents(void **state) {
     assert_int_equal(count_of(text, "-> output;"), 3);
     assert_int_equal(count_of(text, "{"), 1);
     assert_int_equal(count_of(text, "\n}\n"), 1);
-    free(text);
+    lobe_release(text);
 }
 
 static void a_compiled_graph_has_no_times(void **state) {
@@ -105,7 +105,7 @@ static void a_compiled_graph_has_no_times(void **state) {
     assert_int_equal(lobe_graph_compile(fixture->graph), LOBE_OK);
     char *text = lobe_graph_dump_graphviz(fixture->graph);
     assert_contains(text, "label=\"paint\\ncompute, run\\n");
-    free(text);
+    lobe_release(text);
 }
 
 static void what_was_not_compiled_is_no_picture(void **state) {
@@ -114,10 +114,10 @@ static void what_was_not_compiled_is_no_picture(void **state) {
     char *text = lobe_graph_dump_graphviz(fixture->graph);
     assert_contains(text, "digraph lobe {");
     assert_lacks(text, "paint");
-    free(text);
+    lobe_release(text);
     text = lobe_graph_dump_text(fixture->graph);
     assert_contains(text, "'levels'");
-    free(text);
+    lobe_release(text);
 }
 
 #define TEST(function)                                                                             \

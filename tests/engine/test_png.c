@@ -60,8 +60,8 @@ static void memory_holds_what_a_file_would(void **state) {
     assert_int_equal(lobe_file_read(path, NULL, NULL, &file, &file_size), LOBE_OK);
     assert_int_equal(encoded_size, file_size);
     assert_memory_equal(encoded, file, file_size);
-    free(encoded);
-    free(file);
+    lobe_release(encoded);
+    lobe_release(file);
     image.format = LOBE_FORMAT_R32_FLOAT;
     log_recorder recorder;
     log_recorder_start(&recorder);
@@ -78,7 +78,7 @@ static void header_byte(const char *path, size_t offset, int expected) {
     size_t size;
     assert_int_equal(lobe_file_read(path, NULL, NULL, &data, &size), LOBE_OK);
     assert_int_equal(data[offset], expected);
-    free(data);
+    lobe_release(data);
 }
 
 static void alpha_is_stored_only_where_there_is_any(void **state) {
@@ -105,8 +105,8 @@ static void equal_images_give_equal_bytes(void **state) {
     }
     assert_int_equal(sizes[0], sizes[1]);
     assert_memory_equal(data[0], data[1], sizes[0]);
-    free(data[0]);
-    free(data[1]);
+    lobe_release(data[0]);
+    lobe_release(data[1]);
     lobe_image_free(&image);
 }
 
@@ -190,7 +190,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state) {
     }
     assert_int_equal(lobe_file_write(path, data, size - 1, NULL), LOBE_OK);
     expect_read_error(path, LOBE_ERROR_MALFORMED);
-    free(data);
+    lobe_release(data);
 }
 
 static void absurd_extents_are_refused_before_memory_is_taken(void **state) {

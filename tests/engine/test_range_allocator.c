@@ -17,7 +17,7 @@ static void whole_size_can_be_taken_and_given_back(void **state) {
     (void)state;
     engine_range_allocator allocator;
     uint64_t offset;
-    assert_true(engine_range_allocator_create(&allocator, SIZE));
+    assert_true(engine_range_allocator_create(NULL, SIZE, &allocator));
     assert_true(engine_range_allocate(&allocator, SIZE, 1, &offset));
     assert_int_equal(offset, 0);
     assert_false(engine_range_allocate(&allocator, 1, 1, &offset));
@@ -30,7 +30,7 @@ static void more_than_there_is_is_refused(void **state) {
     (void)state;
     engine_range_allocator allocator;
     uint64_t offset;
-    assert_true(engine_range_allocator_create(&allocator, SIZE));
+    assert_true(engine_range_allocator_create(NULL, SIZE, &allocator));
     assert_false(engine_range_allocate(&allocator, SIZE + 1, 1, &offset));
     assert_false(engine_range_allocate(&allocator, UINT64_MAX, 1, &offset));
     assert_true(engine_range_allocate(&allocator, 1, 1, &offset));
@@ -44,7 +44,7 @@ static void tightest_gap_is_used(void **state) {
     (void)state;
     engine_range_allocator allocator;
     uint64_t offset[5], found;
-    assert_true(engine_range_allocator_create(&allocator, SIZE));
+    assert_true(engine_range_allocator_create(NULL, SIZE, &allocator));
     const uint64_t sizes[] = {256, 64, 128, 64, 512};
     for (size_t i = 0; i < 5; i++)
         assert_true(engine_range_allocate(&allocator, sizes[i], 1, &offset[i]));
@@ -63,7 +63,7 @@ static void neighbours_are_joined(void **state) {
     for (size_t order = 0; order < 6; order++) {
         engine_range_allocator allocator;
         uint64_t offset[3];
-        assert_true(engine_range_allocator_create(&allocator, 300));
+        assert_true(engine_range_allocator_create(NULL, 300, &allocator));
         for (size_t i = 0; i < 3; i++)
             assert_true(engine_range_allocate(&allocator, 100, 1, &offset[i]));
         for (size_t i = 0; i < 3; i++)
@@ -78,7 +78,7 @@ static void many_gaps_need_no_memory_when_given_back(void **state) {
     (void)state;
     engine_range_allocator allocator;
     uint64_t offset;
-    assert_true(engine_range_allocator_create(&allocator, SIZE));
+    assert_true(engine_range_allocator_create(NULL, SIZE, &allocator));
     for (uint64_t i = 0; i < SIZE; i++)
         assert_true(engine_range_allocate(&allocator, 1, 1, &offset));
     const engine_range *before = allocator.free;
@@ -110,7 +110,7 @@ static void random_use_never_overlaps_and_is_fully_returned(void **state) {
     taken live[REQUESTS] = {{0}};
     uint32_t seed = 1;
     size_t served = 0;
-    assert_true(engine_range_allocator_create(&allocator, SIZE));
+    assert_true(engine_range_allocator_create(NULL, SIZE, &allocator));
     for (int step = 0; step < 20000; step++) {
         taken *slot = &live[next_random(&seed) % REQUESTS];
         if (slot->size) {

@@ -27,7 +27,7 @@ static int create(void **state, bool validation) {
     if (!f)
         return -1;
     *state = f;
-    f->log = (lobe_log){record, f};
+    f->log = (lobe_log){.write = record, .user = f};
     lobe_device_parameters parameters = {.validation = validation, .log = &f->log};
     lobe_result result = lobe_device_create(&parameters, &f->device);
     if (result == LOBE_OK)

@@ -96,8 +96,8 @@ void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity)
 }
 
 void scene_set_environment(lobe_scene *scene, lobe_image image) {
-    lobe_environment *environment = calloc(1, sizeof *environment);
-    char *name = strdup("environment");
+    lobe_environment *environment = lobe_allocate(NULL, 1, sizeof *environment);
+    char *name = lobe_copy_text(NULL, "environment");
     if (!environment || !name)
         abort();
     *environment = (lobe_environment){.name = name,

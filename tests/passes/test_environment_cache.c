@@ -225,7 +225,7 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     expect_passed_over(16);
     data[size / 2] ^= 1;
     assert_int_equal(lobe_file_write(kept_file(), data, size, NULL), LOBE_OK);
-    free(data);
+    lobe_release(data);
     change_a_texel(&cube);
     expect_passed_over(16);
     environment_cache_store(test_folder.path, 8, &cube, NULL);

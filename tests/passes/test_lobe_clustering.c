@@ -469,8 +469,8 @@ static void an_uncovered_atlas_has_no_weight(void **state) {
 static void add_back_to_back(lobe_scene *scene, const lobe_material *material) {
     scene_add_square(scene, material, 1, NULL);
     lobe_mesh *mesh = &scene->meshes[0];
-    lobe_scene_vertex *vertices = realloc(mesh->vertices, 8 * sizeof *vertices);
-    uint32_t *indices = realloc(mesh->indices, 12 * sizeof *indices);
+    lobe_scene_vertex *vertices = lobe_reallocate(NULL, mesh->vertices, 8, sizeof *vertices);
+    uint32_t *indices = lobe_reallocate(NULL, mesh->indices, 12, sizeof *indices);
     assert_non_null(vertices);
     assert_non_null(indices);
     for (uint32_t i = 0; i < 4; i++) {

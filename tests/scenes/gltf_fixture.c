@@ -91,7 +91,7 @@ static void on_log(void *user, lobe_log_level level, const char *message) {
 }
 
 lobe_result gltf_fixture_open_path(gltf_fixture *fixture, const char *path, lobe_scene **scene) {
-    lobe_log log = {on_log, fixture};
+    lobe_log log = {.write = on_log, .user = fixture};
     fixture->errors = fixture->warnings = fixture->notices = 0;
     fixture->error[0] = fixture->warnings_text[0] = 0;
     *scene = (lobe_scene *)fixture; // must be overwritten

@@ -213,7 +213,7 @@ static void all_that_is_cut_off_is_refused(void **state) {
             assert_true(result == LOBE_ERROR_MALFORMED ||
                         (part >= 4 && part < 12 && result == LOBE_ERROR_UNSUPPORTED));
         }
-        free(bytes);
+        lobe_release(bytes);
     }
 }
 

@@ -32,7 +32,7 @@ static void on_log(void *user, lobe_log_level level, const char *message) {
     snprintf(error, sizeof error, "%s", message);
 }
 
-static const lobe_log test_log = {on_log, NULL};
+static const lobe_log test_log = {.write = on_log};
 
 static void assert_said(lobe_result result, const lobe_image *image, const char *name) {
     if (result == LOBE_OK) {

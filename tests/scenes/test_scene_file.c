@@ -81,7 +81,7 @@ static int open_archive(void **state) {
 
 static int close_archive(void **state) {
     archive *a = *state;
-    free(a->png);
+    lobe_release(a->png);
     free(a);
     return 0;
 }

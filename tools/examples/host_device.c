@@ -62,7 +62,7 @@ static void open_host(host *h) {
     h->vulkan.features = &h->features.core;
     h->vulkan.extensions = h->extensions;
     h->vulkan.extension_count =
-        lobe_vulkan_extensions_fill(h->vulkan.physical_device, h->extensions);
+        lobe_vulkan_extensions_fill(h->vulkan.physical_device, NULL, h->extensions);
     h->vulkan.queue_family = lobe_vulkan_queue_family(h->vulkan.physical_device);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

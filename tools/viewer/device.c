@@ -62,7 +62,7 @@ static lobe_result create_device(viewer_device *device) {
     lobe_vulkan_features features;
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS + 1];
     lobe_vulkan_features_fill(vulkan->physical_device, &features);
-    uint32_t count = lobe_vulkan_extensions_fill(vulkan->physical_device, extensions);
+    uint32_t count = lobe_vulkan_extensions_fill(vulkan->physical_device, NULL, extensions);
     extensions[count++] = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

@@ -49,7 +49,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
         result = lobe_log_fail(&v->log, LOBE_ERROR_INVALID_ARGUMENT,
                                "camera: eye and target are the same point, it looks nowhere");
     if (result != LOBE_OK) {
-        free(request->lights); // else they are the scene's now
+        lobe_release(request->lights); // else they are the scene's now
         return result;
     }
     v->view.scene = v->scene;

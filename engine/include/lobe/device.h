@@ -45,7 +45,7 @@ typedef struct lobe_device_parameters {
     /// Most bytes of device memory to take; an allocation above fails with
     /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY. 0: no limit but the device's own.
     uint64_t memory_limit;
-    /// Copied. NULL: silent.
+    /// Copied. NULL: silent. Its allocator serves the device and all that is made on it.
     const lobe_log *log;
 } lobe_device_parameters;
 
@@ -57,6 +57,10 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
 /// Waits for the device, saves the pipeline cache, frees everything and clears the pointer.
 /// Textures, buffers and graphs of the device must have been destroyed before. NULL is fine.
 void lobe_device_destroy(lobe_device **device);
+
+/// Where the device, and all that is made on it, gets the host's memory: as the log in its
+/// parameters says. NULL: the C library's.
+const lobe_allocator *lobe_device_allocator(const lobe_device *device);
 
 /// A Vulkan feature lobe knows about.
 typedef struct lobe_device_feature {

@@ -17,8 +17,8 @@ extern "C" {
 /// Largest file that is read, in bytes: 2 GiB.
 #define LOBE_FILE_MAXIMUM_SIZE ((size_t)1 << 31)
 
-/// Reads a regular file to its end. `*data` is to free() by the caller; a zero byte that `*size`
-/// does not count follows the content. On failure `*data` is NULL.
+/// Reads a regular file to its end. `*data` is for the caller to lobe_release; a zero byte that
+/// `*size` does not count follows the content. On failure `*data` is NULL.
 /// `owner`: the file that refers to this one, named in the log line too; NULL: none.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ (no permission, not a regular file),
 /// LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
@@ -38,7 +38,7 @@ typedef struct lobe_file_source {
 
 /// Writes a file under a temporary name in the same folder, then gives it its name, replacing an
 /// old one. What is not a regular file (a device, a pipe) is written to directly.
-/// Errors: LOBE_ERROR_WRITE; nothing new is left behind.
+/// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; nothing new is left behind.
 lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_log *log);
 
 #ifdef __cplusplus

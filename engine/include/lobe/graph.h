@@ -228,6 +228,11 @@ lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range r
 /// Keeps a pass (and all it depends on) although no output reads what it writes.
 void lobe_pass_keep(lobe_pass *pass);
 
+/// Makes the frame fail as a mistake in its declaration does, for whoever finds that a pass cannot
+/// be declared. Only a frame's first failure is logged and counts: its code is returned.
+LOBE_LOG_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
+                                            const char *format, ...);
+
 // ---------------------------------------------------------------------------------------------
 // Outputs and execution
 
@@ -312,7 +317,7 @@ typedef struct lobe_graph_report {
 /// About the frame last compiled or executed; valid until the next begin.
 const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph);
 
-/// The compiled graph as text or as Graphviz, to free() by the caller; NULL without memory.
+/// The compiled graph as text or as Graphviz, for the caller to lobe_release; NULL without memory.
 /// Shows passes (run, culled, skipped), resources, barriers, memory with and without aliasing.
 char *lobe_graph_dump_text(const lobe_graph *graph);
 char *lobe_graph_dump_graphviz(const lobe_graph *graph);

@@ -40,7 +40,8 @@ uint32_t lobe_format_channels(lobe_format format);
 /// For example "RGBA16_FLOAT". Never NULL.
 const char *lobe_format_name(lobe_format format);
 
-/// A two-dimensional image in host memory: rows from top to bottom, tightly packed.
+/// A two-dimensional image in host memory: rows from top to bottom, tightly packed. A host may fill
+/// one itself; of one that lobe is to free, the texels must come from lobe_allocate.
 typedef struct lobe_image {
     lobe_format format;
     uint32_t width;  ///< texels

@@ -1,6 +1,7 @@
 #ifndef LOBE_LOG_H
 #define LOBE_LOG_H
 
+#include <lobe/allocator.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -14,13 +15,18 @@ typedef enum lobe_log_level {
     LOBE_LOG_DEBUG,   ///< for developers
 } lobe_log_level;
 
-/// Where the library sends its words. lobe prints nothing of its own.
+/// Where the library sends its words, and where it gets its memory. lobe prints nothing of its own.
 typedef struct lobe_log {
     /// Called with one line of UTF-8 without a line end; `message` lives only during the call.
     /// May be called from several threads at once. NULL drops all messages.
     void (*write)(void *user, lobe_log_level level, const char *message);
     void *user; ///< handed to `write` unchanged
+    /// Not copied: it must outlive all that was made with this log. NULL: the C library's.
+    const lobe_allocator *allocator;
 } lobe_log;
+
+/// The log's allocator; NULL, the C library's, where it or the log is NULL.
+const lobe_allocator *lobe_log_allocator(const lobe_log *log);
 
 /// The compiler checks arguments against the format where it knows how.
 #if defined(__GNUC__)

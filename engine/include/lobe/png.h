@@ -18,8 +18,9 @@ extern "C" {
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log);
 
-/// Makes in memory what lobe_png_write would write. `*data` is to free() by the caller; `name` is
-/// for messages. On failure `*data` is NULL. Errors: those of lobe_png_write but LOBE_ERROR_WRITE.
+/// Makes in memory what lobe_png_write would write. `*data` is for the caller to lobe_release;
+/// `name` is for messages. On failure `*data` is NULL. Errors: those of lobe_png_write but
+/// LOBE_ERROR_WRITE.
 lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_log *log,
                             uint8_t **data, size_t *size);
 

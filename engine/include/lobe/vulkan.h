@@ -7,6 +7,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <lobe/allocator.h>
 #include <lobe/device.h>
 #include <lobe/graph.h>
 #include <lobe/log.h>
@@ -57,8 +58,10 @@ const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count);
 /// Most names that lobe_vulkan_extensions_fill gives.
 #define LOBE_VULKAN_MAXIMUM_EXTENSIONS 4
 /// The names of those the device has, for VkDeviceCreateInfo.ppEnabledExtensionNames; returns how
-/// many. Static storage.
+/// many. Static storage. There are none without memory, which `allocator` gives for the call; NULL:
+/// the C library's.
 uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
+                                     const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]);
 
 /// The first queue family that serves lobe: one with both graphics and compute. UINT32_MAX where
@@ -92,7 +95,7 @@ typedef struct lobe_vulkan_device {
     bool debug_utils; ///< the instance has VK_EXT_debug_utils: lobe names its objects and passes
     /// Where the driver is to get the host's memory for all that lobe makes of Vulkan, from
     /// whatever thread lobe is called from; copied. NULL: wherever it likes. lobe's own structures
-    /// come from malloc().
+    /// come from the allocator of the log in the parameters.
     const VkAllocationCallbacks *allocation_callbacks;
     /// Called around each use of the queue, so that host and lobe can share it: nobody else may
     /// use the queue in between. Called from whatever thread lobe is called from, and never nested.

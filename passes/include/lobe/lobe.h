@@ -3,6 +3,7 @@
 
 /// lobe: rendering whose appearance stays true at every distance. This header brings all of it.
 
+#include <lobe/allocator.h>
 #include <lobe/colour.h>
 #include <lobe/device.h>
 #include <lobe/environment.h>

@@ -27,7 +27,8 @@ typedef enum lobe_environment_layout {
     LOBE_ENVIRONMENT_HORIZONTAL_CROSS, ///< four faces wide, three high
 } lobe_environment_layout;
 
-/// Plain data that a host may also fill itself.
+/// Plain data that a host may also fill itself. Of one that lobe is to free, all comes from
+/// lobe_allocate: the structure, the name, the texels.
 typedef struct lobe_environment {
     char *name;       ///< a file or "sky", for messages; owned
     lobe_image image; ///< RGBA32_FLOAT: linear radiance, all finite and at least 0; alpha is unused

@@ -16,7 +16,8 @@ extern "C" {
 #endif
 
 /// What is drawn, in host memory. Lengths are metres, +Y is up, right-handed, as in glTF.
-/// A scene owns everything it points to; it is plain data that a host may also fill itself.
+/// A scene owns everything it points to; it is plain data that a host may also fill itself. Of one
+/// that lobe_scene_destroy is to free, all comes from lobe_allocate: the structure, arrays, names.
 
 typedef enum lobe_scene_wrap {
     LOBE_SCENE_WRAP_REPEAT,
