@@ -1,7 +1,6 @@
 #include "passes/cube_image.h"
 
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define FACES 6
@@ -35,7 +34,8 @@ lobe_result cube_image_allocate(cube_image *cube, uint32_t width, const lobe_log
     *cube = (cube_image){.width = width};
     for (uint32_t extent = width; extent > 0; extent /= 2)
         ++cube->levels;
-    cube->texels = calloc(4 * cube_image_texels(cube), sizeof *cube->texels);
+    cube->texels =
+        lobe_allocate(lobe_log_allocator(log), 4 * cube_image_texels(cube), sizeof *cube->texels);
     if (cube->texels)
         return LOBE_OK;
     *cube = (cube_image){0};
@@ -44,7 +44,7 @@ lobe_result cube_image_allocate(cube_image *cube, uint32_t width, const lobe_log
 }
 
 void cube_image_free(cube_image *cube) {
-    free(cube->texels);
+    lobe_release(cube->texels);
     *cube = (cube_image){0};
 }
 

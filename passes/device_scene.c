@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cglm/cglm.h>
@@ -356,12 +355,18 @@ lobe_result device_scene_upload_environment(lobe_device *device, device_scene *r
 
 static bool allocate_tables(device_scene *result) {
     const lobe_scene *scene = result->scene;
-    result->images = calloc(scene->image_count + 1, sizeof *result->images);
-    result->materials = calloc(scene->material_count + 1, sizeof *result->materials);
-    result->vertices = calloc(scene->mesh_count + 1, sizeof *result->vertices);
-    result->indices = calloc(scene->mesh_count + 1, sizeof *result->indices);
-    result->densities = calloc(scene->mesh_count + 1, sizeof *result->densities);
-    result->instances = calloc(scene->instance_count + 1, sizeof *result->instances);
+    result->images =
+        lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->images);
+    result->materials =
+        lobe_allocate(result->allocator, scene->material_count + 1, sizeof *result->materials);
+    result->vertices =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->vertices);
+    result->indices =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
+    result->densities =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->densities);
+    result->instances =
+        lobe_allocate(result->allocator, scene->instance_count + 1, sizeof *result->instances);
     return result->images && result->materials && result->vertices && result->indices &&
            result->densities && result->instances;
 }
@@ -369,9 +374,12 @@ static bool allocate_tables(device_scene *result) {
 lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
                                 device_scene **result) {
     lobe_result status = LOBE_ERROR_OUT_OF_MEMORY;
-    *result = calloc(1, sizeof **result);
-    if (*result)
+    const lobe_allocator *allocator = lobe_device_allocator(device);
+    *result = lobe_allocate(allocator, 1, sizeof **result);
+    if (*result) {
         (*result)->scene = scene;
+        (*result)->allocator = allocator;
+    }
     if (!*result || !allocate_tables(*result)) {
         lobe_log_print(log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
         goto fail;
@@ -411,13 +419,13 @@ void device_scene_destroy(device_scene **scene) {
     }
     lobe_texture_destroy(&s->white);
     lobe_texture_destroy(&s->environment);
-    free(s->images);
-    free(s->materials);
-    free(s->vertices);
-    free(s->indices);
-    free(s->densities);
-    free(s->instances);
-    free(s);
+    lobe_release(s->images);
+    lobe_release(s->materials);
+    lobe_release(s->vertices);
+    lobe_release(s->indices);
+    lobe_release(s->densities);
+    lobe_release(s->instances);
+    lobe_release(s);
     *scene = NULL;
 }
 

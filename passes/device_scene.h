@@ -46,9 +46,10 @@ typedef struct device_instance {
 /// The device's copy of a scene: only what instances use.
 typedef struct device_scene {
     const lobe_scene *scene;
-    lobe_texture *white;       ///< one white texel, where a map is missing
-    lobe_texture **images;     ///< one an image of the scene; NULL: not used
-    lobe_texture *environment; ///< its image; NULL: none
+    const lobe_allocator *allocator; ///< the device's
+    lobe_texture *white;             ///< one white texel, where a map is missing
+    lobe_texture **images;           ///< one an image of the scene; NULL: not used
+    lobe_texture *environment;       ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices; ///< one a mesh; NULL: not used
     lobe_buffer **indices;

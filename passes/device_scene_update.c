@@ -1,7 +1,5 @@
 #include "passes/device_scene_parts.h"
 
-#include <stdlib.h>
-
 #include "passes/scene_check.h"
 
 /// One update, and what follows from what the host says has changed.
@@ -192,8 +190,10 @@ lobe_result device_scene_update(lobe_device *device, device_scene *scene,
         result = check_content(&update);
     if (result != LOBE_OK)
         return result;
-    update.materials = calloc(scene->scene->material_count + 1, sizeof *update.materials);
-    update.instances = calloc(scene->scene->instance_count + 1, sizeof *update.instances);
+    update.materials = lobe_allocate(lobe_log_allocator(log), scene->scene->material_count + 1,
+                                     sizeof *update.materials);
+    update.instances = lobe_allocate(lobe_log_allocator(log), scene->scene->instance_count + 1,
+                                     sizeof *update.instances);
     if (update.materials && update.instances) {
         mark_materials(&update);
         mark_instances(&update);
@@ -202,7 +202,7 @@ lobe_result device_scene_update(lobe_device *device, device_scene *scene,
         result =
             lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->scene->name);
     }
-    free(update.materials);
-    free(update.instances);
+    lobe_release(update.materials);
+    lobe_release(update.instances);
     return result;
 }

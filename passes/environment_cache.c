@@ -2,7 +2,6 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -61,10 +60,10 @@ static number_as_text hexadecimal(uint64_t number) {
 // ---------------------------------------------------------------------------------------------
 // Files
 
-/// To free() by the caller; NULL without memory.
-static char *path_of(const char *folder, uint64_t key) {
+/// To lobe_release by the caller; NULL without memory.
+static char *path_of(const lobe_allocator *allocator, const char *folder, uint64_t key) {
     size_t size = strlen(folder) + 32;
-    char *path = malloc(size);
+    char *path = lobe_allocate(allocator, size, 1);
     if (path)
         snprintf(path, size, "%s/%s.exr", folder, hexadecimal(key).text);
     return path;
@@ -75,12 +74,14 @@ static bool says(const lobe_exr_contents *contents, const char *name, uint64_t n
     return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
 }
 
-static bool load(const char *path, uint64_t key, uint32_t width, cube_image *cube) {
+static bool load(const char *path, uint64_t key, uint32_t width, const lobe_log *log,
+                 cube_image *cube) {
+    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
     lobe_exr_contents contents;
-    if (lobe_exr_read_contents(path, NULL, NULL, &contents) != LOBE_OK)
+    if (lobe_exr_read_contents(path, NULL, &silent, &contents) != LOBE_OK)
         return false;
     bool whole = says(&contents, key_attribute, key) &&
-                 cube_image_from(path, &contents, NULL, cube) == LOBE_OK;
+                 cube_image_from(path, &contents, &silent, cube) == LOBE_OK;
     whole = whole && cube->width == width && says(&contents, checksum_attribute, checksum_of(cube));
     if (!whole)
         cube_image_free(cube);
@@ -91,30 +92,32 @@ static bool load(const char *path, uint64_t key, uint32_t width, cube_image *cub
 bool environment_cache_load(const char *folder, uint64_t key, uint32_t width, const lobe_log *log,
                             cube_image *cube) {
     *cube = (cube_image){0};
-    char *path = path_of(folder, key);
+    char *path = path_of(lobe_log_allocator(log), folder, key);
     bool there = path && access(path, F_OK) == 0;
-    bool loaded = there && load(path, key, width, cube);
+    bool loaded = there && load(path, key, width, log, cube);
     if (there && !loaded)
         lobe_log_print(log, LOBE_LOG_NOTICE, "%s: damaged or foreign: it is made again", path);
-    free(path);
+    lobe_release(path);
     return loaded;
 }
 
-static lobe_result store(const char *path, uint64_t key, const cube_image *cube) {
+static lobe_result store(const char *path, uint64_t key, const cube_image *cube,
+                         const lobe_log *log) {
+    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
     const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
         {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
         {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},
     };
-    return cube_image_write(path, cube, attributes, 2, NULL);
+    return cube_image_write(path, cube, attributes, 2, &silent);
 }
 
 void environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
                              const lobe_log *log) {
-    char *path = path_of(folder, key);
-    if (!path || store(path, key, cube) != LOBE_OK)
+    char *path = path_of(lobe_log_allocator(log), folder, key);
+    if (!path || store(path, key, cube, log) != LOBE_OK)
         lobe_log_print(log, LOBE_LOG_WARNING,
                        "%s: the filtered environment cannot be kept there for the next time",
                        folder);
-    free(path);
+    lobe_release(path);
 }

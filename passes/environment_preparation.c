@@ -1,6 +1,5 @@
 #include <lobe/environment_maps.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "passes/environment_maps.h"
@@ -31,7 +30,7 @@ static lobe_result out_of_memory(const lobe_log *log) {
 }
 
 static lobe_result take_times(lobe_environment_maps *maps) {
-    if (pass_times_add(&maps->times, lobe_graph_describe(maps->graph)))
+    if (pass_times_add(&maps->times, lobe_graph_describe(maps->graph), maps->log.allocator))
         return LOBE_OK;
     return out_of_memory(&maps->log);
 }
@@ -149,6 +148,7 @@ static void set_up(lobe_environment_maps *maps, lobe_device *device,
     maps->device = device;
     if (parameters->log)
         maps->log = *parameters->log;
+    maps->log.allocator = lobe_device_allocator(device);
     maps->shape = *parameters->environment;
     maps->shape.name = NULL;
     maps->shape.image.texels = NULL;
@@ -176,7 +176,7 @@ static lobe_result fill(lobe_environment_maps *maps, const lobe_environment *env
 }
 
 static bool copy_cache(lobe_environment_maps *maps, const char *cache) {
-    maps->cache = cache ? strdup(cache) : NULL;
+    maps->cache = cache ? lobe_copy_text(maps->log.allocator, cache) : NULL;
     return !cache || maps->cache;
 }
 
@@ -184,7 +184,7 @@ lobe_result lobe_environment_maps_create(lobe_device *device,
                                          const lobe_environment_maps_parameters *parameters,
                                          lobe_environment_maps **maps) {
     bool stopped = false;
-    *maps = calloc(1, sizeof **maps);
+    *maps = lobe_allocate(lobe_device_allocator(device), 1, sizeof **maps);
     if (!*maps)
         return out_of_memory(parameters->log);
     set_up(*maps, device, parameters);
@@ -202,10 +202,10 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
         return;
     lobe_graph_destroy(&(*maps)->graph);
     environment_store_forget(&(*maps)->store);
-    free((*maps)->cache);
+    lobe_release((*maps)->cache);
     lobe_texture_destroy(&(*maps)->texture);
     lobe_frame_free(&(*maps)->times);
-    free(*maps);
+    lobe_release(*maps);
     *maps = NULL;
 }
 

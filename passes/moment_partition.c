@@ -1,7 +1,6 @@
 #include "passes/moment_partition.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "passes/material_patch.h"
@@ -424,21 +423,27 @@ static void choose(const material_patch *patches, sample *samples, uint32_t coun
     *chosen = candidates[number];
 }
 
-/// One bin for all, where the patches cannot be read or memory is short.
-static void choose_for_material(const lobe_scene *scene, const device_material *material,
-                                sample *samples, uint32_t count, uint32_t bins, mixture *chosen) {
+/// One bin for all, where the patches cannot be read. False without memory.
+static bool choose_for_material(const lobe_allocator *allocator, const lobe_scene *scene,
+                                const device_material *material, sample *samples, uint32_t count,
+                                uint32_t bins, mixture *chosen) {
     *chosen = (mixture){.count = 1, .components = {{.weight = 1, .determinant = 1}}};
-    material_patch *patches = calloc(MATERIAL_PATCHES, sizeof *patches);
-    bool readable = patches && count > 0;
+    material_patch *patches = lobe_allocate(allocator, MATERIAL_PATCHES, sizeof *patches);
+    if (!patches)
+        return false;
+    bool readable = count > 0;
     for (uint32_t i = 0; readable && i < MATERIAL_PATCHES; ++i)
         readable = material_patch_read(scene, material, i, &patches[i]);
     if (readable)
         choose(patches, samples, count, bins, chosen);
-    free(patches);
+    lobe_release(patches);
+    return true;
 }
 
-static void make_partition(const lobe_scene *scene, const device_material *material, uint32_t kind,
-                           uint32_t bins, moment_partition *partition) {
+/// False without memory.
+static bool make_partition(const device_scene *uploaded, const device_material *material,
+                           uint32_t kind, uint32_t bins, moment_partition *partition) {
+    const lobe_scene *scene = uploaded->scene;
     sample samples[SAMPLES * LOBE_MATERIAL_MAXIMUM_LOBES];
     uint32_t count = take_samples(scene, material, samples);
     memset(partition, 0, sizeof *partition);
@@ -448,11 +453,13 @@ static void make_partition(const lobe_scene *scene, const device_material *mater
     material_lobe_extent(material, &partition->width, &partition->height);
     if (kind != PARTITION_FITTED) {
         set_hats(samples, count, partition);
-        return;
+        return true;
     }
     mixture fitted;
-    choose_for_material(scene, material, samples, count, bins, &fitted);
+    if (!choose_for_material(uploaded->allocator, scene, material, samples, count, bins, &fitted))
+        return false;
     set_fitted(&fitted, partition);
+    return true;
 }
 
 const moment_partition *moment_partition_of(const device_scene *scene, uint32_t index,
@@ -461,8 +468,9 @@ const moment_partition *moment_partition_of(const device_scene *scene, uint32_t 
     moment_partition_cache *cache = &material->partition;
     if (cache->filled && cache->kind == kind && cache->bins == bins)
         return &cache->partition;
-    make_partition(scene->scene, material, kind, bins, &cache->partition);
-    cache->filled = true;
+    cache->filled = make_partition(scene, material, kind, bins, &cache->partition);
+    if (!cache->filled)
+        return NULL;
     cache->kind = kind;
     cache->bins = bins;
     return &cache->partition;

@@ -35,7 +35,7 @@ struct device_scene;
 /// The partition of a material that has a normal or width map: fitted, of as many bins as are asked
 /// for [1, MOMENT_MAXIMUM_BINS], or 0: the least number that serves some patches of the maps about
 /// as well as the best number does; or by hats, which have a number of their own. Kept with the
-/// scene until another is asked for.
+/// scene until another is asked for. NULL without memory.
 const moment_partition *moment_partition_of(const struct device_scene *scene, uint32_t material,
                                             uint32_t kind, uint32_t bins);
 

@@ -1,15 +1,16 @@
 #include "passes/pass_times.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name) {
+static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name,
+                                      const lobe_allocator *allocator) {
     for (size_t i = 0; i < frame->pass_count; ++i) {
         if (strcmp(frame->passes[i].name, name) == 0)
             return &frame->passes[i];
     }
-    lobe_pass_time *grown = realloc(frame->passes, (frame->pass_count + 1) * sizeof *frame->passes);
+    lobe_pass_time *grown =
+        lobe_reallocate(allocator, frame->passes, frame->pass_count + 1, sizeof *frame->passes);
     if (!grown)
         return NULL;
     frame->passes = grown;
@@ -19,14 +20,15 @@ static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name) {
     return time;
 }
 
-bool pass_times_add(lobe_frame *frame, const lobe_graph_report *report) {
+bool pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
+                    const lobe_allocator *allocator) {
     frame->milliseconds += report->milliseconds;
     frame->host_milliseconds += report->host_milliseconds;
     ++frame->submissions;
     for (size_t i = 0; i < report->pass_count; ++i) {
         if (report->passes[i].state != LOBE_PASS_RUN)
             continue;
-        lobe_pass_time *time = find_or_append(frame, report->passes[i].name);
+        lobe_pass_time *time = find_or_append(frame, report->passes[i].name, allocator);
         if (!time)
             return false;
         time->milliseconds += report->passes[i].milliseconds;

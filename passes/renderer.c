@@ -1,6 +1,5 @@
 #include <lobe/renderer.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "passes/accumulation.h"
@@ -41,7 +40,8 @@ typedef struct rendering {
 
 lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
                                  lobe_renderer **renderer) {
-    *renderer = calloc(1, sizeof **renderer);
+    const lobe_allocator *allocator = lobe_device_allocator(device);
+    *renderer = lobe_allocate(allocator, 1, sizeof **renderer);
     if (!*renderer) {
         lobe_log_print(log, LOBE_LOG_ERROR, "renderer: out of memory");
         return LOBE_ERROR_OUT_OF_MEMORY;
@@ -49,6 +49,7 @@ lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
     (*renderer)->device = device;
     if (log)
         (*renderer)->log = *log;
+    (*renderer)->log.allocator = allocator;
     lobe_result result = lobe_graph_create(device, &(*renderer)->graph);
     if (result != LOBE_OK)
         lobe_renderer_destroy(renderer);
@@ -57,8 +58,8 @@ lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
 
 static void forget_scene(lobe_renderer *renderer) {
     device_scene_destroy(&renderer->scene);
-    free(renderer->appearances);
-    free(renderer->filtered_images);
+    lobe_release(renderer->appearances);
+    lobe_release(renderer->filtered_images);
     renderer->appearances = NULL;
     renderer->filtered_images = NULL;
     renderer->warned = NULL;
@@ -70,7 +71,7 @@ void lobe_renderer_destroy(lobe_renderer **renderer) {
         return;
     lobe_graph_destroy(&(*renderer)->graph);
     forget_scene(*renderer);
-    free(*renderer);
+    lobe_release(*renderer);
     *renderer = NULL;
 }
 
@@ -84,8 +85,10 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     result = device_scene_create(renderer->device, scene, &renderer->log, &renderer->scene);
     if (result != LOBE_OK)
         return result;
-    renderer->appearances = calloc(scene->instance_count, sizeof *renderer->appearances);
-    renderer->filtered_images = calloc(scene->image_count + 1, sizeof *renderer->filtered_images);
+    renderer->appearances = lobe_allocate(renderer->log.allocator, scene->instance_count,
+                                          sizeof *renderer->appearances);
+    renderer->filtered_images = lobe_allocate(renderer->log.allocator, scene->image_count + 1,
+                                              sizeof *renderer->filtered_images);
     if (renderer->appearances && renderer->filtered_images)
         return LOBE_OK;
     lobe_log_print(&renderer->log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
@@ -117,7 +120,7 @@ void lobe_frame_free(lobe_frame *frame) {
     lobe_image_free(&frame->radiance);
     lobe_image_free(&frame->normal_depth);
     lobe_image_free(&frame->lobes_level);
-    free(frame->passes);
+    lobe_release(frame->passes);
     *frame = (lobe_frame){0};
 }
 
@@ -212,8 +215,10 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
     if (result != LOBE_OK || r->parameters->submission)
         return result;
     environment_light_keep(&r->context);
-    return pass_times_add(frame, lobe_graph_describe(r->renderer->graph)) ? LOBE_OK
-                                                                          : out_of_memory(r);
+    return pass_times_add(frame, lobe_graph_describe(r->renderer->graph),
+                          r->renderer->log.allocator)
+               ? LOBE_OK
+               : out_of_memory(r);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -327,7 +332,8 @@ static lobe_result take_mean(rendering *r, lobe_frame *frame) {
 static lobe_result render_reference(rendering *r, lobe_frame *frame) {
     lobe_result result = LOBE_OK;
     if (!r->parameters->discard) {
-        r->sum = calloc((size_t)r->width * r->height * 4, sizeof *r->sum);
+        r->sum = lobe_allocate(r->renderer->log.allocator, (size_t)r->width * r->height,
+                               4 * sizeof *r->sum);
         if (!r->sum)
             return out_of_memory(r);
     }
@@ -348,7 +354,7 @@ static lobe_result render_reference(rendering *r, lobe_frame *frame) {
         lobe_frame_free(frame);
     else if (result == LOBE_OK && !r->parameters->discard)
         result = take_mean(r, frame);
-    free(r->sum);
+    lobe_release(r->sum);
     return result;
 }
 

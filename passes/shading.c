@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "passes/background.h"
@@ -72,9 +71,12 @@ static lobe_resource upload_lights(const filter_context *context) {
                                             LOBE_LIGHT_SPOT};
     const lobe_scene *scene = context->scene->scene;
     size_t size = (scene->light_count ? scene->light_count : 1) * sizeof(struct light);
-    struct light *lights = calloc(1, size);
-    if (!lights)
+    struct light *lights = lobe_allocate(lobe_log_allocator(context->log), 1, size);
+    if (!lights) {
+        lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory for lights",
+                        scene->name);
         return (lobe_resource){0};
+    }
     size_t next = 0;
     for (size_t type = 0; type < 3; ++type) {
         for (size_t i = 0; i < scene->light_count; ++i) {
@@ -83,7 +85,7 @@ static lobe_resource upload_lights(const filter_context *context) {
         }
     }
     lobe_resource resource = lobe_graph_upload(context->graph, "lights", lights, size);
-    free(lights);
+    lobe_release(lights);
     return resource;
 }
 

@@ -135,6 +135,12 @@ static void build(const filter_context *context, size_t instance, filtered_appea
         const moment_partition *partition = moment_partition_of(
             context->scene, index, (uint32_t)filter_setting(context, "partition"),
             (uint32_t)filter_setting(context, "bins"));
+        if (!partition) {
+            lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY,
+                            "material '%s': no memory to partition its lobes",
+                            material->material->name);
+            return;
+        }
         bool colour = has_bin_colour(context, material);
         float largest = colour ? largest_colour(context->scene->scene, material) : 1;
         moment_map moments =
