@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks who includes whom: a folder may include only what stands below it, and Vulkan stays inside
-engine/. Prints each include that breaks the rule; fails where there is one."""
+engine/. And who takes memory: in the library, only what gives it to all others, from the host's
+allocator. Prints each line that breaks a rule; fails where there is one."""
 
 import re
 import sys
@@ -24,6 +25,14 @@ OWNED = {
     re.compile(r"tiny_gltf|jpeglib\.h|zlib\.h"): {"third_party"},
     re.compile(r"png\.h"): {"engine", "third_party"},
 }
+
+# Functions of the C library that give memory, or take it back; and where they may be called.
+HEAP = re.compile(r"\b(?:malloc|calloc|realloc|reallocarray|free|strdup|strndup|asprintf|vasprintf|"
+                  r"open_memstream|getline|getdelim|aligned_alloc|posix_memalign)\s*\(|"
+                  r"\brealpath\s*\([^;]*, NULL\)")
+HEAP_FOLDERS = {"engine", "scenes", "passes"}
+HEAP_FILES = {"engine/allocator.c"}
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 SUFFIXES = {".c", ".h", ".cpp", ".hpp", ".vert", ".frag", ".comp", ".glsl"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -55,11 +64,19 @@ def breaks_ownership(folder, name):
     return any(pattern.match(name) and folder not in owners for pattern, owners in OWNED.items())
 
 
+def check_memory(relative, text):
+    if relative.split("/")[0] not in HEAP_FOLDERS or relative in HEAP_FILES:
+        return []
+    return [f"{relative} calls {found.strip('( ')}: memory comes from lobe/allocator.h"
+            for found in HEAP.findall(COMMENT.sub("", text))]
+
+
 def check_file(root, path, public):
     relative = path.relative_to(root).as_posix()
     folder = relative.split("/")[0]
-    faults = []
-    for quote, name in INCLUDE.findall(path.read_text()):
+    text = path.read_text()
+    faults = check_memory(relative, text)
+    for quote, name in INCLUDE.findall(text):
         target = target_of(root, path, quote, name, public)
         if not allowed(folder, target):
             faults.append(f"{relative} includes {name}: {folder}/ may not know {target}")

@@ -1,6 +1,7 @@
 // A program without a window that writes an animation to OpenEXR files: the camera goes along the
 // scene's path, a light goes out, and the first material grows rougher. Of the maps only those that
-// depend on its roughness are built again; it prints how many passes each frame took.
+// depend on its roughness are built again; it prints how many passes each frame took, and in the
+// end how much memory lobe asked for, which is counted.
 //
 //     offscreen_animation SCENE FOLDER FRAMES WIDTH HEIGHT
 
@@ -16,7 +17,25 @@ static void print(void *user, lobe_log_level level, const char *message) {
         fprintf(stderr, "offscreen_animation: %s\n", message);
 }
 
-static const lobe_log messages = {.write = print};
+// lobe may ask from several threads at once.
+static _Atomic size_t bytes, most_bytes;
+
+static void *allocate(void *user, size_t size) {
+    (void)user;
+    const size_t now = bytes += size;
+    if (now > most_bytes)
+        most_bytes = now;
+    return malloc(size);
+}
+
+static void release(void *user, void *memory, size_t size) {
+    (void)user;
+    bytes -= size;
+    free(memory);
+}
+
+static const lobe_allocator counted = {.allocate = allocate, .release = release};
+static const lobe_log messages = {.write = print, .allocator = &counted};
 
 typedef struct animation {
     lobe_scene *scene; ///< changed in place, frame by frame
@@ -94,5 +113,6 @@ int main(int argc, char **argv) {
     lobe_renderer_destroy(&a.renderer);
     lobe_scene_destroy(&a.scene);
     lobe_device_destroy(&device);
+    printf("memory: %zu bytes at most, %zu are left\n", most_bytes, bytes);
     return result != LOBE_OK;
 }

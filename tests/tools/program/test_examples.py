@@ -70,6 +70,8 @@ def test_offscreen_animation_writes_frames():
     passes = [int(number) for number in re.findall(r"(\d+) passes", result.stdout)]
     # The roughness of the one material is in its maps of lobes; maps of colours stay as they are.
     check(len(passes) == 3 and passes[1] == passes[2] <= passes[0], report(result))
+    memory = re.search(r"memory: (\d+) bytes at most, (\d+) are left", result.stdout)
+    check(memory and int(memory[1]) > 100000 and int(memory[2]) == 0, report(result))
     succeeds("render", "checkerboard", "--size", "48x32", "-o", "render.exr")
     check(difference("frame0000.exr", "render.exr")["rmse"] == 0, "the first frame is the scene")
     for one, other in (("frame0000.exr", "frame0001.exr"), ("frame0001.exr", "frame0002.exr")):
