@@ -1,9 +1,5 @@
 #include "passes/host_frame.h"
 
-bool host_frame_takes_part(const lobe_render_parameters *parameters) {
-    return parameters->target || parameters->submission || parameters->add_passes;
-}
-
 bool host_frame_delivers(const lobe_render_parameters *parameters) {
     return !parameters->discard && !parameters->submission;
 }

@@ -7,8 +7,6 @@
 
 /// What a host has a part in: its images, its passes, its submission.
 
-/// Whether the parameters ask for any of it.
-bool host_frame_takes_part(const lobe_render_parameters *parameters);
 /// Whether images are delivered in host memory.
 bool host_frame_delivers(const lobe_render_parameters *parameters);
 

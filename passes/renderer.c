@@ -8,6 +8,7 @@
 #include "passes/filter.h"
 #include "passes/host_frame.h"
 #include "passes/pass_times.h"
+#include "passes/picture_drawing.h"
 #include "passes/sample_pattern.h"
 #include "passes/settings.h"
 #include "passes/shading.h"
@@ -35,7 +36,8 @@ typedef struct rendering {
     lobe_settings settings;
     filtered_images images;
     uint32_t width, height, samples, pattern;
-    double *sum; ///< RGBA of all samples of the reference so far
+    double *sum;             ///< RGBA of all samples of the reference so far
+    bool without_background; ///< the reference is laid over what the host drew
 } rendering;
 
 lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
@@ -290,6 +292,7 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     lobe_graph_begin(graph);
     build_maps(r, frame);
     shading_targets targets = shading_targets_declare(graph, r->width, r->height, false);
+    targets.without_background = r->without_background;
     shading_light light = shading_light_prepare(&r->context);
     lobe_resource sum =
         lobe_graph_image(graph, &(lobe_image_description){.name = "sum of samples",
@@ -358,9 +361,75 @@ static lobe_result render_reference(rendering *r, lobe_frame *frame) {
     return result;
 }
 
+// ---------------------------------------------------------------------------------------------
+// The reference in the host's image
+
+/// As large as the target, which is looked at before all the work.
+static lobe_result measure_target(rendering *r) {
+    shading_targets imported;
+    lobe_graph_begin(r->renderer->graph);
+    lobe_result result = import_target(r, &imported);
+    // What is wrong with the image stays in the graph.
+    return result == LOBE_OK && imported.width == 0 ? lobe_graph_compile(r->renderer->graph)
+                                                    : result;
+}
+
+/// Draws the mean of the samples by the host's submission, in place of delivering it. What lasts
+/// from frame to frame is declared as for the samples, lest it be forgotten.
+static lobe_result draw_mean(rendering *r, lobe_frame *frame) {
+    lobe_graph *graph = r->renderer->graph;
+    shading_targets imported, targets = {.width = r->width, .height = r->height};
+    lobe_graph_set_frames_in_flight(graph, r->parameters->frames_in_flight);
+    lobe_graph_begin(graph);
+    lobe_result result = import_target(r, &imported);
+    if (result != LOBE_OK)
+        return result;
+    build_maps(r, frame);
+    (void)shading_light_prepare(&r->context);
+    host_frame_replace(&imported, &targets);
+    picture_drawing(graph, frame->radiance.texels, &targets);
+    lobe_graph_output(graph, targets.radiance);
+    lobe_image_free(&frame->radiance);
+    return execute(r, frame);
+}
+
+/// The samples are taken as for a picture that is delivered.
+static lobe_result render_reference_into_target(rendering *r, lobe_frame *frame) {
+    const lobe_render_parameters *wanted = r->parameters;
+    lobe_render_parameters delivered = *wanted;
+    delivered.target = NULL;
+    delivered.submission = NULL;
+    delivered.arbitrary_output_variables &= !wanted->submission;
+    lobe_result result = measure_target(r);
+    r->without_background = wanted->target->keep;
+    r->parameters = &delivered;
+    if (result == LOBE_OK)
+        result = render_reference(r, frame);
+    r->parameters = wanted;
+    // There is no mean where it is to be discarded, or the host stopped.
+    return result == LOBE_OK && frame->radiance.texels ? draw_mean(r, frame) : result;
+}
+
+static lobe_result render(rendering *r, lobe_frame *frame) {
+    if (!r->context.filter->supersamples)
+        return render_once(r, r->parameters->arbitrary_output_variables, frame);
+    return r->parameters->target ? render_reference_into_target(r, frame)
+                                 : render_reference(r, frame);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Preparation
+
 static lobe_result refuse(const lobe_log *log, lobe_result result, const char *why) {
     lobe_log_print(log, LOBE_LOG_ERROR, "render: %s", why);
     return result;
+}
+
+/// Whether the host wants what a picture in many parts cannot give.
+static bool asks_for_one_submission(const lobe_render_parameters *parameters) {
+    const lobe_render_target *target = parameters->target;
+    return parameters->add_passes || (target && target->depth) ||
+           (parameters->submission && !target);
 }
 
 static lobe_result check(const rendering *r) {
@@ -369,9 +438,10 @@ static lobe_result check(const rendering *r) {
     if (!r->renderer->scene)
         return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set");
     if (r->parameters->filter && lobe_filter_supersamples(r->parameters->filter) &&
-        host_frame_takes_part(r->parameters))
+        asks_for_one_submission(r->parameters))
         return refuse(log, LOBE_ERROR_UNSUPPORTED,
-                      "the reference takes many submissions: it is delivered in host memory alone");
+                      "the reference takes many submissions, of which the last alone draws into "
+                      "the target's radiance: there is no depth and no pass of the host's in it");
     if (r->samples > LOBE_MAXIMUM_SAMPLES)
         return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "more than 4096 samples a pixel");
     if (r->width > limit || r->height > limit) {
@@ -461,9 +531,7 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
         lobe_graph_invalidate_except(renderer->graph, ENVIRONMENT_MAP_PREFIX);
     else if (parameters->rebuild)
         lobe_graph_invalidate(renderer->graph);
-    result = r.context.filter->supersamples
-                 ? render_reference(&r, frame)
-                 : render_once(&r, parameters->arbitrary_output_variables, frame);
+    result = render(&r, frame);
     const environment_maps *maps = &renderer->environment.last;
     frame->environment_parts_left = maps->part_count - maps->parts_done;
     if (result != LOBE_OK) {

@@ -126,7 +126,8 @@ static bool draws_background(const filter_context *context, const environment_li
 static void attach(lobe_pass *pass, const filter_context *context, shading_targets *targets) {
     lobe_attachment radiance = {.resource = targets->radiance,
                                 .load = targets->keep_radiance ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR};
-    memcpy(radiance.clear, context->scene->scene->background, 3 * sizeof(float));
+    if (!targets->without_background)
+        memcpy(radiance.clear, context->scene->scene->background, 3 * sizeof(float));
     targets->radiance = lobe_pass_colour(pass, 0, &radiance);
     targets->depth = lobe_pass_depth(
         pass, &(lobe_attachment){.resource = targets->depth,
@@ -228,7 +229,8 @@ void shading(const filter_context *context, const filtered_appearance *appearanc
     environment_light_read(&light->environment, context, pass, sample);
     bool outputs = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
-    if (draws_background(context, &light->environment) && !targets->keep_radiance)
+    if (draws_background(context, &light->environment) && !targets->keep_radiance &&
+        !targets->without_background)
         background(pass, context, light->environment.cube, sample->position, outputs);
     char fragment_shader[64];
     snprintf(fragment_shader, sizeof fragment_shader, "shading_%s%s%s.frag",

@@ -14,6 +14,8 @@ typedef struct shading_targets {
     lobe_resource lobes_level;  ///< RG32_FLOAT; none without arbitrary output variables
     /// Draw over what radiance and depth hold instead of clearing them.
     bool keep_radiance, keep_depth;
+    /// Where nothing is hit, radiance stays black: the picture is laid over another later.
+    bool without_background;
 } shading_targets;
 
 shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,

@@ -358,6 +358,72 @@ static void hosts_add_passes_before_and_after(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// The reference
+
+enum { SAMPLES = 12 };
+
+static lobe_render_parameters reference_parameters(const lobe_render_target *target) {
+    return (lobe_render_parameters){.filter = filter_named("reference"),
+                                    .width = SIZE,
+                                    .height = SIZE,
+                                    .samples = SAMPLES,
+                                    .target = target};
+}
+
+/// Waited for by lobe, by the host, or in its commands.
+static void the_reference_gets_into_the_hosts_image(void **state) {
+    host_fixture *f = *state;
+    lobe_render_parameters parameters = reference_parameters(NULL);
+    lobe_frame expected = render(f, &parameters);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    const lobe_render_target target = {.radiance = &colour};
+    for (int way = 0; way < 3; way++) {
+        lobe_vulkan_submission submission = {.commands = way == 2 ? host_begin(&f->host) : NULL};
+        parameters = reference_parameters(&target);
+        parameters.submission = way > 0 ? &submission : NULL;
+        lobe_frame frame = render(f, &parameters);
+        assert_null(frame.radiance.texels);
+        assert_int_equal(lobe_graph_wait(lobe_renderer_graph(f->passes.renderer)), LOBE_OK);
+        if (submission.commands)
+            host_finish(&f->host, submission.commands);
+        lobe_image image = host_texels(f, &f->colour);
+        assert_same_bits(&image, &expected.radiance);
+        lobe_image_free(&image);
+        lobe_frame_free(&frame);
+        fill(f, (float[4]){0}, 0);
+    }
+    lobe_frame_free(&expected);
+}
+
+/// Where half of a pixel is covered, half of what the host drew is seen.
+static void the_reference_is_laid_over_what_the_host_drew(void **state) {
+    host_fixture *f = *state;
+    const float drawn[4] = {0.25f, 1, 0.5f, 1};
+    lobe_render_parameters parameters = reference_parameters(NULL);
+    lobe_frame expected = render(f, &parameters);
+    fill(f, drawn, 0);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const lobe_render_target target = {.radiance = &colour, .keep = true};
+    parameters = reference_parameters(&target);
+    lobe_frame frame = render(f, &parameters);
+    lobe_image image = host_texels(f, &f->colour);
+    int partly = 0;
+    for (uint32_t n = 0; n < SIZE * SIZE; n++) {
+        const float *over = pixel_at(&image, n % SIZE, n / SIZE);
+        const float *alone = pixel_at(&expected.radiance, n % SIZE, n / SIZE);
+        partly += alone[3] > 0 && alone[3] < 1;
+        for (int i = 0; i < 3; i++)
+            assert_float_equal(over[i] - (1 - alone[3]) * drawn[i],
+                               alone[i] - (1 - alone[3]) * f->scene->background[i], 1e-5f);
+        assert_float_equal(over[3], 1, 1e-6f);
+    }
+    assert_true(partly > 4);
+    lobe_image_free(&image);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Mistakes
 
 static void assert_refused(host_fixture *f, const lobe_render_parameters *parameters,
@@ -376,9 +442,22 @@ static void mistakes_are_refused(void **state) {
     lobe_render_target target = {.radiance = &colour};
     assert_refused(f, &(lobe_render_parameters){.target = &target, .width = 2 * SIZE},
                    LOBE_ERROR_INVALID_ARGUMENT, "32x16 pixels for a target of 16x16");
-    assert_refused(
-        f, &(lobe_render_parameters){.target = &target, .filter = filter_named("reference")},
-        LOBE_ERROR_UNSUPPORTED, "reference");
+    lobe_render_parameters reference = {.filter = filter_named("reference"), .samples = 2};
+    const lobe_vulkan_submission submission = {0};
+    reference.submission = &submission;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "reference");
+    reference.target = &target;
+    reference.width = 2 * SIZE;
+    assert_refused(f, &reference, LOBE_ERROR_INVALID_ARGUMENT,
+                   "32x16 pixels for a target of 16x16");
+    lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    target.depth = &depth;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "no depth");
+    target.depth = NULL;
+    colour.format = VK_FORMAT_UNDEFINED;
+    reference.width = 0;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "host image");
+    colour.format = f->colour.format;
     target.keep = true;
     assert_refused(f, &(lobe_render_parameters){.target = &target}, LOBE_ERROR_GRAPH, "host image");
     target.radiance = NULL;
@@ -400,6 +479,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(pictures_are_recorded_into_the_hosts_commands, open_host,
                                         close_host),
         cmocka_unit_test(hosts_add_passes_before_and_after),
+        cmocka_unit_test(the_reference_gets_into_the_hosts_image),
+        cmocka_unit_test(the_reference_is_laid_over_what_the_host_drew),
         cmocka_unit_test(mistakes_are_refused),
     };
     return cmocka_run_group_tests(tests, open_host, close_host);

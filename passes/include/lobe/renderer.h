@@ -64,10 +64,12 @@ typedef struct lobe_render_target {
     /// A colour attachment. Gets linear radiance, as its format keeps it (an _SRGB format encodes
     /// it; neither exposure nor tone map is applied), and coverage as alpha.
     const lobe_vulkan_image *radiance;
-    /// D32_FLOAT, reversed: 1 at the near plane, 0 at infinity. NULL: one of lobe's own.
+    /// D32_FLOAT, reversed: 1 at the near plane, 0 at infinity. NULL: one of lobe's own, which the
+    /// reference asks for.
     const lobe_vulkan_image *depth;
     /// Draw over what they hold: the background stays the host's, and what it drew into `depth`
-    /// hides what lies behind it. Otherwise both are cleared.
+    /// hides what lies behind it. Otherwise both are cleared. The reference is blended over it by
+    /// its coverage, for which the format must be one that the device blends.
     bool keep;
 } lobe_render_target;
 
@@ -134,7 +136,8 @@ typedef struct lobe_render_parameters {
     const lobe_render_target *target;
     /// How the frame gets to the device, see lobe_graph_submit. Nothing is waited for and nothing
     /// delivered then: lobe_graph_wait on the renderer's graph waits. NULL: lobe submits it, waits
-    /// and delivers.
+    /// and delivers. The reference's samples are taken and waited for before, whatever this says:
+    /// it is how their mean then gets into the target.
     const lobe_vulkan_submission *submission;
     /// With `submission`: see lobe_graph_set_frames_in_flight; 0: 1.
     uint32_t frames_in_flight;
@@ -175,9 +178,9 @@ void lobe_frame_free(lobe_frame *frame);
 
 /// Renders one image. On failure `*frame` is zero, and a command buffer of the host's must not be
 /// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value out of range, another extent
-/// than the target's), LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with a
-/// target, a submission or passes of the host's), LOBE_ERROR_LIMIT (size),
-/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+/// than the target's), LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with
+/// passes of the host's, a target's depth, or a submission without a target), LOBE_ERROR_LIMIT
+/// (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
                                  lobe_frame *frame);
 
