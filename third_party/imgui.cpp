@@ -57,6 +57,17 @@ void set_font(float scale) {
     ImGui::GetIO().Fonts->AddFontDefault(&font);
 }
 
+/// The window tells sizes and places in units of its own, of which pixels may be a part: here all
+/// are pixels.
+void go_by_pixels() {
+    ImGuiIO &io = ImGui::GetIO();
+    const ImVec2 pixels = io.DisplayFramebufferScale;
+    io.DisplaySize = ImVec2(io.DisplaySize.x * pixels.x, io.DisplaySize.y * pixels.y);
+    io.DisplayFramebufferScale = ImVec2(1, 1);
+    if (ImGui::IsMousePosValid(&io.MousePos))
+        io.MousePos = ImVec2(io.MousePos.x * pixels.x, io.MousePos.y * pixels.y);
+}
+
 void set_style(float scale) {
     ImGuiStyle &style = ImGui::GetStyle();
     style = ImGuiStyle(); // scaled sizes cannot be scaled back
@@ -113,6 +124,7 @@ const uint8_t *imgui_font(uint32_t *width, uint32_t *height) {
 
 void imgui_begin_frame(void) {
     ImGui_ImplGlfw_NewFrame();
+    go_by_pixels();
     ImGui::NewFrame();
 }
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import tap
 from files import exr_write, gltf_triangle, gltf_write, png_read, png_write
-from program import ROOT, check, fails, fresh_folder, is_wrong_usage, lobe, report, succeeds
+from program import (FOLDER, ROOT, check, fails, fresh_folder, is_wrong_usage, lobe, report,
+                     succeeds)
 from screen import Screen, Window
 
 SIZE = (320, 240)
@@ -312,24 +313,42 @@ def test_does_nothing_while_it_is_minimised():
     return None
 
 
-def test_follows_the_scale_of_the_monitor():
-    """Panels are twice as wide on one of twice the dots."""
+def panel_width():
+    """Pixels up to the panel's right edge, in a window of 640 x 480."""
+    row = seen(640, 1, 0, 240)[0]
+    window().do("key", "Tab")
+    without = seen(640, 1, 0, 240)[0]
+    window().do("key", "Tab")
+    return max(x for x in range(640) if row[4 * x:4 * x + 3] != without[4 * x:4 * x + 3])
+
+
+def colours():
+    """Right of the panel, on the plane."""
+    return {row[i:i + 3] for row in seen(240, 80, 400, 400) for i in range(0, len(row), 4)}
+
+
+def test_monitors_of_other_dots():
+    """On one of twice the dots panels are twice as wide. The window may count in units of its own,
+    of which a pixel is a part: the mouse is where it is seen."""
     if missing():
         return missing()
     plain = seen(640, 480)
     window().do("windowsize", window().number, 640, 480, "key", "Tab")
-
-    def width():
-        row = seen(640, 480)[240]
-        window().do("key", "Tab")
-        without = seen(640, 480)[240]
-        window().do("key", "Tab")
-        return max(x for x in range(640) if row[4 * x:4 * x + 3] != without[4 * x:4 * x + 3])
-    before = width()
+    width = panel_width()
     window().meets("scale 2", "mousemove", 630, 470)
-    check(abs(width() - 2 * before) <= 2, f"{before} pixels have become {width()}")
+    check(abs(panel_width() - 2 * width) <= 2, f"{width} pixels have become {panel_width()}")
     window().meets("scale 1", "mousemove", 630, 470)
-    check(width() == before, f"{before} pixels have become {width()}")
+    check(panel_width() == width, f"{width} pixels have become {panel_width()}")
+    radiance = colours()
+    # The knob "view": its choices come down.
+    window().meets("unit 2", "mousemove", 200, 371)
+    for choice in (410, 394):
+        window().do("mousemove", 200, 371, "click", 1)
+        window().do("mousemove", 150, choice, "click", 1)
+        window().do("mousemove", 600, 100)  # nothing is explained then
+        expected = 1 if choice == 410 else len(radiance)
+        check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
+    window().meets("unit 1", "mousemove", 630, 470)
     window().do("windowsize", window().number, *SIZE, "key", "Tab")
     check(seen(640, 480) == plain, "looks other than before")
     return None
@@ -386,7 +405,10 @@ def test_takes_what_is_dropped():
     looks_rendered(maps)
     gltf_write(model, gltf_triangle())
     exr_write(light, 32, 16, lambda x, y: (x / 32, 0.5, y / 16))
+    cache = FOLDER / "cache/lobe/environments"
+    kept = len(list(cache.glob("*.exr")))
     window().drop(model, light)
+    check(len(list(cache.glob("*.exr"))) > kept, "the filtered light is not kept")
     looks_rendered(model, "--environment", light, "--background")
     return None
 

@@ -1,7 +1,8 @@
 // Loaded before `lobe view`: Vulkan fails, and monitors change, when the file that LOBE_TEST_FAULT
 // names says so. Its lines are obeyed one after the other, and go: "FUNCTION CODE" makes the next
 // call of a function give that VkResult, "scale NUMBER" is what the window's content is scaled by
-// from then on. A device or a surface that is lost stays so until it is destroyed.
+// from then on, "unit NUMBER" how many pixels the window's own unit has. A device or a surface that
+// is lost stays so until it is destroyed.
 
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -17,8 +18,10 @@
 
 static bool device_is_lost, surface_is_lost;
 static float scale;
+static double unit = 1;
 static GLFWwindow *scaled_window;
 static GLFWwindowcontentscalefun on_scale;
+static GLFWcursorposfun on_cursor;
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
@@ -166,6 +169,8 @@ VKAPI_ATTR void VKAPI_CALL vkDestroySurfaceKHR(VkInstance instance, VkSurfaceKHR
 
 static void look_at_monitors(void) {
     double number;
+    if (is_told("unit", &number))
+        unit = number;
     if (!is_told("scale", &number))
         return;
     scale = (float)number;
@@ -187,6 +192,27 @@ void glfwGetWindowContentScale(GLFWwindow *window, float *x, float *y) {
     REAL(glfwGetWindowContentScale)(window, x, y);
     if (scale > 0)
         *x = *y = scale;
+}
+
+void glfwGetWindowSize(GLFWwindow *window, int *width, int *height) {
+    REAL(glfwGetWindowSize)(window, width, height);
+    *width = (int)(*width / unit);
+    *height = (int)(*height / unit);
+}
+
+void glfwGetCursorPos(GLFWwindow *window, double *x, double *y) {
+    REAL(glfwGetCursorPos)(window, x, y);
+    *x /= unit;
+    *y /= unit;
+}
+
+static void tell_cursor(GLFWwindow *window, double x, double y) {
+    on_cursor(window, x / unit, y / unit);
+}
+
+GLFWcursorposfun glfwSetCursorPosCallback(GLFWwindow *window, GLFWcursorposfun callback) {
+    on_cursor = callback;
+    return REAL(glfwSetCursorPosCallback)(window, tell_cursor);
 }
 
 GLFWwindowcontentscalefun glfwSetWindowContentScaleCallback(GLFWwindow *window,
