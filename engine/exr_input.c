@@ -81,15 +81,19 @@ static lobe_result open_context(exr_input *input) {
     return code == EXR_ERR_SUCCESS ? LOBE_OK : engine_exr_fail(input, code);
 }
 
-lobe_result engine_exr_open(const char *path, const lobe_log *log, exr_input *input) {
-    *input = (exr_input){.path = path, .log = log};
-    lobe_result result = lobe_file_read(path, NULL, log, &input->data, &input->size);
+lobe_result engine_exr_open(const exr_origin *origin, const lobe_log *log, exr_input *input) {
+    *input =
+        (exr_input){.path = origin->path, .log = log, .data = origin->data, .size = origin->size};
+    if (origin->data)
+        return open_context(input);
+    lobe_result result = lobe_file_read(origin->path, NULL, log, &input->read, &input->size);
+    input->data = input->read;
     return result == LOBE_OK ? open_context(input) : result;
 }
 
 void engine_exr_close(exr_input *input) {
     if (input->context != NULL)
         exr_finish(&input->context);
-    lobe_release(input->data);
+    lobe_release(input->read);
     *input = (exr_input){0};
 }

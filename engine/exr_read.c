@@ -193,9 +193,9 @@ static lobe_result count_levels(exr_reader *reader) {
     return LOBE_OK;
 }
 
-static lobe_result open_layer(exr_reader *reader, const char *path, const char *layer,
+static lobe_result open_layer(exr_reader *reader, const exr_origin *origin, const char *layer,
                               const lobe_log *log) {
-    lobe_result result = engine_exr_open(path, log, &reader->input);
+    lobe_result result = engine_exr_open(origin, log, &reader->input);
     if (result == LOBE_OK)
         result = choose_channels(reader, layer);
     if (result == LOBE_OK)
@@ -215,7 +215,7 @@ lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *l
                           lobe_image *image) {
     *image = (lobe_image){0};
     exr_reader reader = {0};
-    lobe_result result = open_layer(&reader, path, layer, log);
+    lobe_result result = open_layer(&reader, &(exr_origin){.path = path}, layer, log);
     if (result == LOBE_OK)
         result = engine_exr_decode_level(&reader, 0, image);
     if (result != LOBE_OK)
@@ -310,11 +310,11 @@ static lobe_exr_environment find_environment(const exr_reader *reader) {
     return kind == EXR_ENVMAP_CUBE ? LOBE_EXR_CUBE : LOBE_EXR_LATITUDE_LONGITUDE;
 }
 
-lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
-                                   lobe_exr_contents *contents) {
+static lobe_result read_contents(const exr_origin *origin, const char *layer, const lobe_log *log,
+                                 lobe_exr_contents *contents) {
     *contents = (lobe_exr_contents){0};
     exr_reader reader = {0};
-    lobe_result result = open_layer(&reader, path, layer, log);
+    lobe_result result = open_layer(&reader, origin, layer, log);
     if (result == LOBE_OK)
         result = read_attributes(&reader, contents);
     if (result == LOBE_OK)
@@ -325,6 +325,17 @@ lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lo
         lobe_exr_contents_free(contents);
     close_layer(&reader);
     return result;
+}
+
+lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
+                                   lobe_exr_contents *contents) {
+    return read_contents(&(exr_origin){.path = path}, layer, log, contents);
+}
+
+lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
+                                     const char *layer, const lobe_log *log,
+                                     lobe_exr_contents *contents) {
+    return read_contents(&(exr_origin){name, data, size}, layer, log, contents);
 }
 
 const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,

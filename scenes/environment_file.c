@@ -10,6 +10,7 @@
 #include "scenes/environment_direction.h"
 #include "scenes/environment_sky.h"
 #include "scenes/radiance_hdr.h"
+#include "scenes/scene_file.h"
 
 // ---------------------------------------------------------------------------------------------
 // Which layout
@@ -59,10 +60,10 @@ static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environ
 // ---------------------------------------------------------------------------------------------
 // Files
 
-static lobe_result read_exr(const char *path, const lobe_log *log, lobe_image *image,
-                            lobe_exr_environment *said) {
+static lobe_result decode_exr(const char *name, const uint8_t *bytes, size_t size,
+                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
     lobe_exr_contents contents;
-    lobe_result result = lobe_exr_read_contents(path, NULL, log, &contents);
+    lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, log, &contents);
     if (result != LOBE_OK)
         return result;
     *said = contents.environment;
@@ -72,34 +73,38 @@ static lobe_result read_exr(const char *path, const lobe_log *log, lobe_image *i
     return LOBE_OK;
 }
 
-static lobe_result read_image(const char *path, const lobe_log *log, lobe_image *image,
-                              lobe_exr_environment *said) {
+static lobe_result decode(const char *name, const uint8_t *bytes, size_t size, const lobe_log *log,
+                          lobe_image *image, lobe_exr_environment *said) {
     static const uint8_t exr[4] = {0x76, 0x2f, 0x31, 0x01};
+    *said = LOBE_EXR_NO_ENVIRONMENT;
+    if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0)
+        return decode_exr(name, bytes, size, log, image, said);
+    if (radiance_hdr_recognise(bytes, size))
+        return radiance_hdr_decode(bytes, size, name, log, image);
+    return lobe_log_fail(log, size < sizeof exr ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                         "%s: neither an OpenEXR file nor a Radiance picture", name);
+}
+
+static lobe_result read_image(const lobe_environment_open_parameters *parameters,
+                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
+    const char *name = parameters->environment;
     uint8_t *bytes;
     size_t size;
-    *said = LOBE_EXR_NO_ENVIRONMENT;
-    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &size);
-    if (result != LOBE_OK)
-        return result;
-    if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0) {
-        lobe_release(bytes); // there may be little room for it twice
-        return read_exr(path, log, image, said);
-    }
-    if (radiance_hdr_recognise(bytes, size))
-        result = radiance_hdr_decode(bytes, size, path, log, image);
-    else
-        result = lobe_log_fail(log, size < 4 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
-                               "%s: neither an OpenEXR file nor a Radiance picture", path);
+    if (parameters->data)
+        return decode(name, parameters->data, parameters->size, log, image, said);
+    lobe_result result = scene_file_read(parameters->files, name, NULL, log, &bytes, &size);
+    if (result == LOBE_OK)
+        result = decode(name, bytes, size, log, image, said);
     lobe_release(bytes);
     return result;
 }
 
-static lobe_result open_file(const char *path, const lobe_log *log,
-                             lobe_environment **environment) {
+static lobe_result open_file(const lobe_environment_open_parameters *parameters,
+                             const lobe_log *log, lobe_environment **environment) {
     lobe_exr_environment said;
-    lobe_result result = environment_allocate(path, log, environment);
+    lobe_result result = environment_allocate(parameters->environment, log, environment);
     if (result == LOBE_OK)
-        result = read_image(path, log, &(*environment)->image, &said);
+        result = read_image(parameters, log, &(*environment)->image, &said);
     if (result == LOBE_OK)
         result = choose_layout(*environment, said, log);
     if (result == LOBE_OK)
@@ -109,10 +114,16 @@ static lobe_result open_file(const char *path, const lobe_log *log,
     return result;
 }
 
+lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
+                                       const lobe_log *log, lobe_environment **environment) {
+    *environment = NULL;
+    if (!parameters->data && strcmp(parameters->environment, "sky") == 0)
+        return environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, log, environment);
+    return open_file(parameters, log, environment);
+}
+
 lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
                                   lobe_environment **environment) {
-    *environment = NULL;
-    if (strcmp(file_or_sky, "sky") == 0)
-        return environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, log, environment);
-    return open_file(file_or_sky, log, environment);
+    return lobe_environment_open_with(
+        &(lobe_environment_open_parameters){.environment = file_or_sky}, log, environment);
 }

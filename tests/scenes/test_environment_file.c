@@ -275,6 +275,80 @@ static void environments_of_the_wild_are_read(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Files of a host
+
+typedef struct host_file {
+    uint8_t *data;
+    size_t size;
+    int given, released;
+} host_file;
+
+static lobe_result give(void *user, const char *path, const void **data, size_t *size) {
+    host_file *file = user;
+    if (strcmp(path, "pack/sky.exr") != 0)
+        return LOBE_ERROR_NOT_FOUND;
+    *data = file->data;
+    *size = file->size;
+    file->given++;
+    return LOBE_OK;
+}
+
+static void take_back(void *user, const void *data, size_t size) {
+    host_file *file = user;
+    assert_ptr_equal(data, file->data);
+    assert_int_equal(size, file->size);
+    file->released++;
+}
+
+static void assert_opened_alike(const lobe_environment_open_parameters *parameters,
+                                const lobe_environment *expected) {
+    lobe_environment *environment;
+    log_recorder recorder;
+    log_recorder_start(&recorder);
+    assert_int_equal(lobe_environment_open_with(parameters, &recorder.log, &environment), LOBE_OK);
+    assert_string_equal(environment->name, parameters->environment);
+    assert_int_equal(environment->layout, expected->layout);
+    assert_int_equal(environment->image.width, 24);
+    assert_memory_equal(environment->image.texels, expected->image.texels,
+                        (size_t)24 * 4 * 4 * sizeof(float));
+    lobe_environment_destroy(&environment);
+}
+
+static void files_come_from_memory_or_from_the_host(void **state) {
+    (void)state;
+    const char *path = temporary_folder_file(&test_folder, "row.exr");
+    host_file file = {0};
+    lobe_environment *expected, *none;
+    log_recorder recorder;
+    write_exr(path, 24, 4, LOBE_EXR_NO_ENVIRONMENT);
+    assert_int_equal(open_file(path, &recorder, &expected), LOBE_OK);
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &file.data, &file.size), LOBE_OK);
+    const lobe_file_source source = {give, take_back, &file};
+    assert_opened_alike(
+        &(lobe_environment_open_parameters){.environment = "pack/sky.exr", .files = &source},
+        expected);
+    assert_int_equal(file.given, 1);
+    assert_int_equal(file.released, 1);
+    assert_int_equal(
+        lobe_environment_open_with(
+            &(lobe_environment_open_parameters){.environment = "other.exr", .files = &source},
+            &recorder.log, &none),
+        LOBE_ERROR_NOT_FOUND);
+    assert_non_null(strstr(recorder.last_error, "other.exr"));
+    lobe_environment_open_parameters memory = {
+        .environment = "sky", .data = file.data, .size = file.size};
+    assert_opened_alike(&memory, expected);
+    memory.size /= 2;
+    log_recorder_start(&recorder);
+    assert_int_equal(lobe_environment_open_with(&memory, &recorder.log, &none),
+                     LOBE_ERROR_MALFORMED);
+    assert_int_equal(recorder.errors, 1);
+    assert_null(none);
+    lobe_release(file.data);
+    lobe_environment_destroy(&expected);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Turning
 
 static void expect_turned(const lobe_environment *environment, const float from[3],
@@ -314,6 +388,7 @@ int main(void) {
         IN_TEST_FOLDER(what_is_no_image_is_refused),
         cmocka_unit_test(damaged_files_of_the_wild_are_refused),
         cmocka_unit_test(environments_of_the_wild_are_read),
+        IN_TEST_FOLDER(files_come_from_memory_or_from_the_host),
         cmocka_unit_test(turning_is_counter_clockwise_from_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

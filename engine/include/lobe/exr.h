@@ -110,6 +110,12 @@ typedef struct lobe_exr_contents {
 lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
                                    lobe_exr_contents *contents);
 
+/// The same of a whole file in memory, which is needed during the call only. `name` stands for it
+/// in messages.
+lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
+                                     const char *layer, const lobe_log *log,
+                                     lobe_exr_contents *contents);
+
 /// NULL where there is none of this name and type.
 const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
                                                   const char *name, lobe_exr_attribute_type type);

@@ -18,8 +18,14 @@ extern "C" {
 #endif
 
 /// lobe inside a program that has Vulkan of its own: its device, its images, its semaphores. The
-/// one header of lobe that speaks of Vulkan; lobe/lobe.h does not bring it. lobe calls Vulkan
-/// through the loader's library (libvulkan), as handles from the same loader allow.
+/// one header of lobe that speaks of Vulkan; lobe/lobe.h does not bring it.
+///
+/// lobe is linked to the loader's shared library (libvulkan.so.1) and calls its functions, so that
+/// layers see what lobe does as they see what the host does. Instance, device and queue must come
+/// from that same library: by its functions, or by pointers that a host got of its
+/// vkGetInstanceProcAddr and vkGetDeviceProcAddr after dlopen() (as volk does: a process has the
+/// library once). A loader that is linked statically into the host is another one, whose handles
+/// lobe cannot use.
 
 // ---------------------------------------------------------------------------------------------
 // What lobe needs of a device

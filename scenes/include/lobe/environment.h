@@ -2,8 +2,10 @@
 #define LOBE_ENVIRONMENT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/file.h>
 #include <lobe/image.h>
 #include <lobe/log.h>
 #include <lobe/result.h>
@@ -48,6 +50,17 @@ bool lobe_environment_position(const lobe_environment *environment, const double
 /// Largest width or height of an image that lobe_environment_open gives, in texels.
 #define LOBE_ENVIRONMENT_MAXIMUM_EXTENT 16384u
 
+/// What is opened.
+typedef struct lobe_environment_open_parameters {
+    const char *environment; ///< the path of a file, or "sky"
+    /// A whole file in memory, which `environment` then only names, in messages. Needed during the
+    /// call only. NULL: none.
+    const void *data;
+    size_t size; ///< bytes of `data`
+    /// Where to read the file. NULL: in the file system. Needed during the call only.
+    const lobe_file_source *files;
+} lobe_environment_open_parameters;
+
 /// Opens an image of all directions, or makes one by code.
 ///
 /// - A file: OpenEXR (its main layer) or a Radiance picture (.hdr), told apart by content. What an
@@ -66,6 +79,10 @@ bool lobe_environment_position(const lobe_environment *environment, const double
 /// On failure `*environment` is NULL and the log has one line that names the file and the cause.
 /// Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED (another format, or no known
 /// shape), _LIMIT, _OUT_OF_MEMORY.
+lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
+                                       const lobe_log *log, lobe_environment **environment);
+
+/// The same, from the file system.
 lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
                                   lobe_environment **environment);
 

@@ -242,8 +242,9 @@ typedef struct lobe_scene_open_parameters {
     /// none.
     const void *data;
     size_t size; ///< bytes of `data`
-    /// Where to read a .gltf or .glb file and those it refers to; not those of `assets`. NULL: in
-    /// the file system. Needed during the call only.
+    /// Where to read a .gltf or .glb file and those it refers to; not those of `assets`, and not
+    /// folders of maps, for files of a source are not listed. NULL: in the file system. Needed
+    /// during the call only.
     const lobe_file_source *files;
 } lobe_scene_open_parameters;
 
