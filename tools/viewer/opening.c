@@ -10,6 +10,9 @@
 #include "tools/output_file.h"
 #include "tools/viewer/viewer.h"
 
+/// Panels take one to be as large as their text, and show it in the next.
+#define FRAMES_TO_OPENING 2
+
 // ---------------------------------------------------------------------------------------------
 // Wishes
 
@@ -21,15 +24,35 @@ static void wish(char **place, const char *text) {
     *place = copy;
 }
 
+const char *viewer_name_of(const char *path) {
+    const char *name = path;
+    for (const char *c = path; *c; ++c)
+        if (*c == '/' && c[1] != '\0')
+            name = c + 1;
+    return name;
+}
+
+/// What takes long is said first, in the frames until it is done.
+static void announce(viewer *v, const char *name) {
+    char text[VIEWER_MESSAGE_SIZE];
+    snprintf(text, sizeof text, "opening %.400s ...", viewer_name_of(name));
+    viewer_say(v, text);
+    v->opens = true;
+    v->frames_to_opening = FRAMES_TO_OPENING;
+}
+
 void viewer_light(viewer *v, const char *environment) {
     wish(&v->wanted_environment, environment);
+    announce(v, environment);
 }
 
 void viewer_drop(viewer *v, const char *path) {
     if (output_file_has_ending(path, ".hdr") || output_file_has_ending(path, ".exr"))
         viewer_light(v, path);
-    else
+    else {
         wish(&v->wanted_scene, path);
+        announce(v, path);
+    }
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -108,8 +131,24 @@ static lobe_result replace_environment(viewer *v, const char *name) {
     return result;
 }
 
+/// Once what was opened is to be seen.
+static void end_announcement(viewer *v) {
+    if (!v->opens || v->sides[0].stale)
+        return;
+    v->opens = false;
+    viewer_say(v, "");
+}
+
 lobe_result viewer_open_wanted(viewer *v) {
     lobe_result result = LOBE_OK;
+    if (!v->wanted_environment && !v->wanted_scene) {
+        end_announcement(v);
+        return LOBE_OK;
+    }
+    if (v->frames_to_opening > 0) {
+        --v->frames_to_opening;
+        return LOBE_OK;
+    }
     if (v->wanted_environment)
         result = replace_environment(v, v->wanted_environment);
     if (result == LOBE_OK && v->wanted_scene)

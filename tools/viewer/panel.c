@@ -5,6 +5,7 @@
 
 #include "third_party/imgui.h"
 #include "tools/viewer/keys.h"
+#include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"
 #include "tools/viewer/window.h"
 
@@ -23,7 +24,7 @@
 // Scene
 
 static void choose_scene(viewer *v) {
-    const char *names[MAXIMUM_CHOICES] = {v->scene->name};
+    const char *names[MAXIMUM_CHOICES] = {viewer_name_of(v->scene->name)};
     size_t count = 1, chosen = 0;
     for (size_t i = 0; i < lobe_builtin_scene_count() && count < MAXIMUM_CHOICES; ++i)
         if (strcmp(lobe_builtin_scene_get(i)->name, v->scene->name) != 0)
@@ -55,7 +56,7 @@ static void set_environment(viewer *v) {
 
 static void choose_environment(viewer *v) {
     const lobe_environment *environment = v->scene->environment;
-    const char *names[] = {environment ? environment->name : "none", "sky", "none"};
+    const char *names[] = {environment ? viewer_name_of(environment->name) : "none", "sky", "none"};
     size_t chosen = 0;
     // The first is what there is: of the others, those that differ from it.
     if (!environment)

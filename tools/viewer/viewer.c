@@ -41,6 +41,7 @@ void viewer_changed(viewer *v) {
 
 void viewer_say(viewer *v, const char *text) {
     snprintf(v->message, sizeof v->message, "%s", text);
+    v->opens = false;
     viewer_touched(v);
 }
 

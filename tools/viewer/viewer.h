@@ -57,11 +57,13 @@ typedef struct viewer {
     viewer_look look;
     viewer_side sides[2];
     lobe_scene *scene;
-    char *wanted_scene;       ///< to open before the next frame; NULL: none
-    char *wanted_environment; ///< the same
-    scene_options opening;    ///< how scenes are lit
-    double turned;            ///< degrees by which the user has turned the scene's environment
-    char *environment;        ///< what the user lights scenes with; NULL: what was asked for first
+    char *wanted_scene;         ///< to open before the next frame; NULL: none
+    char *wanted_environment;   ///< the same
+    unsigned frames_to_opening; ///< to draw before
+    bool opens;                 ///< the message is about that
+    scene_options opening;      ///< how scenes are lit
+    double turned;              ///< degrees by which the user has turned the scene's environment
+    char *environment; ///< what the user lights scenes with; NULL: what was asked for first
     bool shows_panel, shows_help;
     bool swapchain_is_stale;
     float scale; ///< of panels: 1 for 96 dots an inch
