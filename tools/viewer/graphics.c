@@ -92,17 +92,22 @@ lobe_result viewer_graphics_judge(viewer *v, viewer_shown shown, lobe_result res
         return LOBE_OK;
     if (shown == VIEWER_FAILED)
         return result;
+    viewer_touched(v); // what was not shown is drawn again
+    if (shown == VIEWER_BUSY)
+        return LOBE_OK;
     v->swapchain_is_stale = true;
     return shown == VIEWER_SURFACE_LOST ? renew_surface(v) : LOBE_OK;
 }
 
 lobe_result viewer_graphics_recover(viewer *v) {
     lobe_result result = LOBE_ERROR_DEVICE_LOST;
+    const uint64_t faults = v->device.fault_count;
     while (result == LOBE_ERROR_DEVICE_LOST && ++v->losses <= MAXIMUM_LOSSES) {
         lobe_log_print(&v->log, LOBE_LOG_WARNING, "the device was lost; it is opened again");
         viewer_graphics_close(v);
         result = viewer_graphics_open(v);
     }
+    v->device.fault_count += faults;
     return result != LOBE_ERROR_DEVICE_LOST
                ? result
                : lobe_log_fail(&v->log, result,

@@ -2,9 +2,14 @@
 
 #include "engine/vulkan_check.h"
 
+/// Nanoseconds: as long as the mouse and keys may have to wait for a window that is covered.
+#define PATIENCE 100000000
+
 static viewer_shown judge(const viewer_device *device, VkResult code, const char *what,
                           lobe_result *result) {
     *result = LOBE_OK;
+    if (code == VK_TIMEOUT || code == VK_NOT_READY)
+        return VIEWER_BUSY;
     if (code == VK_ERROR_OUT_OF_DATE_KHR)
         return VIEWER_OUT_OF_DATE;
     if (code == VK_ERROR_SURFACE_LOST_KHR)
@@ -158,7 +163,7 @@ void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swa
 viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapchain *swapchain,
                                       lobe_result *result) {
     const VkResult code =
-        vkAcquireNextImageKHR(device->vulkan.device, swapchain->swapchain, UINT64_MAX,
+        vkAcquireNextImageKHR(device->vulkan.device, swapchain->swapchain, PATIENCE,
                               swapchain->acquired, VK_NULL_HANDLE, &swapchain->current);
     swapchain->fits_badly = code == VK_SUBOPTIMAL_KHR;
     return judge(device, code, "vkAcquireNextImageKHR", result);

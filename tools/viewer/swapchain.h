@@ -24,6 +24,7 @@ typedef struct viewer_swapchain {
 /// How showing, or getting ready for it, went.
 typedef enum viewer_shown {
     VIEWER_SHOWN,
+    VIEWER_BUSY,         ///< the window takes no picture now: it may be covered
     VIEWER_OUT_OF_DATE,  ///< the window is not what it was: the swapchain must be made anew
     VIEWER_SURFACE_LOST, ///< the surface, too
     VIEWER_FAILED,       ///< a line says why
@@ -35,7 +36,7 @@ viewer_shown viewer_swapchain_renew(const viewer_device *device, uint32_t width,
                                     viewer_swapchain *swapchain, lobe_result *result);
 void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swapchain);
 
-/// Takes the next image.
+/// Takes the next image, for which it waits a moment.
 viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapchain *swapchain,
                                       lobe_result *result);
 /// Shows it, once its semaphore `drawn` is signalled.

@@ -17,7 +17,8 @@ TEXT = f"{SIZE[0]}x{SIZE[1]}"
 STATE = {}
 FAULTS, HOT_RELOAD, SHADERS = (Path(argument).resolve() for argument in sys.argv[3:6])
 # Numbers of vulkan_core.h.
-SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST, DEVICE_LOST = 1000001003, -1000001004, -1000000000, -4
+TIMEOUT, SUBOPTIMAL, DEVICE_LOST = 2, 1000001003, -4
+OUT_OF_DATE, SURFACE_LOST = -1000001004, -1000000000
 
 
 def missing():
@@ -358,11 +359,17 @@ def test_surface_and_device_may_be_lost():
     if missing():
         return missing()
     before = seen()
-    for function in ("vkAcquireNextImageKHR", "vkQueuePresentKHR"):
-        for code in (SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST):
-            window().meets(f"{function} {code}", "key", "equal")
+    resize = [["windowsize", window().number, 300, 200],
+              ["windowsize", window().number, *SIZE, "key", "Home"]]
+    brighten = [["key", "equal"], ["key", "minus"]]
+    for function, codes, events in (
+            ("vkAcquireNextImageKHR", (TIMEOUT, SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST), brighten),
+            ("vkQueuePresentKHR", (SUBOPTIMAL, OUT_OF_DATE, SURFACE_LOST), brighten),
+            ("vkGetPhysicalDeviceSurfaceCapabilitiesKHR", (SURFACE_LOST,), resize)):
+        for code in codes:
+            window().meets(f"{function} {code}", *events[0])
             check(seen() != before, f"{function} {code}: is not drawn any more")
-            window().do("key", "minus")
+            window().do(*events[1])
             check(seen() == before, f"{function} {code}: looks other than before")
     for function in ("vkQueueSubmit", "vkQueueSubmit2", "vkAcquireNextImageKHR"):
         said = len(window().said())

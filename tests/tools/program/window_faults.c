@@ -128,7 +128,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkAcquireNextImageKHR(VkDevice device, VkSwapchai
                                                      uint64_t timeout, VkSemaphore semaphore,
                                                      VkFence fence, uint32_t *index) {
     const VkResult fault = surface_fault_of("vkAcquireNextImageKHR");
-    if (fault < 0)
+    if (fault < 0 || fault == VK_TIMEOUT)
         return fault;
     const VkResult result =
         REAL(vkAcquireNextImageKHR)(device, swapchain, timeout, semaphore, fence, index);
