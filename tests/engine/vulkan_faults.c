@@ -230,8 +230,9 @@ VKAPI_ATTR VkResult VKAPI_CALL vkCreateDebugUtilsMessengerEXT(
 LISTED(vkSetDebugUtilsObjectNameEXT)
 VKAPI_ATTR VkResult VKAPI_CALL
 vkSetDebugUtilsObjectNameEXT(VkDevice device, const VkDebugUtilsObjectNameInfoEXT *name) {
-    return fails(&fallible_vkSetDebugUtilsObjectNameEXT) ? faults.fault
-                                                         : real_set_name(device, name);
+    return faults.names && fails(&fallible_vkSetDebugUtilsObjectNameEXT)
+               ? faults.fault
+               : real_set_name(device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance,
