@@ -201,14 +201,16 @@ static lobe_result run_on_hosts_device(work *w, host *host) {
     return result ? result : record_frame(w, host, 8);
 }
 
-/// A device that asks for all there is, which is destroyed again.
+/// A device that asks for all there is, and something on it that has a name.
 static lobe_result run_with_validation(work *w, host *host) {
     (void)host;
     const char *cache = temporary_folder_file(&test_folder, "pipelines");
-    return lobe_device_create(&(lobe_device_parameters){.log = &w->recorder.log,
-                                                        .validation = true,
-                                                        .pipeline_cache = cache},
-                              &w->device);
+    const lobe_device_parameters parameters = {
+        .log = &w->recorder.log, .validation = true, .pipeline_cache = cache};
+    const lobe_result result = lobe_device_create(&parameters, &w->device);
+    return result
+               ? result
+               : lobe_buffer_create(w->device, &(lobe_buffer_parameters){.size = 16}, &w->vertices);
 }
 
 typedef lobe_result (*run_function)(work *w, host *host);
