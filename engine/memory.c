@@ -189,6 +189,12 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
     return result;
 }
 
+static lobe_result fail_host_memory(const engine_memory *memory,
+                                    const engine_memory_request *request) {
+    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
+                         "'%s': no host memory to manage device memory", request->name);
+}
+
 static lobe_result add_block(engine_memory *memory, const engine_memory_request *request,
                              uint32_t type, bool linear, engine_memory_block **added) {
     VkDeviceSize size = 0;
@@ -199,8 +205,7 @@ static lobe_result add_block(engine_memory *memory, const engine_memory_request 
     engine_memory_block *block = lobe_allocate(allocator, 1, sizeof *block);
     if (!block || !engine_range_allocator_create(allocator, size, &block->ranges)) {
         lobe_release(block);
-        return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "'%s': no host memory to manage device memory", request->name);
+        return fail_host_memory(memory, request);
     }
     block->size = size;
     block->type = type;
@@ -252,18 +257,21 @@ static lobe_result allocate(engine_memory *memory, const engine_memory_request *
                              "'%s': the device has no memory of the needed kind", request->name);
     // Where tiled images and buffers may be neighbours they share blocks.
     const bool linear = request->linear && memory->granularity > 1;
-    for (engine_memory_block *block = memory->blocks; block; block = block->next)
-        if (block_serves(block, type, linear, request->place) &&
-            take_from_block(memory, block, &request->requirements, allocation))
+    for (engine_memory_block *block = memory->blocks; block; block = block->next) {
+        if (!block_serves(block, type, linear, request->place))
+            continue;
+        if (!engine_range_reserve(&block->ranges))
+            return fail_host_memory(memory, request);
+        if (take_from_block(memory, block, &request->requirements, allocation))
             return LOBE_OK;
+    }
     engine_memory_block *block = NULL;
     const lobe_result result = add_block(memory, request, type, linear, &block);
     if (result != LOBE_OK)
         return result;
     if (take_from_block(memory, block, &request->requirements, allocation))
         return LOBE_OK;
-    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
-                         "'%s': no host memory to manage device memory", request->name);
+    return fail_host_memory(memory, request);
 }
 
 lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_request *request,

@@ -61,12 +61,16 @@ static size_t best_fit(const engine_range_allocator *allocator, uint64_t size, u
     return best;
 }
 
+bool engine_range_reserve(engine_range_allocator *allocator) {
+    // n taken ranges leave at most n + 1 free ones between them, and one more for a moment while
+    // a range is given back: reserved now, so that giving back never needs memory.
+    return reserve(allocator, allocator->taken_count + 3);
+}
+
 bool engine_range_allocate(engine_range_allocator *allocator, uint64_t size, uint64_t alignment,
                            uint64_t *offset) {
     const size_t index = best_fit(allocator, size, alignment);
-    // n taken ranges leave at most n + 1 free ones between them, and one more for a moment while
-    // a range is given back: reserved now, so that giving back never needs memory.
-    if (index == SIZE_MAX || !reserve(allocator, allocator->taken_count + 3))
+    if (index == SIZE_MAX || !engine_range_reserve(allocator))
         return false;
     const engine_range range = allocator->free[index];
     const uint64_t start = align_up(range.offset, alignment);

@@ -24,6 +24,9 @@ bool engine_range_allocator_create(const lobe_allocator *host, uint64_t size,
                                    engine_range_allocator *allocator);
 void engine_range_allocator_destroy(engine_range_allocator *allocator);
 
+/// Makes sure that the next range that is taken needs no memory of the host. False without it.
+bool engine_range_reserve(engine_range_allocator *allocator);
+
 /// Takes `size` > 0 at a multiple of `alignment` (a power of two) from the free range that is left
 /// with least. False where none is large enough or host memory is short; nothing changes then.
 bool engine_range_allocate(engine_range_allocator *allocator, uint64_t size, uint64_t alignment,

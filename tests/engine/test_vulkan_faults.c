@@ -1,6 +1,6 @@
 // Every call to Vulkan that can fail fails once, on a device of lobe's own and on a host's: each
 // time the call of ours that needed it says so by its code and one line, and all that was made is
-// destroyed.
+// destroyed. The same goes for each time that lobe asks for memory of the host.
 
 #include "tests/engine/cmocka_all.h"
 
@@ -10,6 +10,7 @@
 #include <lobe/graph.h>
 
 #include "engine/vulkan_check.h"
+#include "tests/engine/counting_allocator.h"
 #include "tests/engine/host_device.h"
 #include "tests/engine/log_recorder.h"
 #include "tests/engine/temporary_folder.h"
@@ -286,20 +287,71 @@ static void each_call_fails_once_with_validation(void **state) {
     faults.names = false;
 }
 
+static void open_host(host *host, bool validated) {
+    *host = (struct host){.reached = 0};
+    faults.failing = 0;
+    if (validated)
+        host_device_open(&host->vulkan);
+    else
+        host_device_open_unvalidated(&host->vulkan);
+    host->image = host_image_create(&host->vulkan, VK_FORMAT_R32G32B32A32_SFLOAT, 4, 4,
+                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    host->timeline = host_semaphore(&host->vulkan, true);
+}
+
+static void close_host(host *host) {
+    // The host's own lives on.
+    host_finish(&host->vulkan, host_begin(&host->vulkan));
+    vkDestroySemaphore(host->vulkan.vulkan.device, host->timeline, NULL);
+    host_image_destroy(&host->vulkan, &host->image);
+    host_device_close(&host->vulkan);
+}
+
 static void each_call_fails_once_on_a_hosts_device(void **state) {
     (void)state;
-    host host = {.reached = 0};
-    faults.failing = 0;
-    host_device_open(&host.vulkan);
-    host.image = host_image_create(&host.vulkan, VK_FORMAT_R32G32B32A32_SFLOAT, 4, 4,
-                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    host.timeline = host_semaphore(&host.vulkan, true);
+    host host;
+    open_host(&host, true);
     check_each_call(run_on_hosts_device, &host, 60);
-    // The host's own lives on.
-    host_finish(&host.vulkan, host_begin(&host.vulkan));
-    vkDestroySemaphore(host.vulkan.vulkan.device, host.timeline, NULL);
-    host_image_destroy(&host.vulkan, &host.image);
-    host_device_close(&host.vulkan);
+    close_host(&host);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Memory of the host
+
+typedef struct way {
+    run_function run;
+    host *host;
+} way;
+
+static lobe_result run_with_allocator(void *user, const lobe_log *log) {
+    const way *way = user;
+    work w = {.recorder.log = *log};
+    const lobe_result result = way->run(&w, way->host);
+    if (result != LOBE_OK && w.graph && run_frame(&w, 4) != LOBE_OK)
+        fail_msg("something is left half-built");
+    close_work(&w);
+    return result;
+}
+
+static void check_each_allocation(run_function run, host *host, size_t least) {
+    const int alive = faults.alive;
+    way way = {run, host};
+    assert_true(fail_each_allocation(run_with_allocator, &way) >= least);
+    assert_int_equal(faults.alive, alive);
+}
+
+static void each_allocation_fails_once(void **state) {
+    (void)state;
+    faults.failing = 0;
+    check_each_allocation(run_on_own_device, NULL, 90);
+}
+
+static void each_allocation_fails_once_on_a_hosts_device(void **state) {
+    (void)state;
+    host host;
+    open_host(&host, false);
+    check_each_allocation(run_on_hosts_device, &host, 90);
+    close_host(&host);
 }
 
 /// The tests before have let each of the functions fail that stand ready to.
@@ -316,6 +368,8 @@ int main(void) {
         IN_TEST_FOLDER(each_call_fails_once_with_validation),
         cmocka_unit_test(each_call_fails_once_on_a_hosts_device),
         cmocka_unit_test(each_function_failed),
+        cmocka_unit_test(each_allocation_fails_once),
+        cmocka_unit_test(each_allocation_fails_once_on_a_hosts_device),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
