@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "engine/host_clock.h"
+#include "tests/engine/counting_allocator.h"
 #include "tests/engine/graph_frame.h"
 #include "tests/engine/host_device.h"
 #include "tests/engine/log_recorder.h"
@@ -16,52 +17,25 @@
 #define STEADY   6 ///< frames that are counted
 
 // ---------------------------------------------------------------------------------------------
-// Functions that the linker puts before the library's: they count what lobe takes
+// A function that the linker puts before the C library's
 
-static int taken;
+static int sorted;
 
-void *__real_malloc(size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_malloc(size_t size) {
-    taken++;
-    return __real_malloc(size);
-}
-
-void *__real_calloc(size_t count, size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_calloc(size_t count, size_t size) {
-    taken++;
-    return __real_calloc(count, size);
-}
-
-void *__real_realloc(void *memory, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-void *__wrap_realloc(void *memory, size_t size) {
-    taken++;
-    return __real_realloc(memory, size);
-}
-
-char *__real_strdup(const char *text);
-char *__wrap_strdup(const char *text);
-char *__wrap_strdup(const char *text) {
-    taken++;
-    return __real_strdup(text);
-}
-
-/// The C library's takes memory for more than a few items.
+/// It takes memory of its own for more than a few items.
 void __real_qsort(void *items, size_t count, size_t size,
                   int (*compare)(const void *, const void *));
 void __wrap_qsort(void *items, size_t count, size_t size,
                   int (*compare)(const void *, const void *));
 void __wrap_qsort(void *items, size_t count, size_t size,
                   int (*compare)(const void *, const void *)) {
-    taken++;
+    sorted++;
     __real_qsort(items, count, size, compare);
 }
 
 // ---------------------------------------------------------------------------------------------
 
 typedef struct fixture {
+    counting_allocator counting;
     log_recorder recorder;
     lobe_device *device;
     graph_frame frame;
@@ -70,7 +44,9 @@ typedef struct fixture {
 static int open_fixture(void **state) {
     fixture *f = calloc(1, sizeof *f);
     *state = f;
+    counting_allocator_start(&f->counting);
     log_recorder_start(&f->recorder);
+    f->recorder.log.allocator = &f->counting.allocator;
     return open_device_with_test_shaders(&f->recorder.log, NULL, &f->device) != LOBE_OK ||
            graph_frame_open(f->device, &f->frame) != LOBE_OK;
 }
@@ -82,6 +58,7 @@ static int close_fixture(void **state) {
     if (mistakes)
         print_error("%s\n", f->recorder.last_error);
     lobe_device_destroy(&f->device);
+    assert_nothing_left(&f->counting);
     free(f);
     return mistakes || faults.alive;
 }
@@ -104,42 +81,46 @@ static uint32_t count_passes(const lobe_graph *graph, lobe_pass_state state) {
 }
 
 /// Each frame's time is `step` after that of the one before.
-static void check_steady(graph_frame *frame, float step) {
+static void check_steady(fixture *f, float step) {
+    graph_frame *frame = &f->frame;
     float time = 1.0f;
     for (int n = 0; n < SETTLING; n++, time += step)
         run_frame(frame, time);
-    taken = faults.made = 0;
+    f->counting.taken = 0;
+    sorted = faults.made = 0;
     for (int n = 0; n < STEADY; n++, time += step)
         run_frame(frame, time);
-    if (taken || faults.made)
-        fail_msg("%d allocations and %d objects in %d frames", taken, faults.made, STEADY);
+    if (f->counting.taken || sorted || faults.made)
+        fail_msg("%zu allocations, %d calls of qsort and %d objects in %d frames",
+                 f->counting.taken, sorted, faults.made, STEADY);
 }
 
 static void the_first_frame_is_counted(void **state) {
     fixture *f = *state;
-    taken = faults.made = 0;
+    f->counting.taken = 0;
+    faults.made = 0;
     run_frame(&f->frame, 1.0f);
-    assert_true(taken > 50);
+    assert_true(f->counting.taken > 50);
     assert_true(faults.made > 50);
     assert_int_equal(count_passes(f->frame.graph, LOBE_PASS_RUN), GRAPH_FRAME_PASSES);
 }
 
 static void frames_of_other_content_take_nothing(void **state) {
     fixture *f = *state;
-    check_steady(&f->frame, 1.0f);
+    check_steady(f, 1.0f);
     assert_int_equal(count_passes(f->frame.graph, LOBE_PASS_RUN), GRAPH_FRAME_PASSES);
 }
 
 static void frames_of_the_same_content_take_nothing(void **state) {
     fixture *f = *state;
-    check_steady(&f->frame, 0.0f);
+    check_steady(f, 0.0f);
     assert_true(count_passes(f->frame.graph, LOBE_PASS_SKIPPED) > 0);
 }
 
 static void frames_in_flight_take_nothing(void **state) {
     fixture *f = *state;
     lobe_graph_set_frames_in_flight(f->frame.graph, 2);
-    check_steady(&f->frame, 1.0f);
+    check_steady(f, 1.0f);
 }
 
 static void images_of_the_host_with_views_take_nothing(void **state) {
@@ -162,7 +143,7 @@ static void images_of_the_host_with_views_take_nothing(void **state) {
                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT};
     assert_int_equal(vkCreateImageView(host.vulkan.device, &create, NULL, &target.view), 0);
     f->frame.target = &target;
-    check_steady(&f->frame, 1.0f);
+    check_steady(f, 1.0f);
     vkDestroyImageView(host.vulkan.device, target.view, NULL);
     host_image_destroy(&host, &image);
 }
