@@ -15,9 +15,10 @@ typedef struct vulkan_faults {
     const char *failed; ///< its name, once it has
     bool paused;        ///< while the host calls: nothing fails, and no call counts
     bool names;         ///< calls that name objects, of which there are many, can fail too
-    int alive;          ///< objects made and not destroyed
-    int pipelines;      ///< made so far; set to 0 to count anew
-    int made;           ///< so far, taken from pools included; set to 0 to count anew
+    // Counted in whatever thread.
+    _Atomic int alive;     ///< objects made and not destroyed
+    _Atomic int pipelines; ///< made so far; set to 0 to count anew
+    _Atomic int made;      ///< so far, taken from pools included; set to 0 to count anew
 } vulkan_faults;
 
 extern vulkan_faults faults;
