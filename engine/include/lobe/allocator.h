@@ -13,8 +13,9 @@ extern "C" {
 /// comes from where the device does.
 ///
 /// Not lobe's own, and so not from here: what the Vulkan driver takes (see allocation_callbacks of
-/// lobe_vulkan_device), what spirv-cross, tinygltf with its JSON and images, cJSON, libjpeg and
-/// OpenEXR's compression take while they work, and what the C library keeps for open folders.
+/// lobe_vulkan_device), what SPIRV-Cross takes while it looks at a shader, and tinygltf, libjpeg
+/// and OpenEXR while a file is open, for they cannot be told whose memory to take; and what the C
+/// library takes while it lists a folder or sorts. libpng and zlib take theirs here.
 ///
 /// Both functions may be called from several threads at once. The structure itself is not copied:
 /// it must outlive all that was made with it.
