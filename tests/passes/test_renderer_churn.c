@@ -103,8 +103,7 @@ static void close_churn(churn *c) {
 // ---------------------------------------------------------------------------------------------
 // Changes
 
-/// To another scene; or to a new one in place of it. Maps are of powers of two texels: lavapipe
-/// compiles shaders once more for others, and keeps a thousand of them.
+/// To another scene; or to a new one in place of it, with maps of another extent.
 static void change_scene(churn *c) {
     const uint32_t number = pick(c, SCENES);
     if (c->scenes[number] != c->set && pick(c, 3) == 0) {

@@ -58,6 +58,12 @@ def test_each_file_is_where_it_belongs():
         check(not other, other)
 
 
+def test_how_to_embed_comes_along():
+    folder = UNPACKED / "usr/share/doc/liblobe-dev"
+    for name in ("embed.md.gz", "examples/host_device.c", "pictures/appearance.png"):
+        check((folder / name).exists(), name)
+
+
 def test_program_renders():
     picture = FOLDER / "picture.png"
     result = succeeds("render", "bumps", "--size", "32x24", "-o", picture)
