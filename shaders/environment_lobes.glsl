@@ -21,8 +21,9 @@ bool sampled_by_grid() {
 // ---------------------------------------------------------------------------------------------
 // Lobes
 
-half_vector_distribution gaussian_half_vectors(vec3 axis, vec3 first, vec3 second) {
-    return half_vector_distribution(direction_lobe(axis, first, second), DISTRIBUTION_VMF);
+// Gaussian on the plane that touches the sphere at the axis.
+half_vector_distribution gaussian_slopes(vec3 axis, vec3 first, vec3 second) {
+    return half_vector_distribution(direction_lobe(axis, first, second), DISTRIBUTION_BECKMANN);
 }
 
 // A base lobe, by its own parameter.
@@ -103,11 +104,12 @@ bool above_horizon(vec3 incoming) {
 // ---------------------------------------------------------------------------------------------
 // Half-vector lobes, of area one: the integral of rho(h) L(i) di = rho(h) L(i) 4 <o, h> dh
 
-vec3 sampled_half_vectors(surface_point surface, half_vector_distribution lobe) {
+// As many samples along each side of the grid; none: no light.
+vec3 sampled_half_vectors(surface_point surface, half_vector_distribution lobe, uint side) {
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
-        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
+    for (uint j = 0u; j < side; ++j) {
+        for (uint k = 0u; k < side; ++k) {
             half_vector_sample point = sample_of(lobe, j, k);
             float cosine = dot(surface.outgoing, point.half_vector);
             vec3 incoming = 2.0 * cosine * point.half_vector - surface.outgoing;
@@ -116,7 +118,7 @@ vec3 sampled_half_vectors(surface_point surface, half_vector_distribution lobe) 
             weights += point.weight;
         }
     }
-    return sum / weights;
+    return sum / max(weights, 1e-10);
 }
 
 // The mean of <o, h> over half vectors that face the viewer.
@@ -130,16 +132,29 @@ float mean_half_cosine(direction_lobe lobe, vec3 outgoing) {
     return mean_above_zero(resultant * dot(lobe.axis, outgoing), sqrt(min(spread, 1.0 / 3.0)));
 }
 
+// Steep slopes reflect below the horizon, and the others to all sides: where many are steep, no lobe
+// about what the mean slope reflects holds that, but samples do. [0, 1]: how much.
+float share_of_wide_slopes(half_vector_distribution lobe) {
+    if (lobe.kind != DISTRIBUTION_BECKMANN || ENVIRONMENT_METHOD != ENVIRONMENT_PREFILTERED)
+        return 0.0;
+    direction_lobe slopes = lobe.shape;
+    return smoothstep(0.1, 0.4, dot(slopes.first, slopes.first) +
+                                    dot(slopes.second, slopes.second));
+}
+
 vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) {
     if (sampled_by_grid())
-        return sampled_half_vectors(surface, lobe);
+        return sampled_half_vectors(surface, lobe, ENVIRONMENT_GRID);
     direction_lobe incoming = reflected_lobe(lobe.shape, surface.outgoing);
     float seen = 4.0 * mean_half_cosine(lobe.shape, surface.outgoing);
     if (HORIZON != HORIZON_IGNORED)
         seen *= lobe_share_above(incoming, SURFACE_NORMAL);
     if (HORIZON == HORIZON_CLIPPED)
         incoming = lobe_above(incoming, SURFACE_NORMAL);
-    return seen * lobe_radiance(surface, lobe, incoming);
+    vec3 light = seen * lobe_radiance(surface, lobe, incoming);
+    float wide = share_of_wide_slopes(lobe);
+    uint side = wide > 0.0 ? ENVIRONMENT_GRID : 0u;
+    return mix(light, sampled_half_vectors(surface, lobe, side), wide);
 }
 
 // ---------------------------------------------------------------------------------------------

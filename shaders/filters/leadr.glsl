@@ -112,8 +112,8 @@ half_vector_distribution half_vectors_of_slopes(slope_distribution slopes) {
     vec3 normal = normal_of_slope(slopes.mean);
     vec3 first = vec3(-slopes.root.x, -slopes.root.z, 0.0) * normal.z;
     vec3 second = vec3(0.0, -slopes.root.y, 0.0) * normal.z;
-    return gaussian_half_vectors(normal, first - normal * dot(normal, first),
-                                 second - normal * dot(normal, second));
+    return gaussian_slopes(normal, first - normal * dot(normal, first),
+                           second - normal * dot(normal, second));
 }
 
 // Algorithm 1.

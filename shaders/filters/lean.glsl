@@ -79,9 +79,9 @@ vec3 reflect_footprint(appearance fetched, surface_point surface) {
     footprint_lobe lobe = fetched.lobe;
     vec3 root = lobe.slopes.root;
     half_vector_distribution half_vectors =
-        gaussian_half_vectors(lobe.tangent_from_mean[2],
-                              lobe.tangent_from_mean * vec3(-root.x, -root.z, 0.0),
-                              lobe.tangent_from_mean * vec3(0.0, -root.y, 0.0));
+        gaussian_slopes(lobe.tangent_from_mean[2],
+                        lobe.tangent_from_mean * vec3(-root.x, -root.z, 0.0),
+                        lobe.tangent_from_mean * vec3(0.0, -root.y, 0.0));
     base_material frame = fetched.filtered;
     vec3 sum = MODEL == MODEL_MICROFACET
                    ? reflect_microfacets(surface, half_vectors, frame.specular, frame.width)
