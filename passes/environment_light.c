@@ -9,6 +9,10 @@
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 
+/// Texels along a face that the exact integral goes over at most. Lavapipe ends all loops of a
+/// shader after 65535 rounds together, without a word, and filters have loops of their own.
+#define EXACT_WIDTH 64
+
 static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                        LOBE_WRAP_CLAMP, 0};
 
@@ -59,12 +63,17 @@ static lobe_resource no_harmonics(lobe_graph *graph) {
     return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);
 }
 
+/// Texels along a face of the cube.
+static uint32_t environment_width(const filter_context *context) {
+    return 16u << (uint32_t)filter_setting(context, "env_size");
+}
+
 static environment_maps_request request_of(const filter_context *context) {
     bool prefiltered = method_of(context) == ENVIRONMENT_PREFILTERED;
     environment_maps_request request = {
         .environment = context->scene->scene->environment,
         .texture = context->scene->environment,
-        .size = 16u << (uint32_t)filter_setting(context, "env_size"),
+        .size = environment_width(context),
         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
                    [LOBE_ENVIRONMENT_BETWEEN] = prefiltered && blends(context),
                    [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
@@ -178,12 +187,22 @@ static struct environment_constants constants_of(const filter_context *context,
     return constants;
 }
 
+/// All, or the first one with few enough texels to sum up: it has the same energy.
+static lobe_range levels_read(const environment_light *light, const filter_context *context) {
+    if (light->method != ENVIRONMENT_EXACT)
+        return (lobe_range){0};
+    uint32_t level = 0;
+    while (environment_width(context) >> level > EXACT_WIDTH)
+        ++level;
+    return (lobe_range){.first_level = level, .level_count = 1};
+}
+
 void environment_light_read(const environment_light *light, const filter_context *context,
                             lobe_pass *pass, const shading_sample *sample) {
     if (!light->present)
         return;
     struct environment_constants constants = constants_of(context, sample);
-    lobe_range range = {.level_count = light->method == ENVIRONMENT_EXACT ? 1 : 0};
+    const lobe_range range = levels_read(light, context);
     const lobe_binding bindings[] = {
         {.name = "environment_texels", .resource = light->cube, .range = range},
         {.name = "environment_cube", .resource = light->cube, .range = range, .sampler = trilinear},

@@ -1,7 +1,8 @@
 #ifndef ENVIRONMENT_INTEGRAL_GLSL
 #define ENVIRONMENT_INTEGRAL_GLSL
 
-// The exact integral over an environment: every texel of the cube is a light in its direction.
+// The exact integral over an environment: every texel of the cube (of the level that is bound, see
+// passes/environment_light.c) is a light in its direction.
 // Included after the filter, whose evaluation it goes through.
 
 #include "environment.glsl"

@@ -13,6 +13,8 @@
 #define SAMPLES 32
 /// Terms of the exact sum that one submission adds: no device is kept from its other work for long.
 #define TERMS_A_SUBMISSION (1u << 24)
+/// Texels that one submission adds at most: lavapipe ends loops after 65535 rounds, without a word.
+#define MOST_TEXELS (1u << 15)
 
 typedef struct measurement {
     const environment_check_job *job;
@@ -89,7 +91,7 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
 static lobe_result find_exact_light(measurement *m) {
     uint32_t total = 6 * m->findings->face * m->findings->face;
     uint32_t step = TERMS_A_SUBMISSION / m->job->directions / CHECK_GROUP_SIZE * CHECK_GROUP_SIZE;
-    step = step > 0 ? step : CHECK_GROUP_SIZE;
+    step = step > MOST_TEXELS ? MOST_TEXELS : step > 0 ? step : CHECK_GROUP_SIZE;
     progress_step(m->job->progress, "%s, faces of %u: exact light", m->job->environment->name,
                   m->findings->face);
     lobe_result result = LOBE_OK;

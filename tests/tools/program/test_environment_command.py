@@ -111,6 +111,14 @@ def test_even_light_is_kept_by_every_method():
         check(row["kappa"] > 256 or row["relative_l2"] <= 1e-3, f"{row}")
 
 
+def test_few_directions_see_all_texels():
+    path = fresh_folder("few") / "few.json"
+    succeeds("environment", "sky", "--face", "128", "--check", "--directions", "16", "--json", path)
+    for row in json.loads(path.read_text())["results"]:
+        check(row["method"] != "prefiltered" or row["kappa"] > 64 or row["relative_l2"] < 0.02,
+              f"{row}")
+
+
 def test_lobes_between_levels():
     path = fresh_folder("between") / "between.json"
     succeeds("environment", LAMPS, "--face", "16", "--check", "--directions", "64", "--kappa", "2",
