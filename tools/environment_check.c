@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "passes/environment_check.h"
+#include "tools/median.h"
 
 #define MOST_ROUNDS 16
 /// Updates whose median is taken: each is long.
@@ -29,16 +30,6 @@ const char *environment_method_name(environment_method method) {
     static const char *const names[ENVIRONMENT_METHOD_COUNT] = {"prefiltered", "blended", "mip",
                                                                 "sampled", "sampled_equal_time"};
     return names[method];
-}
-
-static int compare_numbers(const void *left, const void *right) {
-    double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static double median(double *values, uint32_t count) {
-    qsort(values, count, sizeof *values, compare_numbers);
-    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
 // ---------------------------------------------------------------------------------------------

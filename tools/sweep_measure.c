@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/median.h"
 #include "tools/timing.h"
 
 /// Frames of a kind in one turn of a row: each turn is paid for with two untimed ones.
@@ -432,11 +433,6 @@ static lobe_result mark_once(const row_times *times, sweep_row *row) {
     return result;
 }
 
-static int compare_numbers(const void *a, const void *b) {
-    const double first = *(const double *)a, second = *(const double *)b;
-    return (first > second) - (first < second);
-}
-
 /// Lists where rows keep the time of a pass that prepares the environment; returns how many do.
 static size_t list_once(const scene_run *run, const char *name, double **places) {
     size_t count = 0;
@@ -455,9 +451,9 @@ static void share_median(const scene_run *run, const char *name, double **places
     const size_t count = list_once(run, name, places);
     for (size_t i = 0; i < count; ++i)
         times[i] = *places[i];
-    qsort(times, count, sizeof *times, compare_numbers);
+    const double shared = median(times, count);
     for (size_t i = 0; i < count; ++i)
-        *places[i] = 0.5 * (times[(count - 1) / 2] + times[count / 2]);
+        *places[i] = shared;
 }
 
 static lobe_result summarise_environment(const scene_run *run) {
