@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Compiles the GLSL passes of a folder to SPIR-V and writes them as one C table.
 
-Each *.vert, *.frag and *.comp directly in the folder is a pass. One that includes "filter.glsl"
-is compiled for each file of filters/ in its stead. Macros that a pass asks about, of ENVIRONMENT
-and AOV, make variants of it, without and with each: shading.frag and filters/lobes.glsl give
-shading_lobes.frag, shading_lobes_environment.frag, shading_lobes_aov.frag and
-shading_lobes_environment_aov.frag. The table says what each entry was made from, so that the library
-can compile it again at run time.
+Each *.vert, *.frag and *.comp below the folder is a pass, named by its path
+("maps/level_reduction.comp"). One that includes "filter.glsl" is compiled once for each file of
+filters/, which takes the place of that include. The macros ENVIRONMENT and AOV, where a pass tests
+for them, make variants without and with each: shading/shading.frag and filters/lobes.glsl give
+shading/shading_lobes.frag, shading/shading_lobes_environment.frag, and so on. The table says what
+each entry was made from, so that the library can compile it again at run time.
 """
 
 import argparse
@@ -47,7 +47,9 @@ def variants(folder, path):
     for name in filters:
         for definitions in sets:
             words = [path.stem, *([name] if name else []), *(word.lower() for word in definitions)]
-            found.append(Shader("_".join(words) + path.suffix, path.name, definitions,
+            source = path.relative_to(folder)
+            found.append(Shader(source.with_name("_".join(words) + path.suffix).as_posix(),
+                                source.as_posix(), definitions,
                                 f"filters/{name}.glsl" if name else ""))
     return found
 
@@ -65,7 +67,7 @@ def compile_shader(tools, folder, includes, shader, scratch):
     for a constant made of specialisation constants: they are looked at before a driver is."""
     output = Path(scratch) / (shader.name + ".spv")
     substitutes = Path(scratch) / (shader.name + ".include")
-    substitutes.mkdir()
+    substitutes.mkdir(parents=True)
     if shader.substitute:
         (substitutes / "filter.glsl").write_text(f'#include "{shader.substitute}"\n')
     command = [tools.compiler, "-V", "--quiet", "--target-env", "vulkan1.3"]
@@ -80,7 +82,7 @@ def compile_shader(tools, folder, includes, shader, scratch):
 
 def table_text(table, shaders, codes):
     """The C source of the table."""
-    lines = ["/* Made by shaders/embed.py from GLSL. */", '#include "engine/shader.h"', ""]
+    lines = ["/* Made by shaders/embed.py from GLSL. */", '#include "engine/shader/shader.h"', ""]
     for index, words in enumerate(codes):
         lines.append(f"static const uint32_t words_{index}[] = {{")
         lines += ["    " + "".join(f"0x{word:08x}," for word in words[start:start + 8])
@@ -132,7 +134,7 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     folders = [arguments.folder.resolve(), *(path.resolve() for path in arguments.include)]
-    sources = [path for path in sorted(folders[0].iterdir()) if path.suffix in STAGES]
+    sources = [path for path in sorted(folders[0].rglob("*")) if path.suffix in STAGES]
     # The library finds them by halving.
     shaders = sorted((shader for path in sources for shader in variants(folders[0], path)),
                      key=lambda shader: shader.name)

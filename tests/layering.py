@@ -31,7 +31,7 @@ HEAP = re.compile(r"\b(?:malloc|calloc|realloc|reallocarray|free|strdup|strndup|
                   r"open_memstream|getline|getdelim|aligned_alloc|posix_memalign)\s*\(|"
                   r"\brealpath\s*\([^;]*, NULL\)")
 HEAP_FOLDERS = {"engine", "scenes", "passes"}
-HEAP_FILES = {"engine/allocator.c"}
+HEAP_FILES = {"engine/base/allocator.c"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 SUFFIXES = {".c", ".h", ".cpp", ".hpp", ".vert", ".frag", ".comp", ".glsl"}

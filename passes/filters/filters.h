@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_FILTERS_H
 #define PASSES_FILTERS_FILTERS_H
 
-#include "passes/filter.h"
+#include "passes/filters/filter.h"
 
 // One a file beside this one.
 extern const lobe_filter filter_direct;

@@ -1,6 +1,6 @@
-#include "passes/filtered_maps.h"
 #include "passes/filters/filters.h"
-#include "passes/slope_moments.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/slope_moments.h"
 #include "shaders/interface/slope_moments.h"
 
 static const char *const grids[] = {"3", "5", "7", NULL};

@@ -1,6 +1,6 @@
-#include "passes/filtered_maps.h"
 #include "passes/filters/filters.h"
-#include "passes/parameter_averaging.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/parameter_averaging.h"
 
 static const lobe_knob *const knobs[] = {&knob_probes, &knob_bias, &knob_curvature, &knob_storage,
                                          NULL};

@@ -1,11 +1,11 @@
 // One unfiltered sample of the maps: what every filter is to average, and the sample of which the
 // reference takes many.
 
-#include "unfiltered_maps.glsl"
+#include "shading/unfiltered_maps.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment_lobes.glsl"
-#include "environment_sample.glsl"
+#include "environment/lobes.glsl"
+#include "environment/sample.glsl"
 #endif
 
 struct appearance {

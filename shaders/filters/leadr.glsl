@@ -7,8 +7,8 @@
 // paper adds them over the surface's plane, where the lobe of a leaning footprint comes out too
 // narrow: 13 % too bright at 16 degrees. Narrow lobes are then those of the base material.
 
-#include "slope_maps.glsl"
-#include "lib/slope_masking.glsl"
+#include "shading/slope_maps.glsl"
+#include "lib/microfacet/slope_masking.glsl"
 
 layout(constant_id = SPECIALISE_GRID) const uint GRID = 5;
 layout(constant_id = SPECIALISE_REACH) const float REACH = 2.2;
@@ -18,7 +18,7 @@ struct footprint_lobe {
     slope_distribution slopes; // base lobes included: facets that mirror
 };
 
-#include "slope_appearance.glsl"
+#include "shading/slope_appearance.glsl"
 
 footprint_lobe footprint_lobe_of(slope_moments moments) {
     vec3 base = flat_covariance_of_tilted(moments.mean, moments.base_variance);

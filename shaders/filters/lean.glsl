@@ -6,14 +6,14 @@
 // The frame is the one of all filters: masked as the base lobes, about the mean normal of the
 // texels that reflect.
 
-#include "slope_maps.glsl"
+#include "shading/slope_maps.glsl"
 
 struct footprint_lobe {
     mat3 tangent_from_mean; // z: the mean normal
     slope_distribution slopes; // over the mean normal's plane, base lobes included
 };
 
-#include "slope_appearance.glsl"
+#include "shading/slope_appearance.glsl"
 
 footprint_lobe footprint_lobe_of(slope_moments moments) {
     footprint_lobe result;

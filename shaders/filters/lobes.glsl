@@ -7,12 +7,12 @@
 // many as it needs: first the base lobes where level 0 has a share, then the footprint's one lobe,
 // then each sector and its halves.
 
-#include "filtered_maps.glsl"
-#include "lib/characteristic_vector.glsl"
-#include "lib/dispersion.glsl"
+#include "shading/filtered_maps.glsl"
+#include "lib/lobe/characteristic_vector.glsl"
+#include "lib/lobe/dispersion.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment_lobes.glsl"
+#include "environment/lobes.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;

@@ -1,7 +1,7 @@
 // The naive way: normals and concentrations are averaged like colours, and the averages are taken
 // for those of one texel (Xu et al. 2017, section 5.2, naive MIP-mapping).
 
-#include "averaged_maps.glsl"
+#include "shading/averaged_maps.glsl"
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);

@@ -1,17 +1,17 @@
 // Moments of lobes in the Lambert plane, by bins. A material's lobes are shared out to a few bins
-// that fit them (see passes/moment_partition.h); under a pixel each bin is a Gaussian of the
+// that fit them (see passes/filters/moments/partition.h); under a pixel each bin is a Gaussian of the
 // normals, convolved with the base lobe's own shape. Our own, after Olano, Baker 2010, LEAN
 // Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
 
-#include "filtered_maps.glsl"
+#include "shading/filtered_maps.glsl"
 #include "interface/moment_bins.h"
-#include "lib/characteristic_vector.glsl"
-#include "lib/lambert_plane.glsl"
-#include "lib/plane_gaussian.glsl"
-#include "lib/plane_lobe.glsl"
+#include "lib/lobe/characteristic_vector.glsl"
+#include "lib/lobe/lambert_plane.glsl"
+#include "lib/lobe/plane_gaussian.glsl"
+#include "lib/lobe/plane_lobe.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment_lobes.glsl"
+#include "environment/lobes.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;

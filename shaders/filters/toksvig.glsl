@@ -7,7 +7,7 @@
 // concentrations and with variances: checkerboard 0.366, 0.641; photographed metal on a plane 0.266,
 // 0.643, rock 0.135, 0.180, bark 0.102, 0.152, brick 0.120, 0.135.
 
-#include "averaged_maps.glsl"
+#include "shading/averaged_maps.glsl"
 
 // A length of one, as at level 0, widens nothing.
 base_material widened_material(appearance fetched) {

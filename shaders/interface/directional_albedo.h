@@ -5,7 +5,7 @@
 
 // The table of directional albedo: columns are the square root of the cosine to the viewer, rows
 // are roughness, each from 0 in the first texel's centre to 1 in the last one's. What its channels
-// hold is in shaders/directional_albedo.comp.
+// hold is in shaders/environment/directional_albedo.comp.
 //
 // Between texels linear interpolation is off by up to 2e-3 (2e-4 root mean square) for cosines
 // above 0.02 and roughness above 0.05; of 32 x 32 texels by 6.4e-3. With columns even in the cosine

@@ -3,7 +3,7 @@
 
 #include "specialisation.h"
 
-// How a mixture of lobes lies in the layers of a map (see shaders/lobe_clustering.comp).
+// How a mixture of lobes lies in the layers of a map (see shaders/filters/lobes/clustering.comp).
 //
 // [0]           one lobe for all texels: (sum r, coverage)
 // [1 .. 4]      one for each of four sectors, where the subdivision is 1 or more

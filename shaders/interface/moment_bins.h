@@ -5,7 +5,7 @@
 #include "types.h"
 
 // How moments of lobes in the Lambert plane lie in the layers of a map, and how lobes are shared
-// out to bins (see shaders/moment_binning.comp).
+// out to bins (see shaders/filters/moments/binning.comp).
 //
 // With p the lobe's place in the plane, g its sharpness and m its mass, all scaled to [-1, 1] by
 // the material's own range (moment_range), bin b has

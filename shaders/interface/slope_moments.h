@@ -4,8 +4,8 @@
 #include "specialisation.h"
 #include "types.h"
 
-// How moments of slopes lie in the layers of a map (see shaders/slope_moments.comp). A slope is
-// that of the surface a normal stands on, (x, y) = -n_xy/n_z; E: the mean over texels.
+// How moments of slopes lie in the layers of a map (see shaders/maps/slope_moments.comp). A slope
+// is that of the surface a normal stands on, (x, y) = -n_xy/n_z; E: the mean over texels.
 //
 // [0]  E[x], E[y], E[n_z], mean variance of the base lobes in slopes
 // [1]  E[x^2], E[y^2], E[xy], 0

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/shader.h"
+#include "engine/shader/shader.h"
 #include "shaders/interface/atlas.h"
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering.h"
@@ -18,7 +18,7 @@
 #include "shaders/interface/material.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/vertex.h"
-#include "tests/engine/cmocka_all.h"
+#include "tests/engine/support/cmocka_all.h"
 
 // ---------------------------------------------------------------------------------------------
 // What C says

@@ -1,6 +1,6 @@
 #include "tools/viewer/frame.h"
 
-#include "engine/vulkan_check.h"
+#include "engine/device/vulkan_check.h"
 
 lobe_result viewer_frame_open(const viewer_device *device, viewer_frame *frame) {
     VkDevice vulkan = device->vulkan.device;

@@ -1,7 +1,7 @@
 #ifndef TOOLS_VIEWER_FRAME_H
 #define TOOLS_VIEWER_FRAME_H
 
-#include "tools/viewer/display.h"
+#include "tools/viewer/graphics/display.h"
 
 /// Both sides, and the display.
 #define VIEWER_COMMANDS 3

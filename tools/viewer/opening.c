@@ -7,7 +7,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "tools/output_file.h"
+#include "tools/cli/output_file.h"
 #include "tools/viewer/viewer.h"
 
 /// Panels take one to be as large as their text, and show it in the next.

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "tools/capture.h"
-#include "tools/timing.h"
+#include "tools/bench/timing.h"
+#include "tools/render/capture.h"
 #include "tools/viewer/viewer.h"
 
 /// The scene's name without folders and ending.

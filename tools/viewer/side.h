@@ -5,7 +5,7 @@
 
 #include <lobe/renderer.h>
 
-#include "tools/viewer/target.h"
+#include "tools/viewer/graphics/target.h"
 
 /// What of the scene is shown.
 typedef enum viewer_output {

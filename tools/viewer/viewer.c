@@ -8,11 +8,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "engine/shader.h"
-#include "engine/shader_words.h"
+#include "engine/shader/shader.h"
+#include "engine/shader/words.h"
 #include "third_party/imgui.h"
 #include "tools/viewer/camera.h"
-#include "tools/viewer/graphics.h"
+#include "tools/viewer/graphics/graphics.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"

@@ -5,12 +5,12 @@
 
 #include <lobe/lobe.h>
 
-#include "tools/cache_options.h"
-#include "tools/device_options.h"
-#include "tools/scene_options.h"
-#include "tools/view_options.h"
-#include "tools/viewer/display.h"
+#include "tools/cli/cache_options.h"
+#include "tools/cli/device_options.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/view_options.h"
 #include "tools/viewer/frame.h"
+#include "tools/viewer/graphics/display.h"
 
 /// What the command line asks for.
 typedef struct viewer_request {

@@ -196,7 +196,7 @@ typedef enum lobe_blend {
 } lobe_blend;
 
 typedef struct lobe_draw {
-    const char *vertex_shader;   ///< "shading.vert". Vertices are read from storage buffers.
+    const char *vertex_shader; ///< "shading/shading.vert". Vertices are read from storage buffers.
     const char *fragment_shader; ///< NULL: depth only
     lobe_resource indices;       ///< buffer of uint32; none: vertices are drawn in order
     uint32_t first_index, index_count, instance_count; ///< 0 instances means 1

@@ -96,7 +96,7 @@ lobe_environment_maps_describe(const lobe_environment_maps *maps);
 
 /// The concentration kappa of the lobe that a level of a filtered cube stands for, where level 0
 /// has `width` texels along a face; LOBE_ENVIRONMENT_BETWEEN has twice as much. Lobes in between
-/// lie between levels, or between the two cubes: shaders/lib/environment_level.glsl.
+/// lie between levels, or between the two cubes: shaders/lib/light/environment_level.glsl.
 double lobe_environment_level_concentration(uint32_t width, uint32_t level);
 
 /// Copies one face of one level to host memory: RGBA32_FLOAT, rows from top to bottom as Vulkan

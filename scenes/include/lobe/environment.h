@@ -18,7 +18,7 @@ extern "C" {
 
 /// How the sphere of directions is laid out on an image, in the environment's own space: +Y is up.
 /// The six faces of a cube are squares of equal size; which way each lies is said in
-/// scenes/environment_direction.h.
+/// scenes/environment/direction.h.
 typedef enum lobe_environment_layout {
     /// The top row is +Y, the centre looks to +Z, longitude grows to the left as seen from inside:
     /// u = 0 and 1 are -Z, u = 1/4 is +X, u = 3/4 is -X.

@@ -458,18 +458,18 @@ def test_saved_shaders_are_seen():
     hot.do("key", "Tab")
     before = seen()
     line = "radiance_out = vec4(value, 1.0);"
-    save("shading.frag", line, line.replace("value", "value.bgr"))
+    save("shading/shading.frag", line, line.replace("value", "value.bgr"))
     check(comes(lambda: seen() != before), "nothing to be seen of a saved shader")
     hot.settle()
     swapped = [b"".join(row[i + 2:i - 1 if i else None:-1] + row[i + 3:i + 4]
                         for i in range(0, len(row), 4)) for row in before]
     check(largest_difference(seen(), swapped) == 0, "red and blue have not changed places")
     after = seen()
-    save("shading.frag", line.replace("value", "value.bgr"), "radiance_out = nothing;")
+    save("shading/shading.frag", line.replace("value", "value.bgr"), "radiance_out = nothing;")
     check(comes(lambda: "shading.frag:" in hot.said()), f"no mistake is told: {hot.said()}")
     check(comes(lambda: seen() != after), "no mistake is shown")
     check(seen()[:SIZE[1] // 2] == after[:SIZE[1] // 2], "the old shader is gone")
-    save("shading.frag", "radiance_out = nothing;", line)
+    save("shading/shading.frag", "radiance_out = nothing;", line)
     check(comes(lambda: seen() == before), "the mistake stays")
     check(hot.close() == 0, hot.said())
     return None

@@ -1,0 +1,43 @@
+#ifndef ENGINE_BASE_STAMP_H
+#define ENGINE_BASE_STAMP_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+/// A stamp is a 64-bit digest of everything some content was computed from: equal stamps mean
+/// equal content. It is compared within one process only, never stored.
+typedef uint64_t engine_stamp;
+
+#define ENGINE_STAMP_NONE ((engine_stamp)0)
+
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+/// generators", Fig. 5): every input bit moves every output bit. Never returns ENGINE_STAMP_NONE.
+static inline engine_stamp engine_stamp_mix(engine_stamp stamp, uint64_t value) {
+    uint64_t z = (stamp ^ value) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    // Position matters: without the rotation, (a, b) and (b, a) would differ only by the seed.
+    z ^= (z >> 31) ^ (stamp << 17 | stamp >> 47);
+    return z ? z : 1;
+}
+
+static inline engine_stamp engine_stamp_bytes(engine_stamp stamp, const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    stamp = engine_stamp_mix(stamp, size);
+    while (size > 0) {
+        uint64_t word = 0;
+        size_t step = size < sizeof word ? size : sizeof word;
+        memcpy(&word, bytes, step);
+        stamp = engine_stamp_mix(stamp, word);
+        bytes += step;
+        size -= step;
+    }
+    return stamp;
+}
+
+static inline engine_stamp engine_stamp_text(engine_stamp stamp, const char *text) {
+    return text ? engine_stamp_bytes(stamp, text, strlen(text)) : engine_stamp_mix(stamp, 0);
+}
+
+#endif

@@ -1,0 +1,127 @@
+#include <lobe/vulkan.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine/device/features.h"
+#include "engine/device/selection.h"
+
+// ---------------------------------------------------------------------------------------------
+// Extensions
+
+static const lobe_vulkan_extension known[] = {
+    {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME, "knowing how much memory may be taken", false},
+};
+#define KNOWN_COUNT (sizeof known / sizeof *known)
+
+_Static_assert(KNOWN_COUNT <= LOBE_VULKAN_MAXIMUM_EXTENSIONS, "names of all must fit");
+
+const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count) {
+    *count = KNOWN_COUNT;
+    return known;
+}
+
+static bool has_extension(const VkExtensionProperties *extensions, uint32_t count,
+                          const char *name) {
+    for (uint32_t i = 0; i < count; i++)
+        if (!strcmp(extensions[i].extensionName, name))
+            return true;
+    return false;
+}
+
+lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *log,
+                                   const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
+                                   uint32_t *filled) {
+    uint32_t count = 0;
+    *filled = 0;
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
+        return LOBE_OK;
+    VkExtensionProperties *extensions =
+        lobe_allocate(lobe_log_allocator(log), count, sizeof *extensions);
+    if (!extensions)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
+                             "Vulkan: no host memory for a device's extensions");
+    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
+        for (size_t i = 0; i < KNOWN_COUNT; i++)
+            if (has_extension(extensions, count, known[i].name))
+                names[(*filled)++] = known[i].name;
+    lobe_release(extensions);
+    return LOBE_OK;
+}
+
+uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
+                                     const lobe_allocator *allocator,
+                                     const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
+    const lobe_log silent = {.allocator = allocator};
+    uint32_t filled;
+    (void)engine_extensions_fill(physical_device, &silent, names, &filled);
+    return filled;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Features and queues
+
+void lobe_vulkan_features_fill(VkPhysicalDevice physical_device, lobe_vulkan_features *features) {
+    lobe_device_feature present[ENGINE_FEATURE_COUNT];
+    engine_features_query(physical_device, present);
+    engine_features_enable(present, features);
+}
+
+uint32_t lobe_vulkan_queue_family(VkPhysicalDevice physical_device) {
+    uint32_t timestamp_bits;
+    return engine_queue_family_find(physical_device, &timestamp_bits);
+}
+
+// ---------------------------------------------------------------------------------------------
+// What is missing
+
+/// Lines added to a text that may be too short for them.
+typedef struct line_list {
+    char *text;
+    size_t size, used;
+    size_t count;
+} line_list;
+
+static void __attribute__((format(printf, 2, 3)))
+add_line(line_list *list, const char *format, ...) {
+    va_list arguments;
+    const size_t left = list->size - list->used;
+    int length = 0;
+    if (list->count++ && left > 1)
+        length = snprintf(list->text + list->used, left, "\n");
+    va_start(arguments, format);
+    if (left > 1)
+        length +=
+            vsnprintf(list->text + list->used + length, left - (size_t)length, format, arguments);
+    va_end(arguments);
+    list->used += (size_t)length < left ? (size_t)length : left ? left - 1 : 0;
+}
+
+static void add_features(line_list *list, VkPhysicalDevice physical_device,
+                         const VkPhysicalDeviceFeatures2 *enabled) {
+    lobe_device_feature features[ENGINE_FEATURE_COUNT];
+    if (enabled)
+        engine_features_read(enabled, features);
+    else
+        engine_features_query(physical_device, features);
+    for (size_t i = 0; i < ENGINE_FEATURE_COUNT; i++)
+        if (features[i].required && !features[i].present)
+            add_line(list, "feature %s (%s)", features[i].name, features[i].use);
+}
+
+size_t lobe_vulkan_missing(VkPhysicalDevice physical_device,
+                           const VkPhysicalDeviceFeatures2 *enabled, char *text, size_t size) {
+    line_list list = {.text = text, .size = size};
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical_device, &properties);
+    if (size > 0)
+        text[0] = '\0';
+    if (properties.apiVersion < LOBE_VULKAN_API_VERSION)
+        add_line(&list, "Vulkan 1.3 (it offers %u.%u)", VK_API_VERSION_MAJOR(properties.apiVersion),
+                 VK_API_VERSION_MINOR(properties.apiVersion));
+    if (lobe_vulkan_queue_family(physical_device) == UINT32_MAX)
+        add_line(&list, "a queue with both graphics and compute");
+    add_features(&list, physical_device, enabled);
+    return list.count;
+}

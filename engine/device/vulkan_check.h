@@ -1,0 +1,23 @@
+#ifndef ENGINE_DEVICE_VULKAN_CHECK_H
+#define ENGINE_DEVICE_VULKAN_CHECK_H
+
+#include <vulkan/vulkan.h>
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// The enumerator's name, for example "VK_ERROR_DEVICE_LOST". Never NULL.
+const char *engine_vulkan_result_name(VkResult result);
+
+/// What a VkResult means to lobe's callers. Success codes that are not errors give LOBE_OK.
+lobe_result engine_vulkan_result(VkResult result);
+
+/// Calls Vulkan and gives a lobe_result; where that is an error, logs one line with the
+/// expression and what it was for:
+/// `result = VULKAN_CHECK(&device->log, vkCreateImage(...), "image '%s'", name);`
+#define VULKAN_CHECK(log, call, ...) engine_vulkan_check((log), (call), #call, __VA_ARGS__)
+
+lobe_result engine_vulkan_check(const lobe_log *log, VkResult result, const char *expression,
+                                const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+#endif

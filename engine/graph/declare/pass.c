@@ -1,0 +1,272 @@
+#include "engine/graph/declare/declare.h"
+
+#include <string.h>
+
+#include "engine/base/growing_array.h"
+
+static const char *const kind_names[] = {
+    [LOBE_PASS_COMPUTE] = "compute",
+    [LOBE_PASS_RASTER] = "raster",
+    [LOBE_PASS_TRANSFER] = "transfer",
+};
+
+// ---------------------------------------------------------------------------------------------
+// Passes
+
+lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name) {
+    lobe_pass *pass = engine_arena_allocate(&graph->arena, sizeof *pass);
+    const char *kept = engine_arena_copy_text(&graph->arena, name);
+    uint32_t index = graph->dependencies.pass_count;
+    if (!pass || !kept ||
+        !engine_array_reserve(graph->device->log.allocator, (void **)&graph->passes,
+                              &graph->pass_capacity, (uint64_t)index + 1, sizeof *graph->passes) ||
+        engine_dependency_add_pass(&graph->dependencies, kept) == ENGINE_DEPENDENCY_NONE) {
+        engine_graph_fail_memory(graph);
+        return NULL;
+    }
+    *pass = (lobe_pass){.graph = graph, .index = index, .kind = kind, .name = kept};
+    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
+        pass->colour[n].access = pass->resolve[n].access = ENGINE_DEPENDENCY_NONE;
+    pass->depth.access = ENGINE_DEPENDENCY_NONE;
+    graph->passes[index] = pass;
+    return pass;
+}
+
+lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name) {
+    const char *given = name ? name : "pass";
+    lobe_pass *pass = NULL;
+    if (engine_graph_may_declare(graph, given))
+        pass = engine_graph_add_pass(graph, kind, given);
+    return pass ? pass : &graph->nothing;
+}
+
+void lobe_pass_keep(lobe_pass *pass) {
+    if (engine_graph_may_declare(pass->graph, pass->name))
+        pass->graph->dependencies.passes[pass->index].keep = true;
+}
+
+bool engine_graph_pass_is(lobe_pass *pass, lobe_pass_kind kind, const char *call) {
+    if (!engine_graph_may_declare(pass->graph, pass->name))
+        return false;
+    if (pass->kind != kind)
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': %s is for %s passes, this is a %s pass", pass->name, call,
+                        kind_names[kind], kind_names[pass->kind]);
+    return pass->kind == kind;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Accesses and bindings
+
+engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource handle) {
+    lobe_graph *graph = pass->graph;
+    if (handle.version != 0 && handle.index < graph->dependencies.resource_count)
+        return &graph->resources[handle.index];
+    lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                    "pass '%s' uses a resource handle that this frame never gave out", pass->name);
+    return NULL;
+}
+
+uint32_t engine_graph_access(lobe_pass *pass, lobe_resource *resource, lobe_range range,
+                             engine_access_kind kind, engine_access_state state) {
+    lobe_graph *graph = pass->graph;
+    uint32_t version = 0;
+    uint32_t access = engine_dependency_add_access(&graph->dependencies, pass->index, *resource,
+                                                   range, kind, &version);
+    if (access == ENGINE_DEPENDENCY_NONE) {
+        engine_graph_fail_dependency(graph);
+        return access;
+    }
+    graph->dependencies.accesses[access].state = state;
+    if (kind != ENGINE_ACCESS_READ)
+        resource->version = version;
+    return access;
+}
+
+static bool is_bound(const engine_graph_binding_list *list, const char *name) {
+    for (const engine_graph_binding *bound = list->first; bound; bound = bound->next)
+        if (strcmp(bound->name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool check_binding_name(lobe_pass *pass, const engine_graph_binding_list *list,
+                               const char *name) {
+    if (!name)
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding without a name",
+                        pass->name);
+    else if (is_bound(list, name))
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' binds '%s' twice", pass->name,
+                        name);
+    return pass->graph->result == LOBE_OK;
+}
+
+static void append_binding(engine_graph_binding_list *list, engine_graph_binding *binding) {
+    if (list->last)
+        list->last->next = binding;
+    else
+        list->first = binding;
+    list->last = binding;
+}
+
+lobe_resource engine_graph_bind(lobe_pass *pass, engine_graph_binding_list *list,
+                                const lobe_binding *binding, engine_access_kind kind) {
+    lobe_graph *graph = pass->graph;
+    lobe_resource resource = binding->resource;
+    if (!check_binding_name(pass, list, binding->name))
+        return resource;
+    if (!engine_graph_find_resource(pass, resource))
+        return resource;
+    lobe_range range = graph->resources[resource.index].is_image ? binding->range : (lobe_range){0};
+    // How it is used is known when the shaders are.
+    uint32_t access = engine_graph_access(pass, &resource, range, kind, (engine_access_state){0});
+    engine_graph_binding *added = engine_arena_allocate(&graph->arena, sizeof *added);
+    const char *name = engine_arena_copy_text(&graph->arena, binding->name);
+    if (!added || !name) {
+        engine_graph_fail_memory(graph);
+        return resource;
+    }
+    *added = (engine_graph_binding){
+        .name = name, .sampler = binding->sampler, .kind = kind, .access = access};
+    append_binding(list, added);
+    return resource;
+}
+
+static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
+                                  engine_access_kind kind) {
+    if (!engine_graph_may_declare(pass->graph, pass->name))
+        return binding->resource;
+    if (pass->kind == LOBE_PASS_TRANSFER) {
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': a transfer pass has no shader to bind '%s' to", pass->name,
+                        binding->name ? binding->name : "");
+        return binding->resource;
+    }
+    return engine_graph_bind(pass, &pass->bindings, binding, kind);
+}
+
+void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding) {
+    bind_to_pass(pass, binding, ENGINE_ACCESS_READ);
+}
+
+lobe_resource lobe_pass_write(lobe_pass *pass, const lobe_binding *binding) {
+    return bind_to_pass(pass, binding, ENGINE_ACCESS_WRITE);
+}
+
+lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding) {
+    return bind_to_pass(pass, binding, ENGINE_ACCESS_MODIFY);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Commands
+
+engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind) {
+    engine_graph_command *command = engine_arena_allocate(&pass->graph->arena, sizeof *command);
+    if (!command) {
+        engine_graph_fail_memory(pass->graph);
+        return NULL;
+    }
+    command->kind = kind;
+    command->index_access = ENGINE_DEPENDENCY_NONE;
+    command->source_access = command->target_access = ENGINE_DEPENDENCY_NONE;
+    if (pass->last_command)
+        pass->last_command->next = command;
+    else
+        pass->first_command = command;
+    pass->last_command = command;
+    return command;
+}
+
+static bool check_constants(lobe_pass *pass, const char *shader, const void *constants,
+                            size_t size) {
+    if (!shader) {
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': no shader", pass->name);
+    } else if (size > ENGINE_MAXIMUM_PUSH_CONSTANTS || (size > 0 && !constants)) {
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s', shader '%s': %zu bytes of constants, not in [0, %d]",
+                        pass->name, shader, size, ENGINE_MAXIMUM_PUSH_CONSTANTS);
+    }
+    return pass->graph->result == LOBE_OK;
+}
+
+static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
+                            const lobe_binding *bindings, size_t count) {
+    for (size_t n = 0; n < count; n++)
+        engine_graph_bind(pass, &command->bindings, &bindings[n], ENGINE_ACCESS_READ);
+}
+
+static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lobe_dispatch *copy) {
+    *copy = *dispatch;
+    copy->shader = engine_arena_copy_text(arena, dispatch->shader);
+    copy->constants = engine_arena_copy(arena, dispatch->constants, dispatch->constants_size);
+    copy->specialisation =
+        engine_arena_copy(arena, dispatch->specialisation,
+                          dispatch->specialisation_count * sizeof *dispatch->specialisation);
+    copy->bindings = NULL;
+    return copy->shader && copy->constants && copy->specialisation;
+}
+
+void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
+    if (!engine_graph_pass_is(pass, LOBE_PASS_COMPUTE, "a dispatch") ||
+        !check_constants(pass, dispatch->shader, dispatch->constants, dispatch->constants_size))
+        return;
+    engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DISPATCH);
+    if (!command)
+        return;
+    if (!copy_dispatch(&pass->graph->arena, dispatch, &command->dispatch))
+        engine_graph_fail_memory(pass->graph);
+    else
+        bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
+}
+
+static bool copy_draw(engine_arena *arena, const lobe_draw *draw, lobe_draw *copy) {
+    *copy = *draw;
+    copy->vertex_shader = engine_arena_copy_text(arena, draw->vertex_shader);
+    if (draw->fragment_shader)
+        copy->fragment_shader = engine_arena_copy_text(arena, draw->fragment_shader);
+    copy->constants = engine_arena_copy(arena, draw->constants, draw->constants_size);
+    copy->specialisation = engine_arena_copy(
+        arena, draw->specialisation, draw->specialisation_count * sizeof *draw->specialisation);
+    copy->bindings = NULL;
+    copy->instance_count = draw->instance_count ? draw->instance_count : 1;
+    return copy->vertex_shader && (copy->fragment_shader || !draw->fragment_shader) &&
+           copy->constants && copy->specialisation;
+}
+
+static void bind_indices(lobe_pass *pass, engine_graph_command *command) {
+    lobe_draw *draw = &command->draw;
+    lobe_graph *graph = pass->graph;
+    if (draw->indices.version == 0)
+        return;
+    const engine_graph_resource *indices = engine_graph_find_resource(pass, draw->indices);
+    if (!indices)
+        return;
+    uint64_t end = ((uint64_t)draw->first_index + draw->index_count) * sizeof(uint32_t);
+    if (indices->is_image || end > indices->size) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s' draws indices %u to %llu, which resource '%s' does not hold",
+                        pass->name, draw->first_index, (unsigned long long)(end / 4),
+                        indices->name);
+        return;
+    }
+    command->index_access =
+        engine_graph_access(pass, &draw->indices, (lobe_range){0}, ENGINE_ACCESS_READ,
+                            (engine_access_state){.stages = VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+                                                  .access = VK_ACCESS_2_INDEX_READ_BIT});
+    graph->resources[draw->indices.index].usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+}
+
+void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw) {
+    if (!engine_graph_pass_is(pass, LOBE_PASS_RASTER, "a draw") ||
+        !check_constants(pass, draw->vertex_shader, draw->constants, draw->constants_size))
+        return;
+    engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DRAW);
+    if (!command)
+        return;
+    if (!copy_draw(&pass->graph->arena, draw, &command->draw)) {
+        engine_graph_fail_memory(pass->graph);
+        return;
+    }
+    bind_indices(pass, command);
+    bind_to_command(pass, command, draw->bindings, draw->binding_count);
+}

@@ -1,0 +1,274 @@
+#include "engine/graph/declare/declare.h"
+
+#include <string.h>
+
+#include "engine/base/growing_array.h"
+
+static uint32_t at_least_one(uint32_t value) {
+    return value ? value : 1;
+}
+
+bool engine_graph_may_declare(lobe_graph *graph, const char *what) {
+    if (graph->result != LOBE_OK)
+        return false;
+    if (graph->phase == ENGINE_GRAPH_DECLARING)
+        return true;
+    lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                    "'%s' was declared after the frame was compiled; begin a new one first", what);
+    return false;
+}
+
+lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
+                                        const engine_dependency_resource *dependency) {
+    uint32_t index = graph->dependencies.resource_count;
+    if (!engine_array_reserve(graph->device->log.allocator, (void **)&graph->resources,
+                              &graph->resource_capacity, (uint64_t)index + 1,
+                              sizeof *graph->resources)) {
+        engine_graph_fail_memory(graph);
+        return (lobe_resource){0};
+    }
+    graph->resources[index] = *resource;
+    if (engine_dependency_add_resource(&graph->dependencies, dependency) ==
+        ENGINE_DEPENDENCY_NONE) {
+        engine_graph_fail_dependency(graph);
+        return (lobe_resource){0};
+    }
+    return (lobe_resource){.index = index, .version = 1};
+}
+
+static const char *keep_name(lobe_graph *graph, const char *name, const char *otherwise) {
+    const char *kept = engine_arena_copy_text(&graph->arena, name ? name : otherwise);
+    if (!kept)
+        engine_graph_fail_memory(graph);
+    return kept;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Images and buffers of the graph
+
+static bool check_extent(lobe_graph *graph, const lobe_image_description *image) {
+    uint32_t limit = graph->device->limits.maxImageDimension2D;
+    if (limit > LOBE_IMAGE_MAXIMUM_EXTENT)
+        limit = LOBE_IMAGE_MAXIMUM_EXTENT;
+    if (image->width == 0 || image->height == 0)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': an extent of %ux%u texels",
+                        image->name, image->width, image->height);
+    else if (image->width > limit || image->height > limit)
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "image '%s': %ux%u texels, the device allows %u at most", image->name,
+                        image->width, image->height, limit);
+    else if (image->layers > graph->device->limits.maxImageArrayLayers)
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "image '%s': %u layers, the device allows %u at most", image->name,
+                        image->layers, graph->device->limits.maxImageArrayLayers);
+    return graph->result == LOBE_OK;
+}
+
+static uint32_t possible_levels(uint32_t width, uint32_t height) {
+    uint32_t levels = 1;
+    for (uint32_t extent = width > height ? width : height; extent > 1; extent /= 2)
+        levels++;
+    return levels;
+}
+
+static bool check_shape(lobe_graph *graph, const lobe_image_description *image) {
+    uint32_t levels = possible_levels(image->width, image->height);
+    uint32_t samples = at_least_one(image->samples);
+    if (image->format <= LOBE_FORMAT_NONE || image->format >= LOBE_FORMAT_COUNT)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': no format", image->name);
+    else if (image->levels > levels)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "image '%s': %u levels, but %ux%u texels have %u at most", image->name,
+                        image->levels, image->width, image->height, levels);
+    else if (samples != 1 && samples != 2 && samples != 4)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': %u samples, not 1, 2 or 4",
+                        image->name, samples);
+    else if (samples > 1 && (image->levels > 1 || image->layers > 1))
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "image '%s': multisampled images have one level and one layer",
+                        image->name);
+    return graph->result == LOBE_OK;
+}
+
+void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
+                       uint32_t *height) {
+    *width = *height = 0;
+    if (image.version == 0 || image.index >= graph->dependencies.resource_count)
+        return;
+    *width = graph->resources[image.index].width;
+    *height = graph->resources[image.index].height;
+}
+
+static engine_stamp identity_of(const engine_graph_resource *resource) {
+    engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, resource->is_image);
+    const uint64_t numbers[] = {resource->format, resource->width,  resource->height,
+                                resource->layers, resource->levels, resource->samples,
+                                resource->size};
+    return engine_stamp_bytes(stamp, numbers, sizeof numbers);
+}
+
+/// Finds what former frames kept under this name; false where this frame already declared it.
+static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
+                           engine_dependency_resource *dependency) {
+    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
+        if (graph->resources[n].origin == ENGINE_GRAPH_RETAINED &&
+            strcmp(graph->resources[n].name, resource->name) == 0) {
+            lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                            "retained resource '%s' is declared twice in one frame",
+                            resource->name);
+            return false;
+        }
+    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+        if (strcmp(kept->name, resource->name) == 0 && kept->identity == dependency->identity) {
+            kept->declared = true;
+            resource->retained = kept;
+            dependency->recorded = kept->stamps;
+            dependency->start_layouts = kept->layouts;
+        }
+    return true;
+}
+
+static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource, bool retained) {
+    engine_dependency_resource dependency = {.name = resource->name,
+                                             .levels = resource->levels,
+                                             .layers = resource->layers,
+                                             .retained = retained,
+                                             .identity = identity_of(resource)};
+    if (retained) {
+        resource->origin = ENGINE_GRAPH_RETAINED;
+        if (!claim_retained(graph, resource, &dependency))
+            return (lobe_resource){0};
+    }
+    return engine_graph_add_resource(graph, resource, &dependency);
+}
+
+lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description) {
+    lobe_image_description image = *description;
+    if (!engine_graph_may_declare(graph, image.name ? image.name : "image"))
+        return (lobe_resource){0};
+    image.name = keep_name(graph, image.name, "image");
+    if (!image.name || !check_extent(graph, &image) || !check_shape(graph, &image))
+        return (lobe_resource){0};
+    engine_graph_resource resource = {.name = image.name,
+                                      .is_image = true,
+                                      .format = image.format,
+                                      .width = image.width,
+                                      .height = image.height,
+                                      .layers = at_least_one(image.layers),
+                                      .levels = at_least_one(image.levels),
+                                      .samples = at_least_one(image.samples)};
+    return declare(graph, &resource, image.retained);
+}
+
+lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description) {
+    const char *given = description->name ? description->name : "buffer";
+    if (!engine_graph_may_declare(graph, given))
+        return (lobe_resource){0};
+    const char *name = keep_name(graph, given, given);
+    uint64_t limit = graph->device->limits.maxStorageBufferRange;
+    if (name && description->size == 0)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': a size of 0", name);
+    else if (name && description->size > limit)
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
+                        "buffer '%s': %zu bytes, the device allows %llu at most", name,
+                        description->size, (unsigned long long)limit);
+    if (graph->result != LOBE_OK)
+        return (lobe_resource){0};
+    engine_graph_resource resource = {
+        .name = name, .layers = 1, .levels = 1, .size = description->size};
+    return declare(graph, &resource, description->retained);
+}
+
+// ---------------------------------------------------------------------------------------------
+// What comes from the host
+
+static uint32_t find_import(const lobe_graph *graph, const void *object) {
+    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
+        if ((graph->resources[n].origin == ENGINE_GRAPH_TEXTURE &&
+             graph->resources[n].texture == object) ||
+            (graph->resources[n].origin == ENGINE_GRAPH_BUFFER &&
+             graph->resources[n].buffer == object))
+            return n;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture) {
+    static const engine_layout layout = ENGINE_LAYOUT_SAMPLED;
+    if (!engine_graph_may_declare(graph, texture->name))
+        return (lobe_resource){0};
+    uint32_t known = find_import(graph, texture);
+    if (known != ENGINE_DEPENDENCY_NONE)
+        return (lobe_resource){.index = known, .version = 1};
+    engine_graph_resource resource = {.name = keep_name(graph, texture->name, "texture"),
+                                      .origin = ENGINE_GRAPH_TEXTURE,
+                                      .is_image = true,
+                                      .format = texture->format,
+                                      .width = texture->width,
+                                      .height = texture->height,
+                                      .layers = 1,
+                                      .levels = 1,
+                                      .samples = 1,
+                                      .texture = texture,
+                                      .bytes = texture->allocation.size};
+    engine_dependency_resource dependency = {.name = resource.name,
+                                             .levels = 1,
+                                             .layers = 1,
+                                             .imported = true,
+                                             .identity = texture->stamp,
+                                             .start_layouts = &layout};
+    return resource.name ? engine_graph_add_resource(graph, &resource, &dependency)
+                         : (lobe_resource){0};
+}
+
+lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer) {
+    if (!engine_graph_may_declare(graph, buffer->name))
+        return (lobe_resource){0};
+    uint32_t known = find_import(graph, buffer);
+    if (known != ENGINE_DEPENDENCY_NONE)
+        return (lobe_resource){.index = known, .version = 1};
+    engine_graph_resource resource = {.name = keep_name(graph, buffer->name, "buffer"),
+                                      .origin = ENGINE_GRAPH_BUFFER,
+                                      .layers = 1,
+                                      .levels = 1,
+                                      .size = buffer->size,
+                                      .buffer = buffer,
+                                      .bytes = buffer->allocation.size};
+    engine_dependency_resource dependency = {.name = resource.name,
+                                             .levels = 1,
+                                             .layers = 1,
+                                             .imported = true,
+                                             .identity = buffer->stamp};
+    return resource.name ? engine_graph_add_resource(graph, &resource, &dependency)
+                         : (lobe_resource){0};
+}
+
+lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data,
+                                size_t size) {
+    const char *given = name ? name : "upload";
+    if (!engine_graph_may_declare(graph, given))
+        return (lobe_resource){0};
+    if (size == 0 || size > ENGINE_MAXIMUM_UPLOAD) {
+        lobe_graph_fail(graph, size ? LOBE_ERROR_LIMIT : LOBE_ERROR_GRAPH,
+                        "upload '%s': %zu bytes, not in [1, %zu]", given, size,
+                        ENGINE_MAXIMUM_UPLOAD);
+        return (lobe_resource){0};
+    }
+    engine_graph_resource resource = {.name = keep_name(graph, given, given),
+                                      .origin = ENGINE_GRAPH_UPLOAD,
+                                      .layers = 1,
+                                      .levels = 1,
+                                      .size = size,
+                                      .upload = engine_arena_copy(&graph->arena, data, size),
+                                      .bytes = size};
+    if (!resource.name || !resource.upload) {
+        engine_graph_fail_memory(graph);
+        return (lobe_resource){0};
+    }
+    engine_dependency_resource dependency = {.name = resource.name,
+                                             .levels = 1,
+                                             .layers = 1,
+                                             .imported = true,
+                                             .identity =
+                                                 engine_stamp_bytes(ENGINE_STAMP_NONE, data, size)};
+    return engine_graph_add_resource(graph, &resource, &dependency);
+}

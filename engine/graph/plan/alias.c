@@ -1,0 +1,66 @@
+#include "engine/graph/plan/alias.h"
+
+#include <stdlib.h>
+
+static uint64_t align_up(uint64_t value, uint64_t alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+/// Larger first; among equals the earlier declared, so that the plan is deterministic.
+static int compare_requests(const void *a, const void *b) {
+    const engine_alias_request *first = *(engine_alias_request *const *)a;
+    const engine_alias_request *second = *(engine_alias_request *const *)b;
+    if (first->size != second->size)
+        return first->size > second->size ? -1 : 1;
+    return first < second ? -1 : first > second;
+}
+
+static int compare_offsets(const void *a, const void *b) {
+    const engine_alias_request *first = *(engine_alias_request *const *)a;
+    const engine_alias_request *second = *(engine_alias_request *const *)b;
+    return first->offset < second->offset ? -1 : first->offset > second->offset;
+}
+
+static bool alive_together(const engine_alias_request *a, const engine_alias_request *b) {
+    return a->first <= b->last && b->first <= a->last;
+}
+
+/// `placed` holds the requests that have their place and are alive with this one.
+static void place(engine_alias_request *request, engine_alias_request **placed, size_t count) {
+    qsort(placed, count, sizeof *placed, compare_offsets);
+    uint64_t offset = 0;
+    for (size_t n = 0; n < count; n++) {
+        if (offset + request->size <= placed[n]->offset)
+            break;
+        uint64_t end = placed[n]->offset + placed[n]->size;
+        if (end > offset)
+            offset = align_up(end, request->alignment);
+    }
+    request->offset = offset;
+}
+
+bool engine_alias_plan(const lobe_allocator *allocator, engine_alias_request *requests,
+                       size_t count, uint64_t *shared_size, uint64_t *separate_size) {
+    *shared_size = *separate_size = 0;
+    engine_alias_request **order = lobe_allocate(allocator, 2 * count + 1, sizeof *order);
+    if (!order)
+        return false;
+    engine_alias_request **alive = order + count;
+    for (size_t n = 0; n < count; n++)
+        order[n] = &requests[n];
+    if (count > 0)
+        qsort(order, count, sizeof *order, compare_requests);
+    for (size_t n = 0; n < count; n++) {
+        engine_alias_request *request = order[n];
+        size_t alive_count = 0;
+        for (size_t m = 0; m < n; m++)
+            if (alive_together(request, order[m]))
+                alive[alive_count++] = order[m];
+        place(request, alive, alive_count);
+        uint64_t end = request->offset + request->size;
+        *shared_size = end > *shared_size ? end : *shared_size;
+        *separate_size = align_up(*separate_size, request->alignment) + request->size;
+    }
+    lobe_release(order);
+    return true;
+}

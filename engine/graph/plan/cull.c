@@ -1,0 +1,188 @@
+#include "engine/graph/plan/dependency_graph.h"
+
+#include "engine/base/growing_array.h"
+
+/// Demand goes backwards: from what is wanted after the frame to the passes that write it, and
+/// from each of those to what it reads. It stops at retained content that is still valid.
+
+static bool writes(const engine_dependency_access *access) {
+    return access->kind != ENGINE_ACCESS_READ;
+}
+
+static bool reads(const engine_dependency_access *access) {
+    return access->kind != ENGINE_ACCESS_WRITE;
+}
+
+/// In topological order, so that the stamps of what a pass reads are known.
+static void stamp_passes(engine_dependency_graph *graph) {
+    for (uint32_t n = 0; n < graph->order_count; n++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+        engine_stamp stamp = pass->signature;
+        for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
+             a = graph->accesses[a].next) {
+            const engine_dependency_access *access = &graph->accesses[a];
+            stamp = engine_stamp_mix(stamp, access->kind);
+            stamp = engine_stamp_bytes(stamp, &access->range, sizeof access->range);
+            stamp = engine_stamp_mix(stamp, graph->resources[access->resource].identity);
+            for (uint32_t s = 0; reads(access) && s < engine_access_size(access); s++)
+                stamp = engine_stamp_mix(
+                    stamp, engine_dependency_content(graph, engine_access_source(graph, access, s),
+                                                     access->resource,
+                                                     engine_access_subresource(graph, access, s)));
+        }
+        pass->stamp = stamp;
+    }
+}
+
+static uint32_t source_before(const engine_dependency_graph *graph, uint32_t writer,
+                              uint32_t subresource) {
+    const engine_dependency_access *access = &graph->accesses[writer];
+    const engine_dependency_resource *resource = &graph->resources[access->resource];
+    uint32_t level = subresource / resource->layers - access->range.first_level;
+    uint32_t layer = subresource % resource->layers - access->range.first_layer;
+    return engine_access_source(graph, access, level * access->range.layer_count + layer);
+}
+
+/// Whether the memory already holds what `writer` would put into the subresource, and no pass
+/// that runs puts something else there first.
+static bool still_valid(const engine_dependency_graph *graph, uint32_t writer,
+                        uint32_t subresource) {
+    uint32_t index = graph->accesses[writer].resource;
+    const engine_dependency_resource *resource = &graph->resources[index];
+    if (!resource->retained || !resource->recorded ||
+        resource->recorded[subresource] !=
+            engine_dependency_content(graph, writer, index, subresource))
+        return false;
+    for (uint32_t before = source_before(graph, writer, subresource);
+         before != ENGINE_DEPENDENCY_NONE; before = source_before(graph, before, subresource))
+        if (graph->passes[graph->accesses[before].pass].state == LOBE_PASS_RUN)
+            return false;
+    return true;
+}
+
+/// Makes the pass behind one subresource's content run where it must; true where that is news.
+static bool demand_content(engine_dependency_graph *graph, uint32_t writer, uint32_t subresource,
+                           bool use_retained) {
+    if (writer == ENGINE_DEPENDENCY_NONE)
+        return false;
+    engine_dependency_pass *pass = &graph->passes[graph->accesses[writer].pass];
+    if (pass->state == LOBE_PASS_RUN)
+        return false;
+    if (use_retained && still_valid(graph, writer, subresource))
+        return false;
+    pass->state = LOBE_PASS_RUN;
+    return true;
+}
+
+static bool demand_read(engine_dependency_graph *graph, const engine_dependency_access *access,
+                        bool use_retained) {
+    bool news = false;
+    for (uint32_t n = 0; n < engine_access_size(access); n++)
+        news |= demand_content(graph, engine_access_source(graph, access, n),
+                               engine_access_subresource(graph, access, n), use_retained);
+    return news;
+}
+
+static bool demand_written(engine_dependency_graph *graph, uint32_t access, bool use_retained) {
+    bool news = false;
+    for (uint32_t n = 0; n < engine_access_size(&graph->accesses[access]); n++)
+        news |= demand_content(graph, access,
+                               engine_access_subresource(graph, &graph->accesses[access], n),
+                               use_retained);
+    return news;
+}
+
+/// A kept pass counts as if all it writes were wanted; one that writes nothing just runs.
+static bool demand_kept(engine_dependency_graph *graph, engine_dependency_pass *pass,
+                        bool use_retained) {
+    bool news = false, written = false;
+    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
+        if (writes(&graph->accesses[n])) {
+            written = true;
+            news |= demand_written(graph, n, use_retained);
+        }
+    if (!written && pass->state != LOBE_PASS_RUN) {
+        pass->state = LOBE_PASS_RUN;
+        news = true;
+    }
+    return news;
+}
+
+static bool demand_of_pass(engine_dependency_graph *graph, engine_dependency_pass *pass,
+                           bool use_retained) {
+    bool news = pass->keep && demand_kept(graph, pass, use_retained);
+    if (pass->state != LOBE_PASS_RUN)
+        return news;
+    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
+        if (reads(&graph->accesses[n]))
+            news |= demand_read(graph, &graph->accesses[n], use_retained);
+    return news;
+}
+
+static bool demand_outputs(engine_dependency_graph *graph, bool use_retained) {
+    bool news = false;
+    for (uint32_t n = 0; n < graph->access_count; n++)
+        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
+            news |= demand_read(graph, &graph->accesses[n], use_retained);
+    return news;
+}
+
+/// A pass that runs may destroy retained content that counted as valid: repeat until all is quiet.
+/// Running passes only become more, so it ends.
+static void propagate_demand(engine_dependency_graph *graph, bool use_retained) {
+    for (uint32_t n = 0; n < graph->pass_count; n++)
+        graph->passes[n].state = LOBE_PASS_CULLED;
+    for (bool news = true; news;) {
+        news = demand_outputs(graph, use_retained);
+        for (uint32_t n = graph->order_count; n-- > 0;)
+            news |= demand_of_pass(graph, &graph->passes[graph->order[n]], use_retained);
+    }
+}
+
+static bool writes_retained(const engine_dependency_graph *graph,
+                            const engine_dependency_pass *pass) {
+    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
+        if (writes(&graph->accesses[n]) && graph->resources[graph->accesses[n].resource].retained)
+            return true;
+    return false;
+}
+
+static void mark_live(engine_dependency_graph *graph) {
+    propagate_demand(graph, false);
+    for (uint32_t n = 0; n < graph->pass_count; n++)
+        graph->passes[n].live = graph->passes[n].state == LOBE_PASS_RUN;
+}
+
+static void mark_skipped(engine_dependency_graph *graph) {
+    for (uint32_t n = 0; n < graph->pass_count; n++) {
+        engine_dependency_pass *pass = &graph->passes[n];
+        if (pass->live && pass->state != LOBE_PASS_RUN && writes_retained(graph, pass))
+            pass->state = LOBE_PASS_SKIPPED;
+    }
+}
+
+static void list_running(engine_dependency_graph *graph) {
+    graph->running_count = 0;
+    for (uint32_t n = 0; n < graph->order_count; n++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+        pass->position = ENGINE_DEPENDENCY_NONE;
+        if (pass->state != LOBE_PASS_RUN)
+            continue;
+        pass->position = graph->running_count;
+        graph->running[graph->running_count++] = graph->order[n];
+    }
+}
+
+bool engine_dependency_cull(engine_dependency_graph *graph) {
+    if (!engine_array_reserve(graph->scratch.allocator, (void **)&graph->running,
+                              &graph->running_capacity, (uint64_t)graph->pass_count + 1,
+                              sizeof *graph->running))
+        return engine_dependency_fail(graph,
+                                      (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
+    stamp_passes(graph);
+    mark_live(graph);
+    propagate_demand(graph, true);
+    mark_skipped(graph);
+    list_running(graph);
+    return true;
+}

@@ -1,0 +1,31 @@
+#include "engine/graph/plan/dependency_graph.h"
+
+static void extend(engine_dependency_resource *resource, uint32_t position) {
+    if (resource->first_position == ENGINE_DEPENDENCY_NONE || position < resource->first_position)
+        resource->first_position = position;
+    if (resource->last_position == ENGINE_DEPENDENCY_NONE || position > resource->last_position)
+        resource->last_position = position;
+}
+
+/// An output lives on after the last pass, but only if something that runs makes it.
+static void extend_output(engine_dependency_graph *graph, const engine_dependency_access *access) {
+    engine_dependency_resource *resource = &graph->resources[access->resource];
+    if (resource->first_position != ENGINE_DEPENDENCY_NONE)
+        extend(resource, graph->running_count);
+}
+
+void engine_dependency_lifetimes(engine_dependency_graph *graph) {
+    for (uint32_t n = 0; n < graph->resource_count; n++) {
+        graph->resources[n].first_position = ENGINE_DEPENDENCY_NONE;
+        graph->resources[n].last_position = ENGINE_DEPENDENCY_NONE;
+    }
+    for (uint32_t n = 0; n < graph->access_count; n++) {
+        const engine_dependency_access *access = &graph->accesses[n];
+        if (access->pass != ENGINE_DEPENDENCY_NONE &&
+            graph->passes[access->pass].position != ENGINE_DEPENDENCY_NONE)
+            extend(&graph->resources[access->resource], graph->passes[access->pass].position);
+    }
+    for (uint32_t n = 0; n < graph->access_count; n++)
+        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
+            extend_output(graph, &graph->accesses[n]);
+}

@@ -1,0 +1,124 @@
+#include "engine/graph/plan/dependency_graph.h"
+
+#include <string.h>
+
+#include "engine/base/growing_array.h"
+
+static bool reserve(engine_dependency_graph *graph) {
+    return engine_array_reserve(graph->scratch.allocator, (void **)&graph->order,
+                                &graph->order_capacity, (uint64_t)graph->pass_count + 1,
+                                sizeof *graph->order) &&
+           engine_array_reserve(graph->scratch.allocator, (void **)&graph->cycle,
+                                &graph->cycle_capacity, (uint64_t)graph->pass_count + 1,
+                                sizeof *graph->cycle);
+}
+
+/// The first pass in order of declaration that waits for nothing; NONE where all wait.
+static uint32_t next_ready(const engine_dependency_graph *graph, const uint32_t *waiting) {
+    for (uint32_t pass = 0; pass < graph->pass_count; pass++)
+        if (waiting[pass] == 0)
+            return pass;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+static void release_successors(const engine_dependency_graph *graph, uint32_t pass,
+                               uint32_t *waiting) {
+    for (uint32_t n = 0; n < graph->edge_count; n++)
+        if (graph->edges[n].from == pass)
+            waiting[graph->edges[n].to]--;
+}
+
+static uint32_t waiting_predecessor(const engine_dependency_graph *graph, const uint32_t *waiting,
+                                    uint32_t pass) {
+    for (uint32_t n = 0; n < graph->edge_count; n++)
+        if (graph->edges[n].to == pass && waiting[graph->edges[n].from] != ENGINE_DEPENDENCY_NONE)
+            return graph->edges[n].from;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+static bool is_on_walk(const uint32_t *walk, uint32_t length, uint32_t pass) {
+    for (uint32_t n = 0; n < length; n++)
+        if (walk[n] == pass)
+            return true;
+    return false;
+}
+
+/// Every pass still waiting has a predecessor still waiting: going back along those must come
+/// round to a pass met before, and from there on the walk is the cycle, backwards.
+static void find_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
+    uint32_t *walk = graph->cycle, length = 0, pass = 0;
+    while (waiting[pass] == ENGINE_DEPENDENCY_NONE)
+        pass++;
+    for (; !is_on_walk(walk, length, pass); pass = waiting_predecessor(graph, waiting, pass))
+        walk[length++] = pass;
+    uint32_t start = 0;
+    while (walk[start] != pass)
+        start++;
+    graph->cycle_count = length - start;
+    memmove(walk, walk + start, graph->cycle_count * sizeof *walk);
+}
+
+static void reverse(uint32_t *items, uint32_t count) {
+    for (uint32_t n = 0; n < count / 2; n++) {
+        uint32_t swapped = items[n];
+        items[n] = items[count - 1 - n];
+        items[count - 1 - n] = swapped;
+    }
+}
+
+/// In order of execution, from the pass that was declared first. (Reversing all, then both parts
+/// apart, rotates.)
+static void arrange_cycle(engine_dependency_graph *graph) {
+    uint32_t *cycle = graph->cycle, count = graph->cycle_count, first = 0;
+    reverse(cycle, count);
+    for (uint32_t n = 1; n < count; n++)
+        if (cycle[n] < cycle[first])
+            first = n;
+    reverse(cycle, first);
+    reverse(cycle + first, count - first);
+    reverse(cycle, count);
+}
+
+/// A resource that two neighbours of the cycle share, for the message.
+static uint32_t cycle_resource(const engine_dependency_graph *graph) {
+    uint32_t first = graph->cycle[0], second = graph->cycle[1 % graph->cycle_count];
+    for (uint32_t n = graph->passes[first].first_access; n != ENGINE_DEPENDENCY_NONE;
+         n = graph->accesses[n].next)
+        for (uint32_t m = graph->passes[second].first_access; m != ENGINE_DEPENDENCY_NONE;
+             m = graph->accesses[m].next)
+            if (graph->accesses[n].resource == graph->accesses[m].resource &&
+                (graph->accesses[n].kind != ENGINE_ACCESS_READ ||
+                 graph->accesses[m].kind != ENGINE_ACCESS_READ))
+                return graph->accesses[n].resource;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+static bool fail_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
+    find_cycle(graph, waiting);
+    arrange_cycle(graph);
+    return engine_dependency_fail(
+        graph, (engine_dependency_fault){.kind = ENGINE_FAULT_CYCLE,
+                                         .pass = graph->cycle[0],
+                                         .resource = cycle_resource(graph),
+                                         .other_pass = graph->cycle[1 % graph->cycle_count]});
+}
+
+bool engine_dependency_order(engine_dependency_graph *graph) {
+    uint32_t *waiting = engine_arena_allocate(&graph->scratch, graph->pass_count * sizeof *waiting);
+    bool fine = waiting && reserve(graph);
+    if (!fine)
+        engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
+    for (uint32_t n = 0; fine && n < graph->edge_count; n++)
+        waiting[graph->edges[n].to]++;
+    graph->order_count = 0;
+    while (fine && graph->order_count < graph->pass_count) {
+        uint32_t pass = next_ready(graph, waiting);
+        fine = pass != ENGINE_DEPENDENCY_NONE || fail_cycle(graph, waiting);
+        if (!fine)
+            break;
+        waiting[pass] = ENGINE_DEPENDENCY_NONE; // placed
+        graph->order[graph->order_count++] = pass;
+        release_successors(graph, pass, waiting);
+    }
+    return fine;
+}

@@ -1,0 +1,182 @@
+#include <lobe/profile.h>
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/base/growing_array.h"
+
+/// Milliseconds in each frame in which it ran.
+typedef struct time_series {
+    char *name;
+    double *milliseconds;
+    uint32_t capacity;
+    uint32_t runs;
+    bool running; ///< in the frame that is being added
+} time_series;
+
+struct lobe_profile {
+    lobe_log log;
+    time_series frame, host;
+    time_series *passes;
+    uint32_t pass_count, pass_capacity;
+    lobe_profile_times *times; ///< of the passes, for the last summary
+    uint32_t time_capacity;
+    double *scratch; ///< for sorting
+    uint32_t scratch_capacity;
+};
+
+static lobe_result fail_memory(const lobe_profile *profile) {
+    return lobe_log_fail(&profile->log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+}
+
+lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile) {
+    *profile = lobe_allocate(lobe_log_allocator(log), 1, sizeof **profile);
+    if (!*profile)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    if (log)
+        (*profile)->log = *log;
+    (*profile)->frame.name = "frame";
+    (*profile)->host.name = "host";
+    return LOBE_OK;
+}
+
+void lobe_profile_destroy(lobe_profile **profile) {
+    lobe_profile *gone = *profile;
+    if (!gone)
+        return;
+    for (uint32_t n = 0; n < gone->pass_count; n++) {
+        lobe_release(gone->passes[n].name);
+        lobe_release(gone->passes[n].milliseconds);
+    }
+    lobe_release(gone->passes);
+    lobe_release(gone->frame.milliseconds);
+    lobe_release(gone->host.milliseconds);
+    lobe_release(gone->times);
+    lobe_release(gone->scratch);
+    lobe_release(gone);
+    *profile = NULL;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Gathering
+
+static time_series *find_pass(lobe_profile *profile, const char *name) {
+    for (uint32_t n = 0; n < profile->pass_count; n++)
+        if (strcmp(profile->passes[n].name, name) == 0)
+            return &profile->passes[n];
+    return NULL;
+}
+
+static bool add_pass(lobe_profile *profile, const char *name) {
+    if (!engine_array_reserve(profile->log.allocator, (void **)&profile->passes,
+                              &profile->pass_capacity, (uint64_t)profile->pass_count + 1,
+                              sizeof *profile->passes))
+        return false;
+    time_series *added = &profile->passes[profile->pass_count];
+    *added = (time_series){.name = lobe_copy_text(profile->log.allocator, name)};
+    if (!added->name)
+        return false;
+    profile->pass_count++;
+    return true;
+}
+
+static bool make_room_for_run(const lobe_profile *profile, time_series *series) {
+    return engine_array_reserve(profile->log.allocator, (void **)&series->milliseconds,
+                                &series->capacity, (uint64_t)series->runs + 1,
+                                sizeof *series->milliseconds);
+}
+
+/// All that can fail comes first, so that a frame counts as a whole or not at all.
+static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
+    for (size_t n = 0; n < report->pass_count; n++)
+        if (report->passes[n].state == LOBE_PASS_RUN &&
+            !find_pass(profile, report->passes[n].name) &&
+            !add_pass(profile, report->passes[n].name))
+            return false;
+    for (uint32_t n = 0; n < profile->pass_count; n++)
+        if (!make_room_for_run(profile, &profile->passes[n]))
+            return false;
+    return make_room_for_run(profile, &profile->frame) &&
+           make_room_for_run(profile, &profile->host);
+}
+
+static void add_time(time_series *series, double milliseconds) {
+    if (!series->running)
+        series->milliseconds[series->runs++] = 0.0;
+    series->running = true;
+    series->milliseconds[series->runs - 1] += milliseconds;
+}
+
+lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report) {
+    if (!make_room(profile, report))
+        return fail_memory(profile);
+    for (size_t n = 0; n < report->pass_count; n++)
+        if (report->passes[n].state == LOBE_PASS_RUN)
+            add_time(find_pass(profile, report->passes[n].name), report->passes[n].milliseconds);
+    add_time(&profile->frame, report->milliseconds);
+    add_time(&profile->host, report->host_milliseconds);
+    profile->frame.running = profile->host.running = false;
+    for (uint32_t n = 0; n < profile->pass_count; n++)
+        profile->passes[n].running = false;
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Statistics
+
+static int compare_times(const void *a, const void *b) {
+    double first = *(const double *)a, second = *(const double *)b;
+    return (first > second) - (first < second);
+}
+
+static double sum_of(const time_series *series) {
+    double sum = 0.0;
+    for (uint32_t n = 0; n < series->runs; n++)
+        sum += series->milliseconds[n];
+    return sum;
+}
+
+static lobe_profile_times times_of(const lobe_profile *profile, const time_series *series,
+                                   double whole) {
+    uint32_t count = series->runs;
+    double *sorted = profile->scratch;
+    memcpy(sorted, series->milliseconds, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, compare_times);
+    uint32_t p95 = (uint32_t)(((uint64_t)count * 95 + 99) / 100) - 1; // nearest rank
+    return (lobe_profile_times){.name = series->name,
+                                .median_milliseconds =
+                                    0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]),
+                                .p95_milliseconds = sorted[p95],
+                                .share = whole > 0.0 ? sum_of(series) / whole : 0.0,
+                                .runs = count};
+}
+
+static lobe_result reserve_results(lobe_profile *profile) {
+    if (engine_array_reserve(profile->log.allocator, (void **)&profile->times,
+                             &profile->time_capacity, (uint64_t)profile->pass_count + 1,
+                             sizeof *profile->times) &&
+        engine_array_reserve(profile->log.allocator, (void **)&profile->scratch,
+                             &profile->scratch_capacity, profile->frame.runs,
+                             sizeof *profile->scratch))
+        return LOBE_OK;
+    return fail_memory(profile);
+}
+
+lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary) {
+    *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name},
+                                      .host = {.name = profile->host.name}};
+    if (profile->frame.runs == 0)
+        return LOBE_OK;
+    lobe_result result = reserve_results(profile);
+    if (result != LOBE_OK)
+        return result;
+    double whole = sum_of(&profile->frame);
+    summary->passes = profile->times;
+    for (uint32_t n = 0; n < profile->pass_count; n++)
+        if (profile->passes[n].runs > 0)
+            profile->times[summary->pass_count++] = times_of(profile, &profile->passes[n], whole);
+    summary->frame = times_of(profile, &profile->frame, whole);
+    summary->host = times_of(profile, &profile->host, 0.0);
+    return LOBE_OK;
+}

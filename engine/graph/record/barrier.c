@@ -1,0 +1,141 @@
+#include "engine/graph/record/record.h"
+
+#include "engine/graph/declare/host.h"
+#include "engine/resource/format.h"
+
+typedef struct barrier_batch {
+    VkImageMemoryBarrier2 *images;
+    VkBufferMemoryBarrier2 *buffers;
+    VkMemoryBarrier2 memory;
+    uint32_t image_count, buffer_count, memory_count;
+} barrier_batch;
+
+static void record_memory_barrier(VkCommandBuffer commands, const VkMemoryBarrier2 *barrier) {
+    const VkDependencyInfo dependency = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                         .memoryBarrierCount = 1,
+                                         .pMemoryBarriers = barrier};
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void engine_graph_record_start(lobe_graph *graph) {
+    const VkMemoryBarrier2 barrier = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+    };
+    record_memory_barrier(graph->commands, &barrier);
+}
+
+void engine_graph_record_end(lobe_graph *graph) {
+    const VkMemoryBarrier2 barrier = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+        .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT,
+    };
+    record_memory_barrier(graph->commands, &barrier);
+}
+
+/// Content from a former frame has no stage in this one to wait for: its transition must then
+/// come after the barrier at the start. So must that of memory which a former frame, still under
+/// way, may be using; the stages that use it next are enough to wait for.
+static VkPipelineStageFlags2 source_stages(const engine_dependency_barrier *barrier) {
+    if (barrier->from.stages != 0)
+        return barrier->from.stages;
+    return barrier->from.layout == ENGINE_LAYOUT_UNDEFINED ? barrier->to.stages
+                                                           : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+}
+
+static void add_image(const lobe_graph *graph, const engine_dependency_barrier *barrier,
+                      barrier_batch *batch) {
+    const engine_graph_resource *resource = &graph->resources[barrier->resource];
+    batch->images[batch->image_count++] = (VkImageMemoryBarrier2){
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = source_stages(barrier),
+        .srcAccessMask = barrier->from.access,
+        .dstStageMask = barrier->to.stages,
+        .dstAccessMask = barrier->to.access,
+        .oldLayout = engine_graph_layout_of(resource, barrier->from.layout),
+        .newLayout = engine_graph_layout_of(resource, barrier->to.layout),
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = resource->object->image,
+        .subresourceRange = {engine_format_aspect(resource->format), barrier->range.first_level,
+                             barrier->range.level_count, barrier->range.first_layer,
+                             barrier->range.layer_count},
+    };
+}
+
+static void add_buffer(const lobe_graph *graph, const engine_dependency_barrier *barrier,
+                       barrier_batch *batch) {
+    const engine_graph_resource *resource = &graph->resources[barrier->resource];
+    batch->buffers[batch->buffer_count++] = (VkBufferMemoryBarrier2){
+        .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+        .srcStageMask = barrier->from.stages,
+        .srcAccessMask = barrier->from.access,
+        .dstStageMask = barrier->to.stages,
+        .dstAccessMask = barrier->to.access,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .buffer = resource->object->buffer,
+        .offset = resource->offset,
+        .size = resource->size,
+    };
+}
+
+static void add_memory(const engine_dependency_barrier *barrier, barrier_batch *batch) {
+    batch->memory = (VkMemoryBarrier2){
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .srcStageMask = barrier->from.stages,
+        .srcAccessMask = barrier->from.access,
+        .dstStageMask = barrier->to.stages,
+        .dstAccessMask = barrier->to.access,
+    };
+    batch->memory_count = 1;
+}
+
+static void add_barrier(const lobe_graph *graph, const engine_dependency_barrier *barrier,
+                        barrier_batch *batch) {
+    if (barrier->resource == ENGINE_DEPENDENCY_NONE)
+        add_memory(barrier, batch);
+    else if (graph->resources[barrier->resource].is_image)
+        add_image(graph, barrier, batch);
+    else
+        add_buffer(graph, barrier, batch);
+}
+
+static void record_batch(VkCommandBuffer commands, const barrier_batch *batch) {
+    const VkDependencyInfo dependency = {
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+        .memoryBarrierCount = batch->memory_count,
+        .pMemoryBarriers = &batch->memory,
+        .bufferMemoryBarrierCount = batch->buffer_count,
+        .pBufferMemoryBarriers = batch->buffers,
+        .imageMemoryBarrierCount = batch->image_count,
+        .pImageMemoryBarriers = batch->images,
+    };
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+lobe_result engine_graph_record_barriers(lobe_graph *graph, uint32_t position, uint32_t *next) {
+    const engine_dependency_graph *dependencies = &graph->dependencies;
+    uint32_t first = *next;
+    while (*next < dependencies->barrier_count &&
+           dependencies->barriers[*next].position == position)
+        (*next)++;
+    uint32_t count = *next - first;
+    if (count == 0)
+        return LOBE_OK;
+    barrier_batch batch = {
+        .images = engine_arena_allocate(&graph->arena, count * sizeof *batch.images),
+        .buffers = engine_arena_allocate(&graph->arena, count * sizeof *batch.buffers)};
+    if (!batch.images || !batch.buffers)
+        return engine_graph_fail_memory(graph);
+    for (uint32_t n = first; n < *next; n++)
+        add_barrier(graph, &dependencies->barriers[n], &batch);
+    record_batch(graph->commands, &batch);
+    return LOBE_OK;
+}

@@ -1,0 +1,98 @@
+#include "engine/graph/record/flight.h"
+
+#include "engine/device/vulkan_check.h"
+#include "engine/graph/store/object.h"
+
+static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *flight) {
+    lobe_device *device = graph->device;
+    const VkCommandPoolCreateInfo pool = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+        .queueFamilyIndex = device->queue_family,
+    };
+    if (flight->commands)
+        return LOBE_OK;
+    lobe_result result = LOBE_OK;
+    if (!flight->command_pool)
+        result = VULKAN_CHECK(
+            &device->log,
+            vkCreateCommandPool(device->vulkan, &pool, device->callbacks, &flight->command_pool),
+            "render graph");
+    if (result != LOBE_OK)
+        return result;
+    const VkCommandBufferAllocateInfo commands = {
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = flight->command_pool,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 1,
+    };
+    return VULKAN_CHECK(&device->log,
+                        vkAllocateCommandBuffers(device->vulkan, &commands, &flight->commands),
+                        "render graph");
+}
+
+lobe_result engine_graph_create_flights(lobe_graph *graph) {
+    graph->flight = graph->flights;
+    graph->flight_count = 1;
+    return create_commands(graph, graph->flight);
+}
+
+void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) {
+    engine_graph_object imported = {.views = flight->views};
+    engine_graph_free_views(graph->device, &imported);
+    flight->views = NULL;
+    flight->busy = false;
+    flight->submission = 0;
+}
+
+lobe_result engine_graph_begin_flight(lobe_graph *graph) {
+    lobe_result result = LOBE_OK;
+    if (graph->flight->busy) {
+        // In turn, so that the next one is the oldest.
+        uint32_t index = (uint32_t)(graph->flight - graph->flights);
+        graph->flight = &graph->flights[(index + 1) % graph->flight_count];
+    }
+    // Of a frame that the host submitted itself it knows that it is done.
+    if (graph->flight->submission)
+        result = engine_device_wait(graph->device, graph->flight->submission);
+    if (result != LOBE_OK)
+        return result;
+    engine_graph_retire_flight(graph, graph->flight);
+    return create_commands(graph, graph->flight);
+}
+
+lobe_result engine_graph_finish_flights(lobe_graph *graph) {
+    bool busy = false;
+    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
+        busy = busy || graph->flights[n].busy;
+    const lobe_result result = busy ? engine_device_wait_queue(graph->device) : LOBE_OK;
+    for (uint32_t n = 0; busy && result == LOBE_OK && n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
+        engine_graph_retire_flight(graph, &graph->flights[n]);
+    return result;
+}
+
+void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
+    if (count < 1)
+        count = 1;
+    if (count > LOBE_MAXIMUM_FRAMES_IN_FLIGHT)
+        count = LOBE_MAXIMUM_FRAMES_IN_FLIGHT;
+    if (count < graph->flight_count)
+        (void)engine_graph_finish_flights(graph);
+    graph->flight_count = count;
+}
+
+static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
+    lobe_device *device = graph->device;
+    engine_graph_retire_flight(graph, flight);
+    engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
+    engine_staging_destroy(device, &flight->read_back);
+    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
+    lobe_release(flight->sets);
+    vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
+    vkDestroyCommandPool(device->vulkan, flight->command_pool, device->callbacks);
+}
+
+void engine_graph_free_flights(lobe_graph *graph) {
+    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
+        free_flight(graph, &graph->flights[n]);
+}

@@ -1,0 +1,238 @@
+#include "engine/graph/store/retain.h"
+
+#include <string.h>
+
+#include "engine/device/vulkan_check.h"
+#include "engine/graph/record/flight.h"
+#include "engine/graph/store/object.h"
+#include "engine/resource/format.h"
+
+void engine_graph_begin_retained(lobe_graph *graph) {
+    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+        kept->declared = false;
+}
+
+static void free_retained(lobe_graph *graph, engine_graph_retained *kept) {
+    engine_graph_free_object(graph->device, &kept->object);
+    engine_memory_free(graph->device->memory, &kept->allocation);
+    lobe_release(kept->name);
+    lobe_release(kept->stamps);
+    lobe_release(kept->layouts);
+    lobe_release(kept);
+}
+
+void engine_graph_free_retained(lobe_graph *graph) {
+    while (graph->retained) {
+        engine_graph_retained *kept = graph->retained;
+        graph->retained = kept->next;
+        free_retained(graph, kept);
+    }
+}
+
+lobe_result engine_graph_release_retained(lobe_graph *graph) {
+    for (engine_graph_retained **link = &graph->retained; *link;) {
+        engine_graph_retained *kept = *link;
+        if (kept->declared) {
+            link = &kept->next;
+            continue;
+        }
+        const lobe_result result = engine_graph_finish_flights(graph);
+        if (result != LOBE_OK)
+            return result;
+        *link = kept->next;
+        free_retained(graph, kept);
+    }
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Uses
+
+/// More than this frame's uses: content that outlives the frame must serve uses of later ones.
+static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resource *resource) {
+    if (!resource->is_image)
+        return resource->usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+               VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(graph->device->physical,
+                                        engine_format_vulkan(resource->format), &properties);
+    VkFlags usage = resource->usage | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                    VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (resource->samples == 1 &&
+        (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT))
+        usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    return usage;
+}
+
+static void forget_content(engine_graph_retained *kept) {
+    for (uint32_t n = 0; n < kept->subresource_count; n++) {
+        kept->stamps[n] = ENGINE_STAMP_NONE;
+        kept->layouts[n] = ENGINE_LAYOUT_UNDEFINED;
+    }
+}
+
+lobe_result engine_graph_check_retained(lobe_graph *graph) {
+    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
+        engine_graph_resource *resource = &graph->resources[n];
+        engine_graph_retained *kept = resource->retained;
+        if (resource->origin != ENGINE_GRAPH_RETAINED)
+            continue;
+        resource->cube =
+            resource->is_image && resource->layers % 6 == 0 && resource->width == resource->height;
+        if (kept && (resource->usage & ~kept->usage) == 0)
+            continue;
+        resource->usage = lasting_usage(graph, resource);
+        if (!kept)
+            continue;
+        const lobe_result result = engine_graph_finish_flights(graph);
+        if (result != LOBE_OK)
+            return result;
+        engine_graph_free_object(graph->device, &kept->object);
+        engine_memory_free(graph->device->memory, &kept->allocation);
+        forget_content(kept);
+        kept->usage |= resource->usage;
+    }
+    return LOBE_OK;
+}
+
+/// The content is still there to be read; only no longer what any pass would write.
+static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
+    for (uint32_t n = 0; n < kept->subresource_count; n++)
+        if (kept->stamps[n] != ENGINE_STAMP_NONE)
+            kept->stamps[n] = engine_stamp_mix(kept->stamps[n], engine_device_stamp(graph->device));
+}
+
+void lobe_graph_invalidate(lobe_graph *graph) {
+    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+        invalidate(graph, kept);
+}
+
+void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
+    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+        if (strncmp(kept->name, prefix, strlen(prefix)) != 0)
+            invalidate(graph, kept);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Making them
+
+static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) {
+    const engine_graph_resource *resource = &graph->resources[index];
+    uint32_t subresources = resource->levels * resource->layers;
+    const lobe_allocator *allocator = graph->device->log.allocator;
+    engine_graph_retained *kept = lobe_allocate(allocator, 1, sizeof *kept);
+    if (!kept)
+        return NULL;
+    *kept = (engine_graph_retained){
+        .name = lobe_copy_text(allocator, resource->name),
+        .identity = graph->dependencies.resources[index].identity,
+        .usage = resource->usage,
+        .subresource_count = subresources,
+        .stamps = lobe_allocate(allocator, subresources, sizeof *kept->stamps),
+        .layouts = lobe_allocate(allocator, subresources, sizeof *kept->layouts),
+        .declared = true};
+    if (kept->name && kept->stamps && kept->layouts)
+        return kept;
+    lobe_release(kept->name);
+    lobe_release(kept->stamps);
+    lobe_release(kept->layouts);
+    lobe_release(kept);
+    return NULL;
+}
+
+static lobe_result add_retained(lobe_graph *graph, uint32_t index) {
+    engine_graph_retained *kept = allocate(graph, index);
+    if (!kept)
+        return engine_graph_fail_memory(graph);
+    kept->next = graph->retained;
+    graph->retained = kept;
+    graph->resources[index].retained = kept;
+    graph->dependencies.resources[index].start_layouts = kept->layouts;
+    return LOBE_OK;
+}
+
+static lobe_result make_object(lobe_graph *graph, const engine_graph_resource *resource) {
+    engine_graph_retained *kept = resource->retained;
+    engine_memory_request request = {
+        .name = resource->name, .place = ENGINE_MEMORY_DEVICE, .linear = !resource->is_image};
+    engine_graph_resource lasting = *resource;
+    lasting.usage = kept->usage;
+    lobe_result result =
+        engine_graph_create_object(graph->device, &lasting, &kept->object, &request.requirements);
+    if (result == LOBE_OK)
+        result = engine_memory_allocate(graph->device->memory, &request, &kept->allocation);
+    if (result == LOBE_OK)
+        result = engine_graph_bind_object(graph->device, resource->name, &kept->object,
+                                          &kept->allocation, 0);
+    if (result != LOBE_OK) {
+        engine_graph_free_object(graph->device, &kept->object);
+        engine_memory_free(graph->device->memory, &kept->allocation);
+    }
+    return result;
+}
+
+lobe_result engine_graph_place_retained(lobe_graph *graph) {
+    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
+        engine_graph_resource *resource = &graph->resources[n];
+        if (resource->origin != ENGINE_GRAPH_RETAINED)
+            continue;
+        bool needed = graph->dependencies.resources[n].first_position != ENGINE_DEPENDENCY_NONE;
+        lobe_result result = LOBE_OK;
+        if (!resource->retained && needed)
+            result = add_retained(graph, n);
+        engine_graph_retained *kept = resource->retained;
+        if (result == LOBE_OK && needed && !kept->object.image && !kept->object.buffer)
+            result = make_object(graph, resource);
+        if (result != LOBE_OK)
+            return result;
+        resource->object = kept ? &kept->object : NULL;
+        resource->bytes = kept ? kept->allocation.size : 0;
+    }
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// What they hold
+
+typedef void (*visit_written)(lobe_graph *graph, uint32_t access, uint32_t subresource);
+
+/// Every retained subresource that running passes write, in order of execution.
+static void for_each_written(lobe_graph *graph, visit_written visit) {
+    const engine_dependency_graph *dependencies = &graph->dependencies;
+    for (uint32_t n = 0; n < dependencies->running_count; n++)
+        for (uint32_t a = dependencies->passes[dependencies->running[n]].first_access;
+             a != ENGINE_DEPENDENCY_NONE; a = dependencies->accesses[a].next) {
+            const engine_dependency_access *access = &dependencies->accesses[a];
+            if (access->kind == ENGINE_ACCESS_READ || !graph->resources[access->resource].retained)
+                continue;
+            for (uint32_t s = 0; s < engine_access_size(access); s++)
+                visit(graph, a, engine_access_subresource(dependencies, access, s));
+        }
+}
+
+static void forget_subresource(lobe_graph *graph, uint32_t access, uint32_t subresource) {
+    uint32_t resource = graph->dependencies.accesses[access].resource;
+    graph->resources[resource].retained->stamps[subresource] = ENGINE_STAMP_NONE;
+}
+
+void engine_graph_doubt_retained(lobe_graph *graph) {
+    for_each_written(graph, forget_subresource);
+}
+
+static void record_subresource(lobe_graph *graph, uint32_t access, uint32_t subresource) {
+    uint32_t resource = graph->dependencies.accesses[access].resource;
+    graph->resources[resource].retained->stamps[subresource] =
+        engine_dependency_content(&graph->dependencies, access, resource, subresource);
+}
+
+void engine_graph_record_retained(lobe_graph *graph) {
+    for_each_written(graph, record_subresource);
+    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
+        engine_graph_retained *kept = graph->resources[n].retained;
+        const engine_layout *layouts =
+            graph->dependencies.end_layouts + graph->dependencies.resources[n].first_subresource;
+        if (kept)
+            memcpy(kept->layouts, layouts, kept->subresource_count * sizeof *layouts);
+    }
+}

@@ -1,0 +1,356 @@
+#include "engine/pipeline/pipeline.h"
+
+#include <string.h>
+
+#include "engine/base/growing_array.h"
+#include "engine/base/text.h"
+#include "engine/device/device.h"
+#include "engine/device/vulkan_check.h"
+#include "engine/pipeline/cache.h"
+#include "engine/pipeline/layout.h"
+#include "engine/pipeline/raster.h"
+#include "engine/resource/sampler.h"
+
+#define STATE_WORDS (6 + ENGINE_MAXIMUM_COLOUR_ATTACHMENTS)
+
+/// What makes two requests the same pipeline.
+typedef struct pipeline_key {
+    const engine_shader *shaders[ENGINE_MAXIMUM_STAGES]; ///< NULL: none
+    uint32_t state[STATE_WORDS];                         ///< raster only
+    lobe_specialisation *specialisation;                 ///< only what the shaders have
+    size_t specialisation_count;
+} pipeline_key;
+
+typedef struct cached_pipeline {
+    struct cached_pipeline *next;
+    pipeline_key key;
+    engine_pipeline pipeline;
+} cached_pipeline;
+
+struct engine_pipelines {
+    engine_pipeline_cache cache;
+    engine_sampler_cache samplers;
+    cached_pipeline *pipelines;
+    lobe_specialisation *wanted; ///< of the key that is looked for
+    uint32_t wanted_capacity;
+};
+
+// ---------------------------------------------------------------------------------------------
+// Keys
+
+static bool has_constant(const pipeline_key *key, uint32_t id) {
+    for (size_t i = 0; i < ENGINE_MAXIMUM_STAGES && key->shaders[i]; i++)
+        for (size_t j = 0; j < key->shaders[i]->specialisation_count; j++)
+            if (key->shaders[i]->specialisation_ids[j] == id)
+                return true;
+    return false;
+}
+
+static void set_constant(pipeline_key *key, lobe_specialisation value) {
+    size_t i = 0;
+    while (i < key->specialisation_count && key->specialisation[i].id < value.id)
+        i++;
+    if (i == key->specialisation_count || key->specialisation[i].id != value.id) {
+        memmove(&key->specialisation[i + 1], &key->specialisation[i],
+                (key->specialisation_count - i) * sizeof *key->specialisation);
+        key->specialisation_count++;
+    }
+    key->specialisation[i] = value;
+}
+
+static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
+    return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+                         key->shaders[0]->name);
+}
+
+/// Orders the values by id; of several for one id the last counts.
+static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
+                                       size_t count, pipeline_key *key) {
+    engine_pipelines *pipelines = device->pipelines;
+    if (!engine_array_reserve(device->log.allocator, (void **)&pipelines->wanted,
+                              &pipelines->wanted_capacity, (uint64_t)count + 1,
+                              sizeof *pipelines->wanted))
+        return fail_memory(device, key);
+    key->specialisation = pipelines->wanted;
+    for (size_t i = 0; i < count; i++)
+        if (has_constant(key, values[i].id))
+            set_constant(key, values[i]);
+    return LOBE_OK;
+}
+
+static void fill_state(const engine_raster_parameters *parameters, pipeline_key *key) {
+    const uint32_t state[] = {
+        parameters->cull,  parameters->depth_test, parameters->depth_write,
+        parameters->blend, parameters->depth,      parameters->samples ? parameters->samples : 1,
+    };
+    memcpy(key->state, state, sizeof state);
+    for (size_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        key->state[sizeof state / sizeof *state + i] = parameters->colour[i];
+}
+
+static bool same_key(const pipeline_key *first, const pipeline_key *second) {
+    return !memcmp(first->shaders, second->shaders, sizeof first->shaders) &&
+           !memcmp(first->state, second->state, sizeof first->state) &&
+           first->specialisation_count == second->specialisation_count &&
+           !memcmp(first->specialisation, second->specialisation,
+                   first->specialisation_count * sizeof *first->specialisation);
+}
+
+static const engine_pipeline *find(const engine_pipelines *pipelines, const pipeline_key *key) {
+    for (const cached_pipeline *known = pipelines->pipelines; known; known = known->next)
+        if (same_key(&known->key, key))
+            return &known->pipeline;
+    return NULL;
+}
+
+static lobe_result find_shader(lobe_device *device, const char *name, VkShaderStageFlagBits stage,
+                               const engine_shader **shader) {
+    const lobe_result result = engine_shader_find(device, name, shader);
+    if (result == LOBE_OK && (*shader)->stage != stage)
+        return lobe_log_fail(&device->log, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
+                             name);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Specialisation as Vulkan wants it
+
+typedef struct specialisation {
+    VkSpecializationInfo information;
+    VkSpecializationMapEntry *entries;
+} specialisation;
+
+static lobe_result create_specialisation(lobe_device *device, const pipeline_key *key,
+                                         specialisation *created) {
+    const size_t count = key->specialisation_count;
+    created->entries = lobe_allocate(device->log.allocator, count + 1, sizeof *created->entries);
+    if (!created->entries)
+        return fail_memory(device, key);
+    for (size_t i = 0; i < count; i++)
+        created->entries[i] = (VkSpecializationMapEntry){
+            .constantID = key->specialisation[i].id,
+            .offset =
+                (uint32_t)(i * sizeof(lobe_specialisation) + offsetof(lobe_specialisation, bits)),
+            .size = sizeof key->specialisation[i].bits,
+        };
+    created->information = (VkSpecializationInfo){
+        .mapEntryCount = (uint32_t)count,
+        .pMapEntries = created->entries,
+        .dataSize = count * sizeof *key->specialisation,
+        .pData = key->specialisation,
+    };
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Making
+
+static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
+    vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
+    engine_pipeline_layout_destroy(device, &cached->pipeline);
+    lobe_release((void *)cached->pipeline.name);
+    lobe_release(cached->key.specialisation);
+    lobe_release(cached);
+}
+
+static void apply_local_size(const pipeline_key *key, engine_pipeline *pipeline) {
+    const engine_shader *shader = key->shaders[0];
+    memcpy(pipeline->local_size, shader->local_size, sizeof pipeline->local_size);
+    for (size_t i = 0; i < key->specialisation_count; i++)
+        for (size_t axis = 0; axis < 3; axis++)
+            if (shader->local_size_ids[axis] == key->specialisation[i].id)
+                pipeline->local_size[axis] = key->specialisation[i].bits;
+}
+
+static lobe_result check_local_size(lobe_device *device, const engine_pipeline *pipeline) {
+    const uint32_t *size = pipeline->local_size, *most = device->limits.maxComputeWorkGroupSize;
+    const uint64_t invocations = (uint64_t)size[0] * size[1] * size[2];
+    if (size[0] > most[0] || size[1] > most[1] || size[2] > most[2] || invocations == 0 ||
+        invocations > device->limits.maxComputeWorkGroupInvocations)
+        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
+                             "shader '%s': the device does not allow groups of %ux%ux%u",
+                             pipeline->name, size[0], size[1], size[2]);
+    return LOBE_OK;
+}
+
+static lobe_result create_compute(lobe_device *device, const cached_pipeline *cached,
+                                  const VkSpecializationInfo *specialised,
+                                  engine_pipeline *pipeline) {
+    apply_local_size(&cached->key, pipeline);
+    const lobe_result result = check_local_size(device, pipeline);
+    if (result != LOBE_OK)
+        return result;
+    const VkComputePipelineCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage =
+            {
+                .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                .module = cached->key.shaders[0]->module,
+                .pName = "main",
+                .pSpecializationInfo = specialised,
+            },
+        .layout = pipeline->layout,
+    };
+    return VULKAN_CHECK(&device->log,
+                        vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
+                                                 &create, device->callbacks, &pipeline->pipeline),
+                        "pipeline '%s'", pipeline->name);
+}
+
+static char *name_of(const lobe_allocator *allocator, const pipeline_key *key) {
+    const engine_shader *const *shaders = key->shaders;
+    return shaders[1] ? engine_text(allocator, "%s + %s", shaders[0]->name, shaders[1]->name)
+                      : lobe_copy_text(allocator, shaders[0]->name);
+}
+
+/// `raster` is NULL for a compute pipeline.
+static lobe_result create_vulkan(lobe_device *device, const engine_raster_parameters *raster,
+                                 cached_pipeline *cached) {
+    engine_pipeline *pipeline = &cached->pipeline;
+    const pipeline_key *key = &cached->key;
+    specialisation specialised = {0};
+    lobe_result result =
+        engine_pipeline_layout_create(device, key->shaders, key->shaders[1] ? 2 : 1, pipeline);
+    if (result == LOBE_OK)
+        result = create_specialisation(device, key, &specialised);
+    if (result == LOBE_OK && raster)
+        result = engine_raster_pipeline_create(device, device->pipelines->cache.vulkan, raster,
+                                               key->shaders[0], key->shaders[1],
+                                               &specialised.information, pipeline);
+    else if (result == LOBE_OK)
+        result = create_compute(device, cached, &specialised.information, pipeline);
+    lobe_release(specialised.entries);
+    if (result == LOBE_OK)
+        engine_device_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline,
+                           pipeline->name);
+    return result;
+}
+
+/// A key that does not change with the next one that is looked for; false without memory.
+static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, pipeline_key *kept) {
+    const size_t size = key->specialisation_count * sizeof *key->specialisation;
+    *kept = *key;
+    kept->specialisation = lobe_allocate(allocator, size + 1, 1);
+    if (kept->specialisation)
+        memcpy(kept->specialisation, key->specialisation, size);
+    return kept->specialisation != NULL;
+}
+
+/// Makes the pipeline of a key.
+static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
+                       const pipeline_key *key, const engine_pipeline **pipeline) {
+    const lobe_allocator *allocator = device->log.allocator;
+    cached_pipeline *cached = lobe_allocate(allocator, 1, sizeof *cached);
+    char *name = name_of(allocator, key);
+    if (!cached || !name || !keep_key(allocator, key, &cached->key)) {
+        lobe_release(cached);
+        lobe_release(name);
+        return fail_memory(device, key);
+    }
+    cached->pipeline.name = name;
+    cached->pipeline.bind_point =
+        raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
+    cached->pipeline.output_locations = key->shaders[1] ? key->shaders[1]->output_locations : 0;
+    const lobe_result result = create_vulkan(device, raster, cached);
+    if (result != LOBE_OK) {
+        destroy_pipeline(device, cached);
+        return result;
+    }
+    cached->next = device->pipelines->pipelines;
+    device->pipelines->pipelines = cached;
+    *pipeline = &cached->pipeline;
+    return LOBE_OK;
+}
+
+static lobe_result find_or_add(lobe_device *device, const engine_raster_parameters *raster,
+                               const pipeline_key *key, const engine_pipeline **pipeline) {
+    *pipeline = find(device->pipelines, key);
+    return *pipeline ? LOBE_OK : add(device, raster, key, pipeline);
+}
+
+// ---------------------------------------------------------------------------------------------
+// For others
+
+lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
+                                    engine_pipelines **pipelines) {
+    *pipelines = lobe_allocate(device->log.allocator, 1, sizeof **pipelines);
+    if (!*pipelines)
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
+    return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
+}
+
+void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines) {
+    if (!*pipelines)
+        return;
+    for (cached_pipeline *cached = (*pipelines)->pipelines, *next; cached; cached = next) {
+        next = cached->next;
+        destroy_pipeline(device, cached);
+    }
+    engine_sampler_cache_destroy(device, &(*pipelines)->samplers);
+    engine_pipeline_cache_destroy(device, &(*pipelines)->cache);
+    lobe_release((*pipelines)->wanted);
+    lobe_release(*pipelines);
+    *pipelines = NULL;
+}
+
+static lobe_result find_compute(lobe_device *device, const engine_compute_parameters *parameters,
+                                const engine_pipeline **pipeline) {
+    pipeline_key key = {0};
+    *pipeline = NULL;
+    lobe_result result =
+        find_shader(device, parameters->shader, VK_SHADER_STAGE_COMPUTE_BIT, &key.shaders[0]);
+    if (result == LOBE_OK)
+        result = fill_specialisation(device, parameters->specialisation,
+                                     parameters->specialisation_count, &key);
+    return result == LOBE_OK ? find_or_add(device, NULL, &key, pipeline) : result;
+}
+
+lobe_result engine_pipeline_compute(lobe_device *device,
+                                    const engine_compute_parameters *parameters,
+                                    const engine_pipeline **pipeline) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = find_compute(device, parameters, pipeline);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}
+
+static lobe_result find_raster(lobe_device *device, const engine_raster_parameters *parameters,
+                               const engine_pipeline **pipeline) {
+    pipeline_key key = {0};
+    *pipeline = NULL;
+    lobe_result result =
+        find_shader(device, parameters->vertex_shader, VK_SHADER_STAGE_VERTEX_BIT, &key.shaders[0]);
+    if (result == LOBE_OK && parameters->fragment_shader)
+        result = find_shader(device, parameters->fragment_shader, VK_SHADER_STAGE_FRAGMENT_BIT,
+                             &key.shaders[1]);
+    fill_state(parameters, &key);
+    if (result == LOBE_OK)
+        result = fill_specialisation(device, parameters->specialisation,
+                                     parameters->specialisation_count, &key);
+    return result == LOBE_OK ? find_or_add(device, parameters, &key, pipeline) : result;
+}
+
+lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
+                                   const engine_pipeline **pipeline) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result = find_raster(device, parameters, pipeline);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}
+
+const engine_shader_binding *engine_pipeline_binding(const engine_pipeline *pipeline,
+                                                     const char *name) {
+    for (size_t i = 0; i < pipeline->binding_count; i++)
+        if (!strcmp(pipeline->bindings[i].name, name))
+            return &pipeline->bindings[i];
+    return NULL;
+}
+
+lobe_result engine_sampler(lobe_device *device, const lobe_sampler *settings, VkSampler *sampler) {
+    pthread_mutex_lock(&device->found_mutex);
+    const lobe_result result =
+        engine_sampler_cache_get(device, &device->pipelines->samplers, settings, sampler);
+    pthread_mutex_unlock(&device->found_mutex);
+    return result;
+}

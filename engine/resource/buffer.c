@@ -1,0 +1,64 @@
+#include "engine/resource/resource.h"
+
+#include <string.h>
+
+#include "engine/device/device.h"
+#include "engine/resource/staging.h"
+
+static const VkBufferUsageFlags usage =
+    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+    VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+    VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+
+/// vkCmdFillBuffer works in words.
+static VkDeviceSize whole_words(VkDeviceSize size) {
+    return (size + 3) & ~(VkDeviceSize)3;
+}
+
+lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters *parameters,
+                               lobe_buffer **buffer) {
+    *buffer = NULL;
+    const char *name = parameters->name ? parameters->name : "buffer";
+    if (parameters->size == 0)
+        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT, "buffer '%s': a size of 0",
+                             name);
+    *buffer = lobe_allocate(device->log.allocator, 1, sizeof **buffer);
+    if (!*buffer || !((*buffer)->name = lobe_copy_text(device->log.allocator, name))) {
+        lobe_release(*buffer);
+        *buffer = NULL;
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': no host memory",
+                             name);
+    }
+    (*buffer)->device = device;
+    (*buffer)->size = parameters->size;
+    (*buffer)->stamp = engine_device_stamp(device);
+    lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
+                                                     usage, ENGINE_MEMORY_DEVICE,
+                                                     &(*buffer)->buffer, &(*buffer)->allocation);
+    if (result == LOBE_OK)
+        result = engine_upload_buffer(device, name, (*buffer)->buffer, parameters->size,
+                                      parameters->data);
+    if (result != LOBE_OK)
+        lobe_buffer_destroy(buffer);
+    return result;
+}
+
+lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
+    if (!data)
+        return lobe_log_fail(&buffer->device->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "buffer '%s': no data given", buffer->name);
+    buffer->stamp = engine_device_stamp(buffer->device);
+    return engine_upload_buffer(buffer->device, buffer->name, buffer->buffer, buffer->size, data);
+}
+
+void lobe_buffer_destroy(lobe_buffer **buffer) {
+    if (!*buffer)
+        return;
+    lobe_device *device = (*buffer)->device;
+    // A device that is lost has finished, too.
+    (void)engine_device_wait_all(device);
+    engine_buffer_destroy_placed(device, &(*buffer)->buffer, &(*buffer)->allocation);
+    lobe_release((*buffer)->name);
+    lobe_release(*buffer);
+    *buffer = NULL;
+}

@@ -1,0 +1,25 @@
+#ifndef ENGINE_RESOURCE_STAGING_H
+#define ENGINE_RESOURCE_STAGING_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#include <lobe/device.h>
+
+/// Most bytes of mapped memory that one upload takes at a time; larger uploads go in several
+/// steps, so that a large texture does not need its size twice.
+#define ENGINE_STAGING_STEP ((VkDeviceSize)16 << 20)
+
+/// Fills a buffer and makes the content visible to every later submission. Waits for the device.
+/// `data` NULL: zeroes.
+lobe_result engine_upload_buffer(lobe_device *device, const char *name, VkBuffer buffer,
+                                 VkDeviceSize size, const void *data);
+
+/// Fills level 0 of a single-layer colour image, rows tightly packed, and leaves it in
+/// SHADER_READ_ONLY_OPTIMAL layout, visible to every later submission. Waits for the device.
+lobe_result engine_upload_image(lobe_device *device, const char *name, VkImage image,
+                                const lobe_image *content);
+
+#endif

@@ -1,0 +1,126 @@
+#include "engine/resource/resource.h"
+
+#include <string.h>
+
+#include "engine/device/device.h"
+#include "engine/device/vulkan_check.h"
+#include "engine/resource/staging.h"
+
+static lobe_result check_content(const lobe_log *log, const char *name, const lobe_image *image) {
+    if (!image || !image->texels || lobe_format_size(image->format) == 0)
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': no image given",
+                             name);
+    if (image->format == LOBE_FORMAT_D32_FLOAT)
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "texture '%s': depth cannot be uploaded", name);
+    if (image->width == 0 || image->height == 0)
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
+                             name, image->width, image->height);
+    return LOBE_OK;
+}
+
+static lobe_result create_image(lobe_texture *texture) {
+    lobe_device *device = texture->device;
+    const engine_image_parameters parameters = {
+        .name = texture->name,
+        .format = texture->format,
+        .width = texture->width,
+        .height = texture->height,
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+    };
+    engine_memory_request request = {.name = texture->name, .place = ENGINE_MEMORY_DEVICE};
+    lobe_result result =
+        engine_image_create(device, &parameters, &texture->image, &request.requirements);
+    if (result == LOBE_OK)
+        result = engine_memory_allocate(device->memory, &request, &texture->allocation);
+    if (result == LOBE_OK)
+        result =
+            VULKAN_CHECK(&device->log,
+                         vkBindImageMemory(device->vulkan, texture->image,
+                                           texture->allocation.memory, texture->allocation.offset),
+                         "texture '%s'", texture->name);
+    return result;
+}
+
+static lobe_result create_view(lobe_texture *texture, VkImageViewType type, VkImageView *view) {
+    const engine_view_parameters parameters = {
+        .name = texture->name,
+        .image = texture->image,
+        .format = texture->format,
+        .type = type,
+        .level_count = 1,
+        .layer_count = 1,
+    };
+    return engine_view_create(texture->device, &parameters, view);
+}
+
+/// All the ways in which shaders can look at it: graphs of several threads find them made.
+static lobe_result create_views(lobe_texture *texture) {
+    lobe_result result = create_view(texture, VK_IMAGE_VIEW_TYPE_2D, &texture->view);
+    if (result == LOBE_OK)
+        result = create_view(texture, VK_IMAGE_VIEW_TYPE_2D_ARRAY, &texture->array_view);
+    return result;
+}
+
+lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
+                                lobe_texture **texture) {
+    *texture = NULL;
+    const char *name = parameters->name ? parameters->name : "texture";
+    lobe_result result = check_content(&device->log, name, parameters->image);
+    if (result != LOBE_OK)
+        return result;
+    *texture = lobe_allocate(device->log.allocator, 1, sizeof **texture);
+    if (!*texture || !((*texture)->name = lobe_copy_text(device->log.allocator, name))) {
+        lobe_release(*texture);
+        *texture = NULL;
+        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "texture '%s': no host memory",
+                             name);
+    }
+    (*texture)->device = device;
+    (*texture)->format = parameters->image->format;
+    (*texture)->width = parameters->image->width;
+    (*texture)->height = parameters->image->height;
+    result = create_image(*texture);
+    if (result == LOBE_OK)
+        result = create_views(*texture);
+    if (result == LOBE_OK)
+        result = lobe_texture_update(*texture, parameters->image);
+    if (result != LOBE_OK)
+        lobe_texture_destroy(texture);
+    return result;
+}
+
+bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
+    return image->format == texture->format && image->width == texture->width &&
+           image->height == texture->height;
+}
+
+lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) {
+    const lobe_log *log = &texture->device->log;
+    lobe_result result = check_content(log, texture->name, image);
+    if (result != LOBE_OK)
+        return result;
+    if (!lobe_texture_takes(texture, image))
+        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
+                             texture->width, texture->height, lobe_format_name(texture->format),
+                             image->width, image->height, lobe_format_name(image->format));
+    texture->stamp = engine_device_stamp(texture->device);
+    return engine_upload_image(texture->device, texture->name, texture->image, image);
+}
+
+void lobe_texture_destroy(lobe_texture **texture) {
+    if (!*texture)
+        return;
+    lobe_device *device = (*texture)->device;
+    // A device that is lost has finished, too.
+    (void)engine_device_wait_all(device);
+    vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
+    vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
+    vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
+    engine_memory_free(device->memory, &(*texture)->allocation);
+    lobe_release((*texture)->name);
+    lobe_release(*texture);
+    *texture = NULL;
+}

@@ -1,0 +1,34 @@
+#ifndef PASSES_ENVIRONMENT_IRRADIANCE_HARMONICS_H
+#define PASSES_ENVIRONMENT_IRRADIANCE_HARMONICS_H
+
+#include <lobe/graph.h>
+
+/// An environment cube: `levels` of six square layers, faces in Vulkan's order and orientation,
+/// linear radiance. Every level holds means over solid angle of the one above.
+typedef struct irradiance_source {
+    lobe_resource cube;
+    uint32_t size; ///< texels along a face's edge at level 0, above 0
+    uint32_t levels;
+} irradiance_source;
+
+/// Adds the passes that project an environment's irradiance to nine spherical harmonics
+/// (Ramamoorthi, Hanrahan 2001): a retained buffer of struct irradiance_harmonics
+/// (shaders/interface/irradiance_harmonics.h), of which one graph can hold one.
+///
+/// Reads the first level whose faces are no wider than 64 texels. Of faces of 256 that takes
+/// coefficients up to 1.4e-2 of the first off for a sun of one texel, whose direction becomes that
+/// of the coarser texel's centre, and 2e-5 for broad lights. Nine harmonics alone miss the
+/// irradiance of that sun by 9e-2 of its peak.
+///
+/// `window` [0, 1): how much ringing behind bright lights is taken out, see harmonics_window.
+lobe_resource irradiance_harmonics(lobe_graph *graph, irradiance_source source, double window);
+
+/// lambda >= 0 of Sloan 2008, Stupid Spherical Harmonics Tricks, "Windowing": the irradiance f_w
+/// that minimises
+///   integral of (f - f_w)^2 + lambda (Laplacian of f_w)^2
+/// is f with degree l divided by 1 + lambda l^2 (l + 1)^2. Chosen so that the root mean square of
+/// the Laplacian of a single light's irradiance, the one that rings most, falls to `1 - window`.
+/// It does not depend on the environment, so that what is added up stays additive.
+double harmonics_window(double window);
+
+#endif

@@ -1,0 +1,123 @@
+#include "passes/environment/kept/cache.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/// To be raised whenever equal environments come to be filtered otherwise: what was kept before is
+/// then not found any more.
+#define CACHE_VERSION 1
+
+static const char key_attribute[] = "environmentHash";
+static const char checksum_attribute[] = "texelChecksum";
+
+// ---------------------------------------------------------------------------------------------
+// Numbers for content
+
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+/// generators", Fig. 5): every input bit moves every output bit.
+static uint64_t mix(uint64_t hash, uint64_t value) {
+    uint64_t z = (hash ^ value) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31) ^ (hash << 17 | hash >> 47);
+}
+
+static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
+    for (size_t texel = 0; texel < count; ++texel) {
+        uint64_t words[2];
+        memcpy(words, texels + 4 * texel, sizeof words);
+        hash = mix(mix(hash, words[0]), words[1]);
+    }
+    return hash;
+}
+
+uint64_t environment_cache_key(const lobe_environment *environment, uint32_t size,
+                               lobe_environment_map map) {
+    const lobe_image *image = &environment->image;
+    uint64_t hash = mix(CACHE_VERSION, size);
+    hash = mix(hash, (uint64_t)map);
+    hash = mix(hash, (uint64_t)environment->layout);
+    hash = mix(hash, (uint64_t)image->width << 32 | image->height);
+    return mix_texels(hash, image->texels, (size_t)image->width * image->height);
+}
+
+static uint64_t checksum_of(const cube_image *cube) {
+    return mix_texels(0, cube->texels, cube_image_texels(cube));
+}
+
+typedef struct number_as_text {
+    char text[17];
+} number_as_text;
+
+static number_as_text hexadecimal(uint64_t number) {
+    number_as_text result;
+    snprintf(result.text, sizeof result.text, "%016" PRIx64, number);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Files
+
+/// To lobe_release by the caller; NULL without memory.
+static char *path_of(const lobe_allocator *allocator, const char *folder, uint64_t key) {
+    size_t size = strlen(folder) + 32;
+    char *path = lobe_allocate(allocator, size, 1);
+    if (path)
+        snprintf(path, size, "%s/%s.exr", folder, hexadecimal(key).text);
+    return path;
+}
+
+static bool says(const lobe_exr_contents *contents, const char *name, uint64_t number) {
+    const lobe_exr_attribute *attribute = lobe_exr_find_attribute(contents, name, LOBE_EXR_TEXT);
+    return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
+}
+
+static bool load(const char *path, uint64_t key, uint32_t width, const lobe_log *log,
+                 cube_image *cube) {
+    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
+    lobe_exr_contents contents;
+    if (lobe_exr_read_contents(path, NULL, &silent, &contents) != LOBE_OK)
+        return false;
+    bool whole = says(&contents, key_attribute, key) &&
+                 cube_image_from(path, &contents, &silent, cube) == LOBE_OK;
+    whole = whole && cube->width == width && says(&contents, checksum_attribute, checksum_of(cube));
+    if (!whole)
+        cube_image_free(cube);
+    lobe_exr_contents_free(&contents);
+    return whole;
+}
+
+bool environment_cache_load(const char *folder, uint64_t key, uint32_t width, const lobe_log *log,
+                            cube_image *cube) {
+    *cube = (cube_image){0};
+    char *path = path_of(lobe_log_allocator(log), folder, key);
+    bool there = path && access(path, F_OK) == 0;
+    bool loaded = there && load(path, key, width, log, cube);
+    if (there && !loaded)
+        lobe_log_print(log, LOBE_LOG_NOTICE, "%s: damaged or foreign: it is made again", path);
+    lobe_release(path);
+    return loaded;
+}
+
+static lobe_result store(const char *path, uint64_t key, const cube_image *cube,
+                         const lobe_log *log) {
+    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
+    const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
+    const lobe_exr_attribute attributes[] = {
+        {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
+        {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},
+    };
+    return cube_image_write(path, cube, attributes, 2, &silent);
+}
+
+void environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
+                             const lobe_log *log) {
+    char *path = path_of(lobe_log_allocator(log), folder, key);
+    if (!path || store(path, key, cube, log) != LOBE_OK)
+        lobe_log_print(log, LOBE_LOG_WARNING,
+                       "%s: the filtered environment cannot be kept there for the next time",
+                       folder);
+    lobe_release(path);
+}

@@ -1,0 +1,260 @@
+#include "passes/environment/light.h"
+
+#include <string.h>
+
+#include "passes/environment/directional_albedo.h"
+#include "passes/environment/irradiance_harmonics.h"
+#include "passes/environment/maps.h"
+#include "passes/environment/rotation.h"
+#include "shaders/interface/environment_light.h"
+#include "shaders/interface/irradiance_harmonics.h"
+
+/// Texels along a face that the exact integral goes over at most. Lavapipe ends all loops of a
+/// shader after 65535 rounds together, without a word, and filters have loops of their own.
+#define EXACT_WIDTH 64
+
+static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
+                                       LOBE_WRAP_CLAMP, 0};
+
+static uint32_t method_of(const filter_context *context) {
+    uint32_t method = (uint32_t)filter_setting(context, "env");
+    // A sample of many takes a sample of the environment: as true, and as fast as it goes.
+    return method == ENVIRONMENT_EXACT && context->filter->supersamples ? ENVIRONMENT_REFERENCE
+                                                                        : method;
+}
+
+static bool scatters(const filter_context *context) {
+    return filter_setting(context, "scattering") > 0;
+}
+
+/// Whether lobes between levels are blends of two cubes.
+static bool blends(const filter_context *context) {
+    return filter_setting(context, "env_levels") > 0;
+}
+
+/// Whether an instance has microfacets of a distribution.
+static bool uses_distribution(const filter_context *context, uint32_t distribution) {
+    const device_scene *scene = context->scene;
+    for (size_t i = 0; i < scene->scene->instance_count; ++i) {
+        const lobe_material *material = scene->materials[scene->instances[i].material].material;
+        if (material->model == LOBE_MATERIAL_MICROFACET &&
+            (uint32_t)material->distribution == distribution)
+            return true;
+    }
+    return false;
+}
+
+/// Whether an instance uses a half-vector lobe of GGX's shape or microfacets of it.
+static bool uses_ggx(const filter_context *context) {
+    bool as_lobes = filter_setting(context, "base") > 0;
+    return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
+}
+
+static void build_albedo(const filter_context *context, environment_light *light) {
+    for (uint32_t i = 0; i < DISTRIBUTION_COUNT; ++i) {
+        if (uses_distribution(context, i))
+            light->albedo[i] = directional_albedo(context->graph, (lobe_distribution)i);
+    }
+}
+
+/// For methods that do without.
+static lobe_resource no_harmonics(lobe_graph *graph) {
+    struct irradiance_harmonics none = {0};
+    return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);
+}
+
+/// Texels along a face of the cube.
+static uint32_t environment_width(const filter_context *context) {
+    return 16u << (uint32_t)filter_setting(context, "env_size");
+}
+
+static environment_maps_request request_of(const filter_context *context) {
+    bool prefiltered = method_of(context) == ENVIRONMENT_PREFILTERED;
+    environment_maps_request request = {
+        .environment = context->scene->scene->environment,
+        .texture = context->scene->environment,
+        .size = environment_width(context),
+        .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
+                   [LOBE_ENVIRONMENT_BETWEEN] = prefiltered && blends(context),
+                   [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
+        .parts = context->environment_parts,
+    };
+    request.stored = environment_store_cubes(&context->environment->store, &request);
+    return request;
+}
+
+/// Of those that the folder of kept cubes lacks, as soon as they are finished.
+static void read_back_lacking(const filter_context *context, const environment_maps *maps) {
+    environment_state *state = context->environment;
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (!environment_store_lacks(&state->store, maps, map))
+            continue;
+        lobe_graph_read_back(context->graph, maps->cubes[map], (lobe_range){0});
+        state->reads_back = true;
+    }
+}
+
+/// The cubes; filtered ones may not be complete yet, and then means over texels take their place.
+static environment_maps build_cubes(const filter_context *context, environment_light *light) {
+    bool prefiltered = light->method == ENVIRONMENT_PREFILTERED;
+    environment_maps_request request = request_of(context);
+    environment_maps maps =
+        environment_maps_declare(context->graph, &request, &context->environment->progress);
+    context->environment->last = maps;
+    if (context->keeps_environment && maps.up_to_date)
+        read_back_lacking(context, &maps);
+    if (prefiltered && !maps.complete)
+        light->method = ENVIRONMENT_MIP;
+    light->cube = maps.cubes[LOBE_ENVIRONMENT_RADIANCE];
+    light->prefiltered = light->prefiltered_ggx = light->between = light->cube;
+    if (light->method == ENVIRONMENT_PREFILTERED) {
+        light->prefiltered = maps.cubes[LOBE_ENVIRONMENT_VON_MISES_FISHER];
+        light->prefiltered_ggx =
+            uses_ggx(context) ? maps.cubes[LOBE_ENVIRONMENT_GGX] : light->prefiltered;
+        light->between =
+            blends(context) ? maps.cubes[LOBE_ENVIRONMENT_BETWEEN] : light->prefiltered;
+    }
+    return maps;
+}
+
+static void build_maps(const filter_context *context, environment_light *light) {
+    environment_maps maps = build_cubes(context, light);
+    irradiance_source source = {light->cube, maps.width[LOBE_ENVIRONMENT_RADIANCE],
+                                maps.levels[LOBE_ENVIRONMENT_RADIANCE]};
+    bool harmonics =
+        light->method == ENVIRONMENT_PREFILTERED || light->method == ENVIRONMENT_SAMPLED;
+    light->harmonics = harmonics ? irradiance_harmonics(context->graph, source,
+                                                        filter_setting(context, "env_window"))
+                                 : no_harmonics(context->graph);
+}
+
+lobe_result environment_light_look(const filter_context *context, lobe_device *device) {
+    if (!context->environment_cache || !context->scene->environment)
+        return LOBE_OK;
+    environment_maps_request request = request_of(context);
+    return environment_store_look(&context->environment->store, device, context->environment_cache,
+                                  &request, context->log);
+}
+
+void environment_light_keep(const filter_context *context) {
+    environment_state *state = context->environment;
+    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (environment_store_lacks(&state->store, &state->last, map))
+            environment_store_keep(&state->store, context->environment_cache, context->graph,
+                                   &state->last, map, context->log);
+    }
+    state->reads_back = false;
+}
+
+void environment_light_change(environment_state *state) {
+    environment_maps_renew(&state->last, &state->progress);
+    environment_store_forget(&state->store);
+    state->reads_back = false;
+}
+
+void environment_light_forget(environment_state *state) {
+    environment_store_forget(&state->store);
+    *state = (environment_state){0};
+}
+
+environment_light environment_light_build(const filter_context *context) {
+    environment_light light = {.method = method_of(context)};
+    light.present = context->scene->environment != NULL;
+    bool split = light.present &&
+                 (light.method == ENVIRONMENT_MIP || light.method == ENVIRONMENT_PREFILTERED ||
+                  light.method == ENVIRONMENT_SAMPLED);
+    if (split || scatters(context))
+        build_albedo(context, &light);
+    if (!light.present) {
+        environment_light_forget(context->environment);
+        return light;
+    }
+    build_maps(context, &light);
+    return light;
+}
+
+static struct environment_constants constants_of(const filter_context *context,
+                                                 const shading_sample *sample) {
+    const lobe_environment *environment = context->scene->scene->environment;
+    struct environment_constants constants = {
+        .intensity = environment->intensity,
+        .sample_number = sample->number,
+        .pattern = sample->pattern,
+    };
+    for (int row = 0; row < 3; ++row)
+        memcpy(constants.environment_from_world[row], environment->world_from_environment[row],
+               3 * sizeof(float));
+    return constants;
+}
+
+/// All, or the first one with few enough texels to sum up: it has the same energy.
+static lobe_range levels_read(const environment_light *light, const filter_context *context) {
+    if (light->method != ENVIRONMENT_EXACT)
+        return (lobe_range){0};
+    uint32_t level = 0;
+    while (environment_width(context) >> level > EXACT_WIDTH)
+        ++level;
+    return (lobe_range){.first_level = level, .level_count = 1};
+}
+
+void environment_light_read(const environment_light *light, const filter_context *context,
+                            lobe_pass *pass, const shading_sample *sample) {
+    if (!light->present)
+        return;
+    struct environment_constants constants = constants_of(context, sample);
+    const lobe_range range = levels_read(light, context);
+    const lobe_binding bindings[] = {
+        {.name = "environment_texels", .resource = light->cube, .range = range},
+        {.name = "environment_cube", .resource = light->cube, .range = range, .sampler = trilinear},
+        {.name = "environment_faces", .resource = light->cube, .range = range},
+        {.name = "prefiltered_environment",
+         .resource = light->prefiltered,
+         .range = range,
+         .sampler = trilinear},
+        {.name = "prefiltered_environment_ggx",
+         .resource = light->prefiltered_ggx,
+         .range = range,
+         .sampler = trilinear},
+        {.name = "environment_between",
+         .resource = light->between,
+         .range = range,
+         .sampler = trilinear},
+        {.name = "irradiance_block", .resource = light->harmonics},
+        {.name = "environment_block",
+         .resource =
+             lobe_graph_upload(context->graph, "environment", &constants, sizeof constants)},
+    };
+    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; ++i)
+        lobe_pass_read(pass, &bindings[i]);
+}
+
+uint32_t environment_light_lights_at_once(const environment_light *light, uint32_t lights) {
+    if (light->present && light->method == ENVIRONMENT_EXACT)
+        return 4; // every texel of the environment is a light
+    return lights < 1 ? 1 : lights < 4 ? lights : 4;
+}
+
+void environment_light_specialise(const environment_light *light, const filter_context *context,
+                                  specialisation_list *list) {
+    specialise(list, SPECIALISE_MULTIPLE_SCATTERING, scatters(context));
+    if (!light->present)
+        return;
+    specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
+    specialise(list, SPECIALISE_ENVIRONMENT_PROBES,
+               (uint32_t)filter_setting(context, "env_probes"));
+    specialise(list, SPECIALISE_ENVIRONMENT_GRID, (uint32_t)filter_setting(context, "env_grid"));
+    specialise(list, SPECIALISE_ENVIRONMENT_BLENDED, blends(context));
+    specialise(list, SPECIALISE_HORIZON, (uint32_t)filter_setting(context, "horizon"));
+}
+
+lobe_binding environment_light_albedo(const environment_light *light, const filter_context *context,
+                                      const lobe_material *material) {
+    lobe_binding binding = {.name = "directional_albedo_table",
+                            .resource = light->albedo[material->distribution],
+                            .sampler = directional_albedo_sampler};
+    bool table = material->model == LOBE_MATERIAL_MICROFACET &&
+                 (binding.resource.index || binding.resource.version);
+    if (!table)
+        binding.resource = lobe_graph_import_texture(context->graph, context->scene->white);
+    return binding;
+}

@@ -1,0 +1,140 @@
+#include "passes/environment/prefiltering.h"
+
+#include <lobe/environment_maps.h>
+
+#include <math.h>
+
+#include "shaders/interface/environment.h"
+
+// Standard deviation of the smoothing that precedes a halving, squared, in texels of the smaller
+// cube: enough that the smaller cube's texels stand for all there was between them, to a
+// thousandth.
+#define SMOOTHING_VARIANCE 0.4
+
+// Faces of sources are at least this wide: sums over few texels depend on where these lie.
+#define LEAST_SOURCE_WIDTH 32
+
+// A lobe's standard deviation in texels of its source at least: sums over them are then exact.
+#define TEXELS_A_DEVIATION 1
+
+// The same in texels of the level that keeps the filtered environment. Their interpolation is off
+// by 1.1 % then (relative L2) where all light comes from one point, 1.6 % for GGX lobes. Measured
+// over the sphere, faces of 128 and 256 texels, kappa = 1, 4, 16 to 4096, six real environments:
+// 0.03 to 0.9 %. GGX lobes 0.03 to 1.2 %, and 1.8 % where the peak is narrower than the radiance's
+// texels (kappa = 4096 with 128). Four texels leave a third of that, for four times the work.
+#define LEVEL_TEXELS_A_DEVIATION 2
+
+uint32_t prefiltered_width(uint32_t size) {
+    // No lobe narrower than a texel of the radiance, and kappa = 4096 from 128 texels on.
+    return size <= 128 ? 2 * size : size;
+}
+
+double lobe_environment_level_concentration(uint32_t width, uint32_t level) {
+    if (width >> level <= 1)
+        return 0; // all around alike: the mean
+    double texel = 2.0 / (width >> level), deviation = LEVEL_TEXELS_A_DEVIATION * texel;
+    return 1 / (deviation * deviation);
+}
+
+typedef struct filtered_source {
+    lobe_resource resource;
+    uint32_t level, width;
+    double variance; ///< with which it was filtered
+} filtered_source;
+
+typedef struct filtered_target {
+    uint32_t level, width, first_face, face_count;
+    double concentration;
+    bool interpolated;
+} filtered_target;
+
+static lobe_pass *add_pass(lobe_graph *graph, const char *name, const filtered_source *source,
+                           const filtered_target *target, lobe_resource *cube) {
+    struct environment_prefiltering_constants constants = {
+        .width = target->width,
+        .source_width = source->width,
+        .first_face = target->first_face,
+        .concentration = (float)target->concentration,
+        .source_variance = (float)source->variance,
+        .interpolation = target->interpolated,
+    };
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, name);
+    lobe_pass_read(pass,
+                   &(lobe_binding){"source", source->resource, .range = {source->level, 1, 0, 6}});
+    *cube = lobe_pass_write(
+        pass, &(lobe_binding){"target", *cube,
+                              .range = {target->level, 1, target->first_face, target->face_count}});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "environment/prefiltering.comp",
+                               .threads = {target->width, target->width, target->face_count},
+                               .constants = &constants,
+                               .constants_size = sizeof constants});
+    return pass;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Sources
+
+static double texel_squared(uint32_t width) {
+    return 4.0 / ((double)width * width);
+}
+
+/// Level 0 is the radiance, level n > 0 is level n - 1 of the smoothed cube.
+static filtered_source source_at(const prefiltering_sources *sources, uint32_t level) {
+    filtered_source source = {sources->radiance, 0, sources->size >> level, 0};
+    if (level > 0) {
+        source.resource = sources->smoothed;
+        source.level = level - 1;
+    }
+    for (uint32_t i = 1; i <= level; ++i)
+        source.variance += SMOOTHING_VARIANCE * texel_squared(sources->size >> i);
+    return source;
+}
+
+prefiltering_sources environment_smoothing(lobe_graph *graph, lobe_resource radiance,
+                                           uint32_t size) {
+    prefiltering_sources sources = {.radiance = radiance, .size = size};
+    uint32_t count = 0;
+    while (size >> (count + 1) >= LEAST_SOURCE_WIDTH)
+        ++count;
+    if (count == 0)
+        return sources;
+    sources.smoothed =
+        lobe_graph_image(graph, &(lobe_image_description){.name = "smoothed environment",
+                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                          .width = size / 2,
+                                                          .height = size / 2,
+                                                          .layers = 6,
+                                                          .levels = count});
+    for (uint32_t level = 0; level < count; ++level) {
+        filtered_source source = source_at(&sources, level);
+        source.variance = 0; // what was done to it before is left as it is
+        filtered_target target = {.level = level,
+                                  .width = source.width / 2,
+                                  .face_count = 6,
+                                  .concentration =
+                                      1 / (SMOOTHING_VARIANCE * texel_squared(source.width / 2))};
+        add_pass(graph, "environment_smoothing", &source, &target, &sources.smoothed);
+    }
+    sources.smoothed_levels = count;
+    return sources;
+}
+
+static filtered_source source_for(const prefiltering_sources *sources, double concentration) {
+    uint32_t level = 0;
+    while (level < sources->smoothed_levels && TEXELS_A_DEVIATION * TEXELS_A_DEVIATION *
+                                                       concentration *
+                                                       texel_squared(sources->size >> (level + 1)) <
+                                                   1.001)
+        ++level;
+    return source_at(sources, level);
+}
+
+lobe_pass *environment_prefiltering(lobe_graph *graph, const prefiltering_sources *sources,
+                                    reduced_map *cube, uint32_t level, uint32_t first_face,
+                                    uint32_t face_count, double concentration) {
+    filtered_source source = source_for(sources, concentration);
+    filtered_target target = {level,      cube->width >> level, first_face,
+                              face_count, concentration,        true};
+    return add_pass(graph, "environment_prefiltering", &source, &target, &cube->resource);
+}

@@ -1,0 +1,258 @@
+#include <lobe/environment_maps.h>
+
+#include <string.h>
+
+#include "passes/environment/kept/store.h"
+#include "passes/environment/maps.h"
+#include "passes/renderer/pass_times.h"
+
+struct lobe_environment_maps {
+    lobe_device *device;
+    lobe_log log;
+    lobe_graph *graph;
+    lobe_texture *texture;
+    lobe_environment shape; ///< layout and extent, without texels
+    environment_maps_request request;
+    environment_maps_progress progress;
+    bool (*report)(void *user, double part);
+    void *user;
+    lobe_frame times;
+    lobe_environment_maps_information information;
+    char *cache; ///< NULL: none
+    environment_store store;
+};
+
+// ---------------------------------------------------------------------------------------------
+// Making them
+
+static lobe_result out_of_memory(const lobe_log *log) {
+    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
+}
+
+static lobe_result take_times(lobe_environment_maps *maps) {
+    if (pass_times_add(&maps->times, lobe_graph_describe(maps->graph), maps->log.allocator))
+        return LOBE_OK;
+    return out_of_memory(&maps->log);
+}
+
+static void inform(lobe_environment_maps *maps, const environment_maps *made) {
+    maps->information = (lobe_environment_maps_information){
+        .milliseconds = maps->times.milliseconds,
+        .submissions = maps->times.submissions,
+        .cached = maps->request.stored != NULL,
+        .passes = maps->times.passes,
+        .pass_count = maps->times.pass_count,
+    };
+    memcpy(maps->information.width, made->width, sizeof made->width);
+    memcpy(maps->information.levels, made->levels, sizeof made->levels);
+}
+
+/// What is not finished yet is kept as it is.
+static void want(lobe_graph *graph, const environment_maps *made) {
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        if (made->cubes[map].version != 0)
+            lobe_graph_output(graph, made->cubes[map]);
+    }
+}
+
+lobe_graph *environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
+    lobe_graph_begin(maps->graph);
+    *cubes = environment_maps_declare(maps->graph, &maps->request, &maps->progress);
+    return maps->graph;
+}
+
+/// Submits frame after frame until all is made, or the caller has enough: `*stopped`.
+static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
+    *stopped = false;
+    lobe_frame_free(&maps->times);
+    maps->information = (lobe_environment_maps_information){0};
+    for (environment_maps made = {0}; !made.up_to_date && !*stopped;) {
+        environment_maps_begin(maps, &made);
+        want(maps->graph, &made);
+        lobe_result result = lobe_graph_execute(maps->graph);
+        if (result == LOBE_OK)
+            result = take_times(maps);
+        if (result != LOBE_OK)
+            return result;
+        inform(maps, &made);
+        double part = made.part_count > 0 ? (double)made.parts_done / made.part_count : 1;
+        *stopped = maps->report && !maps->report(maps->user, part);
+    }
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Keeping them
+
+static lobe_result look_into_cache(lobe_environment_maps *maps,
+                                   const lobe_environment *environment) {
+    environment_maps_request request = maps->request;
+    request.environment = environment;
+    environment_store_forget(&maps->store);
+    lobe_result result = LOBE_OK;
+    if (maps->cache)
+        result =
+            environment_store_look(&maps->store, maps->device, maps->cache, &request, &maps->log);
+    maps->request.stored = environment_store_cubes(&maps->store, &maps->request);
+    return result;
+}
+
+/// One cube after the other: the host need not hold all at once.
+static lobe_result keep_in_cache(lobe_environment_maps *maps) {
+    lobe_result result = LOBE_OK;
+    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+        environment_maps cubes;
+        lobe_graph *graph = environment_maps_begin(maps, &cubes);
+        if (!environment_store_lacks(&maps->store, &cubes, map))
+            continue;
+        lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
+        result = lobe_graph_execute(graph);
+        if (result == LOBE_OK)
+            environment_store_keep(&maps->store, maps->cache, graph, &cubes, map, &maps->log);
+    }
+    return result;
+}
+
+/// Makes the maps, with what the cache can spare.
+static lobe_result prepare(lobe_environment_maps *maps, const lobe_environment *environment,
+                           bool *stopped) {
+    lobe_result result = look_into_cache(maps, environment);
+    if (result == LOBE_OK)
+        result = make(maps, stopped);
+    bool lacking = maps->cache && !maps->request.stored;
+    return result == LOBE_OK && lacking && !*stopped ? keep_in_cache(maps) : result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Creating and updating
+
+static lobe_result check(const lobe_environment_maps *maps, const lobe_environment *environment) {
+    double position[2];
+    uint32_t size = maps->request.size;
+    if (size < 16 || size > 2048 || (size & (size - 1)) != 0)
+        return lobe_log_fail(
+            &maps->log, LOBE_ERROR_INVALID_ARGUMENT,
+            "%s: a cube of %u texels a face; a power of two in [16, 2048] is right",
+            environment->name, size);
+    if (environment->image.format != LOBE_FORMAT_RGBA32_FLOAT ||
+        !lobe_environment_position(environment, (double[3]){1, 0, 0}, position))
+        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: %ux%u texels of %s do not fit the environment's layout",
+                             environment->name, environment->image.width, environment->image.height,
+                             lobe_format_name(environment->image.format));
+    return LOBE_OK;
+}
+
+static void set_up(lobe_environment_maps *maps, lobe_device *device,
+                   const lobe_environment_maps_parameters *parameters) {
+    maps->device = device;
+    if (parameters->log)
+        maps->log = *parameters->log;
+    maps->log.allocator = lobe_device_allocator(device);
+    maps->shape = *parameters->environment;
+    maps->shape.name = NULL;
+    maps->shape.image.texels = NULL;
+    maps->report = parameters->progress;
+    maps->user = parameters->user;
+    maps->request = (environment_maps_request){
+        .environment = &maps->shape,
+        .size = parameters->size ? parameters->size : 256,
+        .parts = parameters->parts_a_submission,
+    };
+    memcpy(maps->request.wanted, parameters->wanted, sizeof maps->request.wanted);
+}
+
+static lobe_result fill(lobe_environment_maps *maps, const lobe_environment *environment,
+                        bool *stopped) {
+    lobe_result result = check(maps, environment);
+    if (result == LOBE_OK)
+        result = lobe_texture_create(
+            maps->device, &(lobe_texture_parameters){environment->name, &environment->image},
+            &maps->texture);
+    if (result == LOBE_OK)
+        result = lobe_graph_create(maps->device, &maps->graph);
+    maps->request.texture = maps->texture;
+    return result == LOBE_OK ? prepare(maps, environment, stopped) : result;
+}
+
+static bool copy_cache(lobe_environment_maps *maps, const char *cache) {
+    maps->cache = cache ? lobe_copy_text(maps->log.allocator, cache) : NULL;
+    return !cache || maps->cache;
+}
+
+lobe_result lobe_environment_maps_create(lobe_device *device,
+                                         const lobe_environment_maps_parameters *parameters,
+                                         lobe_environment_maps **maps) {
+    bool stopped = false;
+    *maps = lobe_allocate(lobe_device_allocator(device), 1, sizeof **maps);
+    if (!*maps)
+        return out_of_memory(parameters->log);
+    set_up(*maps, device, parameters);
+    lobe_result result =
+        copy_cache(*maps, parameters->cache) ? LOBE_OK : out_of_memory(&(*maps)->log);
+    if (result == LOBE_OK)
+        result = fill(*maps, parameters->environment, &stopped);
+    if (result != LOBE_OK || stopped)
+        lobe_environment_maps_destroy(maps);
+    return result;
+}
+
+void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
+    if (!maps || !*maps)
+        return;
+    lobe_graph_destroy(&(*maps)->graph);
+    environment_store_forget(&(*maps)->store);
+    lobe_release((*maps)->cache);
+    lobe_texture_destroy(&(*maps)->texture);
+    lobe_frame_free(&(*maps)->times);
+    lobe_release(*maps);
+    *maps = NULL;
+}
+
+lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
+                                         const lobe_environment *environment) {
+    lobe_result result = LOBE_OK;
+    if (environment && (environment->layout != maps->shape.layout ||
+                        environment->image.width != maps->shape.image.width ||
+                        environment->image.height != maps->shape.image.height))
+        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "%s: not of the layout and extent of the environment before",
+                             environment->name);
+    if (environment)
+        result = lobe_texture_update(maps->texture, &environment->image);
+    if (result != LOBE_OK)
+        return result;
+    bool stopped;
+    lobe_graph_invalidate(maps->graph);
+    maps->progress.done = 0;
+    return environment ? prepare(maps, environment, &stopped) : make(maps, &stopped);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Looking at them
+
+const lobe_environment_maps_information *
+lobe_environment_maps_describe(const lobe_environment_maps *maps) {
+    return &maps->information;
+}
+
+lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environment_map map,
+                                       uint32_t level, uint32_t face, lobe_image *image) {
+    *image = (lobe_image){0};
+    if ((unsigned)map >= LOBE_ENVIRONMENT_MAP_COUNT || level >= maps->information.levels[map] ||
+        face >= 6)
+        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
+                             "environment maps: there is no level %u, face %u of cube %d", level,
+                             face, (int)map);
+    environment_maps made;
+    environment_maps_begin(maps, &made);
+    lobe_graph_read_back(maps->graph, made.cubes[map], (lobe_range){level, 1, face, 1});
+    lobe_result result = lobe_graph_execute(maps->graph);
+    uint32_t width = maps->information.width[map] >> level;
+    if (result == LOBE_OK)
+        result = lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, width, width, &maps->log);
+    if (result == LOBE_OK)
+        memcpy(image->texels, lobe_graph_data(maps->graph, made.cubes[map], NULL),
+               (size_t)width * width * lobe_format_size(LOBE_FORMAT_RGBA32_FLOAT));
+    return result;
+}

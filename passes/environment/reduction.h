@@ -1,0 +1,11 @@
+#ifndef PASSES_ENVIRONMENT_REDUCTION_H
+#define PASSES_ENVIRONMENT_REDUCTION_H
+
+#include "passes/maps/level_reduction.h"
+
+/// Adds passes that fill levels 1 and up of an environment's cube (six layers) from its level 0:
+/// means weighted with solid angles, so that every level has the same energy. The width is a power
+/// of two.
+void environment_reduction(lobe_graph *graph, reduced_map *cube);
+
+#endif

@@ -1,0 +1,113 @@
+#include "passes/filters/lobes/clustering.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include <cglm/cglm.h>
+
+#include "passes/maps/base_maps.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/surface_atlas.h"
+#include "passes/renderer/camera.h"
+#include "passes/renderer/material_specialisation.h"
+#include "shaders/interface/clustering.h"
+#include "shaders/interface/mixture.h"
+
+static uint32_t layers_of(uint32_t subdivision) {
+    static const uint32_t layers[] = {1, 5, 13};
+    return layers[subdivision];
+}
+
+static void read_atlas(lobe_pass *pass, const surface_atlas *atlas) {
+    lobe_pass_read(pass, &(lobe_binding){.name = "atlas_normal", .resource = atlas->normal});
+    lobe_pass_read(pass, &(lobe_binding){.name = "atlas_tangent", .resource = atlas->tangent});
+    lobe_pass_read(pass, &(lobe_binding){.name = "atlas_position", .resource = atlas->position});
+}
+
+/// In camera space: the rotation from object to camera, and the eye in object space.
+static void camera_constants(const filter_context *context, size_t instance, bool double_sided,
+                             struct atlas_constants *constants) {
+    mat4 object_to_world, world_to_object;
+    memcpy(object_to_world, context->scene->scene->instances[instance].transform,
+           sizeof object_to_world);
+    glm_mat4_inv(object_to_world, world_to_object);
+    mat3 linear, world_to_camera, rotation;
+    glm_mat4_pick3(object_to_world, linear);
+    camera_rotation(context->camera, world_to_camera);
+    glm_mat3_mul(world_to_camera, linear, rotation);
+    // Of a rotation and a uniform scale: rows of equal length.
+    float scale = glm_vec3_norm(linear[0]);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            constants->rotation[row][column] = scale > 0 ? rotation[column][row] / scale : 0;
+    }
+    vec4 eye, object_eye;
+    camera_eye(context->camera, eye);
+    glm_mat4_mulv(world_to_object, eye, object_eye);
+    // Of a surface with two sides nothing faces away.
+    if (double_sided)
+        object_eye[3] = -1;
+    memcpy(constants->eye, object_eye, sizeof object_eye);
+}
+
+static void object_constants(struct atlas_constants *constants) {
+    for (int row = 0; row < 3; ++row)
+        constants->rotation[row][row] = 1;
+    constants->eye[3] = -1;
+}
+
+mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe_map_space space,
+                            uint32_t subdivision, bool mean) {
+    const device_instance *drawn = &context->scene->instances[instance];
+    const device_material *material = &context->scene->materials[drawn->material];
+    uint32_t width, height;
+    lobe_map_extent(material, &width, &height);
+
+    mixture_map mixture = {
+        .format = filtered_map_format(context), .subdivision = subdivision, .space = space};
+    uint32_t layers = layers_of(subdivision);
+    mixture.mean_layer = mean ? layers : 0;
+    char name[64];
+    if (space == LOBE_SPACE_TANGENT)
+        snprintf(name, sizeof name, "mixture of material %u", drawn->material);
+    else
+        snprintf(name, sizeof name, "mixture of instance %zu", instance);
+    mixture.map = reduced_map_declare(context->graph, name, mixture.format, width, height,
+                                      layers + (mean ? 1 : 0));
+
+    surface_atlas atlas = {0};
+    if (space != LOBE_SPACE_TANGENT)
+        atlas = surface_atlas_draw(context, instance, width, height);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
+    base_maps_read(context, material, false, pass);
+    mixture.map.resource =
+        lobe_pass_write(pass, &(lobe_binding){"mixture_map", mixture.map.resource,
+                                              .range = {0, 1, 0, mixture.map.layers}});
+
+    specialisation_list list = {0};
+    material_specialise(material, &list);
+    specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
+    specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
+    struct clustering_constants tangent_constants = {width, height};
+    struct atlas_constants atlas_constants = {.width = width, .height = height};
+    lobe_dispatch dispatch = {
+        .shader = "filters/lobes/clustering.comp",
+        .threads = {mixture.map.width, mixture.map.height, 1},
+        .constants = &tangent_constants,
+        .constants_size = sizeof tangent_constants,
+        .specialisation = list.items,
+        .specialisation_count = list.count,
+    };
+    if (space != LOBE_SPACE_TANGENT) {
+        read_atlas(pass, &atlas);
+        if (space == LOBE_SPACE_CAMERA)
+            camera_constants(context, instance, material->material->double_sided, &atlas_constants);
+        else
+            object_constants(&atlas_constants);
+        dispatch.shader = "filters/lobes/clustering_atlas.comp";
+        dispatch.constants = &atlas_constants;
+        dispatch.constants_size = sizeof atlas_constants;
+    }
+    lobe_pass_dispatch(pass, &dispatch);
+    return mixture;
+}

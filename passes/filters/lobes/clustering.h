@@ -1,0 +1,22 @@
+#ifndef PASSES_FILTERS_LOBES_CLUSTERING_H
+#define PASSES_FILTERS_LOBES_CLUSTERING_H
+
+#include "passes/filters/filter.h"
+#include "passes/maps/level_reduction.h"
+
+/// A map of lobe mixtures: how its layers are laid out is in shaders/interface/mixture.h.
+typedef struct mixture_map {
+    reduced_map map;
+    lobe_format format;
+    uint32_t subdivision; ///< [0, 2]: 1, 4 or 8 clusters at the finest
+    uint32_t mean_layer;  ///< layer of the mean normal and length; 0: there is none
+    lobe_map_space space; ///< tangent, object or camera
+} mixture_map;
+
+/// Declares a mixture map for an instance's material and adds the passes that fill level 0:
+/// characteristic vectors (Xu et al. 2017, Eqs. 8-14) and clustering by direction (section 3.2).
+/// `subdivision` and `mean` say what shading will read. The material has a normal or width map.
+mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe_map_space space,
+                            uint32_t subdivision, bool mean);
+
+#endif

@@ -1,0 +1,204 @@
+#include <math.h>
+
+#include "passes/filters/filters.h"
+#include "passes/filters/lobes/clustering.h"
+#include "passes/maps/filtered_maps.h"
+#include "shaders/interface/mixture.h"
+#include "shaders/interface/specialisation.h"
+
+static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
+static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
+static const char *const thresholds[] = {"length", "dispersion", NULL};
+
+static const lobe_knob space_knob = {
+    .name = "space",
+    .summary = "where mixtures are built; auto: as the scene says",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 3,
+    .choices = spaces,
+};
+static const lobe_knob subdivision_knob = {
+    .name = "subdivision",
+    .summary = "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; auto: as few as "
+               "serve the material's maps as well",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 3,
+    .choices = subdivisions,
+    .sweep = "0,1,2",
+};
+static const lobe_knob threshold_knob = {
+    .name = "threshold",
+    .summary = "what is held against epsilon: the length |r|, or the base lobes' share of the "
+               "breadth",
+    .kind = LOBE_KNOB_CHOICE,
+    .maximum = 1,
+    .choices = thresholds,
+    .sweep = "dispersion",
+};
+static const lobe_knob epsilon0_knob = {
+    .name = "epsilon0",
+    .summary = "below it one lobe becomes four",
+    .maximum = 1,
+    .initial = 0.95,
+    .sweep = "0.85,0.99",
+};
+static const lobe_knob epsilon1_knob = {
+    .name = "epsilon1",
+    .summary = "below it one of four becomes two",
+    .maximum = 1,
+    .initial = 0.85,
+};
+static const lobe_knob blend_knob = {
+    .name = "blend",
+    .summary = "half width of the transition at a threshold; 0: a switch",
+    .maximum = 0.5,
+    .initial = 0.02,
+};
+static const lobe_knob *const knobs[] = {
+    &space_knob,  &subdivision_knob, &threshold_knob, &epsilon0_knob, &epsilon1_knob, &blend_knob,
+    &knob_probes, &knob_bias,        &knob_curvature, &knob_storage,  NULL,
+};
+
+/// The space asked for by the user, or else by the material; tangent where the mesh's texture
+/// coordinates are no atlas, or where the instance stretches the mesh.
+static lobe_map_space space_of(const filter_context *context, size_t instance) {
+    const device_instance *drawn = &context->scene->instances[instance];
+    lobe_map_space space = (lobe_map_space)filter_setting(context, "space");
+    if (space == LOBE_SPACE_AUTOMATIC)
+        space = context->scene->materials[drawn->material].material->space;
+    // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
+    bool possible = drawn->is_atlas && drawn->keeps_angles;
+    return space == LOBE_SPACE_AUTOMATIC || !possible ? LOBE_SPACE_TANGENT : space;
+}
+
+static bool for_each_instance(const filter_context *context, size_t instance) {
+    return space_of(context, instance) != LOBE_SPACE_TANGENT;
+}
+
+/// What the user asks for, or else what the material's maps need. Without a normal map all texels
+/// of a material point the same way: one cluster has them all, but where the base lobes themselves
+/// do not. Clusters of an atlas are about another pole than the maps', so that nothing is known.
+static uint32_t subdivision_of(const filter_context *context, const device_material *material,
+                               lobe_map_space space) {
+    bool one_direction = !material->maps[MAP_NORMAL].use && space == LOBE_SPACE_TANGENT &&
+                         (material->material->model == LOBE_MATERIAL_MICROFACET ||
+                          material->material->lobe_count == 1);
+    if (one_direction)
+        return 0;
+    uint32_t choice = (uint32_t)filter_setting(context, "subdivision");
+    if (choice > 0)
+        return choice - 1;
+    return space == LOBE_SPACE_TANGENT ? material->subdivision : 2;
+}
+
+/// Whether shading needs the mean normal or the mean length of the base lobes, and cannot have it
+/// from the mixture because their widths or directions vary.
+static bool needs_mean(const filter_context *context, const device_material *material) {
+    const lobe_material *source = material->material;
+    bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
+    bool along_normal = true;
+    for (uint32_t i = 0; !microfacet && i < source->lobe_count; ++i)
+        along_normal = along_normal && source->lobes[i].direction[2] > 0.99999f;
+    bool derivable = along_normal && !material->widths_differ && !material->maps[MAP_WIDTH].use;
+    bool diffuse =
+        source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
+    bool wanted = microfacet || diffuse || filter_setting(context, "threshold") != 0;
+    return wanted && !derivable;
+}
+
+/// The coarsest subdivision that can ever suffice: 1 where the base lobes of every texel point so
+/// far apart that |r| of them all stays below epsilon0. It need not be fetched then.
+static uint32_t coarsest_of(const filter_context *context, const device_material *material,
+                            const mixture_map *mixture) {
+    const lobe_material *source = material->material;
+    if (source->model == LOBE_MATERIAL_MICROFACET || mixture->subdivision == 0 ||
+        filter_setting(context, "threshold") != 0)
+        return 0;
+    float mean[3] = {0};
+    for (uint32_t i = 0; i < source->lobe_count; ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            mean[axis] += material_lobe_share(source, i) * source->lobes[i].direction[axis];
+    }
+    double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
+    return length < filter_setting(context, "epsilon0") - filter_setting(context, "blend");
+}
+
+static bool has_one_hue(const lobe_material *material) {
+    if (material->model != LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        return true;
+    const float *first = material->lobes[0].colour;
+    for (uint32_t i = 1; i < material->lobe_count; ++i) {
+        const float *colour = material->lobes[i].colour;
+        for (int a = 0; a < 3; ++a) {
+            int b = (a + 1) % 3;
+            if (fabsf(colour[a] * first[b] - colour[b] * first[a]) >
+                1e-4f * fabsf(colour[a] * first[b]) + 1e-6f)
+                return false;
+        }
+    }
+    return true;
+}
+
+static void specialise_mixture(const filter_context *context, const lobe_material *material,
+                               const mixture_map *mixture, uint32_t coarsest,
+                               filtered_appearance *appearance) {
+    appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
+    appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
+    appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
+    appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
+    appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
+    appearance_specialise(appearance, SPECIALISE_SPACE,
+                          mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
+                          : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
+                                                                : SPACE_TANGENT);
+    appearance_specialise(appearance, SPECIALISE_THRESHOLD,
+                          (uint32_t)filter_setting(context, "threshold"));
+    appearance_specialise_number(appearance, SPECIALISE_EPSILON_0,
+                                 (float)filter_setting(context, "epsilon0"));
+    appearance_specialise_number(appearance, SPECIALISE_EPSILON_1,
+                                 (float)filter_setting(context, "epsilon1"));
+    appearance_specialise_number(appearance, SPECIALISE_BLEND,
+                                 (float)filter_setting(context, "blend"));
+}
+
+static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
+    uint32_t index = context->scene->instances[instance].material;
+    const device_material *material = &context->scene->materials[index];
+    uint32_t width, height;
+    lobe_resource resource;
+    if (lobe_map_extent(material, &width, &height) && width * height > 1) {
+        lobe_map_space space = space_of(context, instance);
+        mixture_map mixture =
+            lobe_clustering(context, instance, space, subdivision_of(context, material, space),
+                            needs_mean(context, material));
+        level_reduction(context->graph, &mixture.map);
+        specialise_mixture(context, material->material, &mixture,
+                           coarsest_of(context, material, &mixture), appearance);
+        appearance->bytes = reduced_map_bytes(&mixture.map, mixture.format);
+        appearance->base_texels = (uint64_t)width * height;
+        resource = mixture.map.resource;
+    } else {
+        resource = lobe_graph_import_texture(context->graph, context->scene->white);
+    }
+    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
+    appearance_bind(appearance, "mixture_map", resource, filtered_map_sampler(material, map));
+    filtered_maps_build(context, index, appearance);
+}
+
+/// One mixture serves all lobes of a material: its colour is that of their sum.
+static const char *ignores(const lobe_material *material) {
+    if (has_one_hue(material))
+        return NULL;
+    return "lobes of different hue get their mean hue";
+}
+
+const lobe_filter filter_lobes = {
+    .name = "lobes",
+    .summary = "MIP-mapped mixtures of lobes, subdivided where a pixel needs it",
+    .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
+    .shading = "lobes",
+    .knobs = knobs,
+    .for_each_instance = for_each_instance,
+    .build = build,
+    .ignores = ignores,
+};

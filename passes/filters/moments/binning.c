@@ -1,0 +1,70 @@
+#include "passes/filters/moments/binning.h"
+
+#include <stdio.h>
+
+#include "passes/maps/base_maps.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/renderer/material_specialisation.h"
+#include "shaders/interface/clustering.h"
+
+static void read_colours(const filter_context *context, const device_material *material,
+                         lobe_pass *pass) {
+    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
+    static const char *const names[] = {"base_colour_map", "specular_map"};
+    for (int i = 0; i < 2; ++i)
+        lobe_pass_read(pass,
+                       &(lobe_binding){.name = names[i],
+                                       .resource = device_map_import(context->graph, context->scene,
+                                                                     material, maps[i])});
+}
+
+static void specialise_binning(const filter_context *context, const device_material *material,
+                               const moment_partition *partition, bool colour,
+                               specialisation_list *list) {
+    material_specialise(material, list);
+    specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
+    specialise(list, SPECIALISE_BINS, partition->bins);
+    specialise(list, SPECIALISE_PARTITION, partition->kind);
+    specialise(list, SPECIALISE_BIN_COLOUR, colour);
+}
+
+static lobe_resource upload_bins(lobe_graph *graph, uint32_t material,
+                                 const moment_partition *partition, float largest_colour) {
+    char name[64];
+    struct moment_binning_constants constants = partition->constants;
+    constants.range.largest[2] = largest_colour;
+    snprintf(name, sizeof name, "bins of material %u", material);
+    return lobe_graph_upload(graph, name, &constants, sizeof constants);
+}
+
+moment_map moment_binning(const filter_context *context, uint32_t index,
+                          const moment_partition *partition, lobe_format format, bool colour,
+                          float largest_colour) {
+    const device_material *material = &context->scene->materials[index];
+    char name[64];
+    snprintf(name, sizeof name, "moments of material %u", index);
+    uint32_t layers = colour ? 3 * partition->bins + 1 : 2 * partition->bins;
+    moment_map result = {.format = format};
+    result.map = reduced_map_declare(context->graph, name, format, partition->width,
+                                     partition->height, layers);
+    result.range = upload_bins(context->graph, index, partition, largest_colour);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
+    base_maps_read(context, material, colour, pass);
+    read_colours(context, material, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = result.range});
+    result.map.resource = lobe_pass_write(
+        pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
+    specialisation_list list = {0};
+    specialise_binning(context, material, partition, colour, &list);
+    const struct clustering_constants constants = {partition->width, partition->height};
+    lobe_pass_dispatch(pass, &(lobe_dispatch){
+                                 .shader = "filters/moments/binning.comp",
+                                 .threads = {result.map.width, result.map.height, 1},
+                                 .constants = &constants,
+                                 .constants_size = sizeof constants,
+                                 .specialisation = list.items,
+                                 .specialisation_count = list.count,
+                             });
+    level_reduction(context->graph, &result.map);
+    return result;
+}

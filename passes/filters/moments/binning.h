@@ -1,0 +1,22 @@
+#ifndef PASSES_FILTERS_MOMENTS_BINNING_H
+#define PASSES_FILTERS_MOMENTS_BINNING_H
+
+#include "passes/filters/filter.h"
+#include "passes/filters/moments/partition.h"
+#include "passes/maps/level_reduction.h"
+
+/// A map of lobe moments; its layers are described in shaders/interface/moment_bins.h.
+typedef struct moment_map {
+    reduced_map map;
+    lobe_format format;
+    lobe_resource range; ///< uniform block of struct moment_binning_constants
+} moment_map;
+
+/// Adds the pass that shares a material's lobes out to bins, and the reduction of what it writes.
+/// The material has a normal or width map. `colour`: bins keep their mean specular colour, of
+/// which none is above `largest_colour`.
+moment_map moment_binning(const filter_context *context, uint32_t material,
+                          const moment_partition *partition, lobe_format format, bool colour,
+                          float largest_colour);
+
+#endif

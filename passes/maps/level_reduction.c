@@ -1,0 +1,100 @@
+#include "passes/maps/level_reduction.h"
+
+uint32_t half_extent(uint32_t size) {
+    return size > 1 ? size / 2 : 1;
+}
+
+uint32_t level_count(uint32_t width, uint32_t height) {
+    uint32_t count = 1;
+    for (uint32_t size = width > height ? width : height; size > 1; size /= 2)
+        ++count;
+    return count;
+}
+
+uint64_t reduced_map_bytes(const reduced_map *map, lobe_format format) {
+    uint64_t texels = 0;
+    uint32_t width = map->width, height = map->height;
+    for (uint32_t level = 0; level < map->levels; ++level) {
+        texels += (uint64_t)width * height;
+        width = half_extent(width);
+        height = half_extent(height);
+    }
+    return texels * map->layers * lobe_format_size(format);
+}
+
+reduced_map reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
+                                uint32_t width, uint32_t height, uint32_t layers) {
+    reduced_map map = {
+        .width = half_extent(width), .height = half_extent(height), .layers = layers};
+    map.levels = level_count(map.width, map.height);
+    map.resource = lobe_graph_image(graph, &(lobe_image_description){.name = name,
+                                                                     .format = format,
+                                                                     .width = map.width,
+                                                                     .height = map.height,
+                                                                     .layers = layers,
+                                                                     .levels = map.levels,
+                                                                     .retained = true});
+    return map;
+}
+
+/// A level to read: of the map itself, or of the one it is made from.
+typedef struct source_level {
+    lobe_resource resource;
+    uint32_t level;
+    uint32_t width, height;
+} source_level;
+
+static void write_level(lobe_pass *pass, reduced_map *map, const char *binding, uint32_t level) {
+    map->resource = lobe_pass_write(
+        pass, &(lobe_binding){binding, map->resource, .range = {level, 1, 0, map->layers}});
+}
+
+/// Three levels at once need sizes that halve three times without a rest.
+static bool can_tile(const reduced_map *map, const source_level *source, uint32_t first) {
+    return source->width % 8 == 0 && source->height % 8 == 0 && first + 3 <= map->levels;
+}
+
+/// Fills one or three levels from `first` on; returns how many.
+static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_level *source,
+                            uint32_t first) {
+    bool tiled = can_tile(map, source, first);
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "level_reduction");
+    lobe_pass_read(pass, &(lobe_binding){"source", source->resource,
+                                         .range = {source->level, 1, 0, map->layers}});
+    if (tiled) {
+        write_level(pass, map, "target_1", first);
+        write_level(pass, map, "target_2", first + 1);
+        write_level(pass, map, "target_3", first + 2);
+    } else {
+        write_level(pass, map, "target", first);
+    }
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){
+                  .shader = tiled ? "maps/level_reduction_tiled.comp" : "maps/level_reduction.comp",
+                  .threads = {half_extent(source->width), half_extent(source->height), map->layers},
+              });
+    return tiled ? 3 : 1;
+}
+
+/// Fills all levels from `first` on.
+static void reduce_all(lobe_graph *graph, reduced_map *map, source_level source, uint32_t first) {
+    while (first < map->levels) {
+        uint32_t count = reduce_step(graph, map, &source, first);
+        first += count;
+        for (; count > 0; --count) {
+            source.width = half_extent(source.width);
+            source.height = half_extent(source.height);
+        }
+        source.resource = map->resource;
+        source.level = first - 1;
+    }
+}
+
+void level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source, uint32_t width,
+                          uint32_t height) {
+    reduce_all(graph, map, (source_level){source, 0, width, height}, 0);
+}
+
+void level_reduction(lobe_graph *graph, reduced_map *map) {
+    reduce_all(graph, map, (source_level){map->resource, 0, map->width, map->height}, 1);
+}

@@ -1,0 +1,30 @@
+#ifndef PASSES_MAPS_MATERIAL_PATCH_H
+#define PASSES_MAPS_MATERIAL_PATCH_H
+
+#include "passes/upload/material_lobes.h"
+
+/// The lobes of a small square of a material's maps: what a pixel's footprint may hold, where lobes
+/// need telling apart. Filters try themselves on some of them to choose how fine they must be; more
+/// patches or directions than these do not change a choice.
+enum { MATERIAL_PATCHES = 12, MATERIAL_PATCH_EXTENT = 24, MATERIAL_PATCH_DIRECTIONS = 48 };
+
+typedef struct material_patch {
+    material_lobe lobes[MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT *
+                        LOBE_MATERIAL_MAXIMUM_LOBES]; ///< weights add up to one
+    size_t count;
+} material_patch;
+
+/// Patch `index` of MATERIAL_PATCHES. False where a map has a format that hosts do not read.
+bool material_patch_read(const lobe_scene *scene, const device_material *material, uint32_t index,
+                         material_patch *patch);
+
+/// The sum of all lobes at a unit direction.
+double material_patch_evaluate(const material_patch *patch, const double direction[3]);
+/// The sum of some.
+double material_lobes_evaluate(const material_lobe *lobes, size_t count, const double direction[3]);
+
+/// Direction `index` of MATERIAL_PATCH_DIRECTIONS, drawn from one of the patch's lobes: the mean of
+/// error over truth at such directions is the error's integral.
+void material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]);
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef PASSES_MAPS_SURFACE_ATLAS_H
+#define PASSES_MAPS_SURFACE_ATLAS_H
+
+#include "passes/filters/filter.h"
+
+/// The surface frame of an instance's mesh over its own texture coordinates, in object space.
+typedef struct surface_atlas {
+    lobe_resource normal;   ///< RGBA32_FLOAT: unit normal, coverage
+    lobe_resource tangent;  ///< RGBA32_FLOAT: unit tangent, handedness
+    lobe_resource position; ///< RGBA32_FLOAT: position
+} surface_atlas;
+
+/// Adds the raster pass that draws the atlas with `width` x `height` texels; retained, so that it
+/// runs when the mesh changes. Texture coordinates are those of the material's normal map, or of
+/// its width map (see device_instance.is_atlas).
+surface_atlas surface_atlas_draw(const filter_context *context, size_t instance, uint32_t width,
+                                 uint32_t height);
+
+#endif

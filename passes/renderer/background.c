@@ -1,0 +1,63 @@
+#include "passes/renderer/background.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "passes/environment/rotation.h"
+#include "passes/renderer/camera.h"
+#include "shaders/interface/background.h"
+
+/// What the picture's middle, its right and its lower edge add to the direction of a pixel, in the
+/// world. An orthographic camera sees the environment in one direction only.
+static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
+    mat3 rotation;
+    camera_rotation(context->camera, rotation);
+    float height = context->camera->vertical_field_of_view > 0
+                       ? tanf(0.5f * context->camera->vertical_field_of_view)
+                       : 0;
+    float width = height * (float)context->width / (float)context->height;
+    for (int i = 0; i < 3; ++i) {
+        right[i] = width * rotation[i][0];
+        down[i] = -height * rotation[i][1];
+        centre[i] = -rotation[i][2];
+    }
+}
+
+/// The picture is moved, so that its pixels' centres become the samples.
+static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
+                           const vec3 down, vec3 centre) {
+    float x = (1 - 2 * sample[0]) / (float)context->width;
+    float y = (1 - 2 * sample[1]) / (float)context->height;
+    for (int i = 0; i < 3; ++i)
+        centre[i] -= x * right[i] + y * down[i];
+}
+
+void background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
+                const float sample[2], bool outputs) {
+    const lobe_environment *environment = context->scene->scene->environment;
+    vec3 centre, right, down;
+    picture_axes(context, centre, right, down);
+    move_to_sample(context, sample, right, down, centre);
+    struct background_constants constants = {0};
+    environment_from_world(environment, centre, constants.centre);
+    environment_from_world(environment, right, constants.right);
+    environment_from_world(environment, down, constants.down);
+    constants.centre[3] = environment->intensity;
+    if (!context->filter->supersamples)
+        constants.right[3] = 4 * glm_vec3_norm(right) * glm_vec3_norm(down) /
+                             ((float)context->width * (float)context->height);
+    lobe_binding binding = {
+        .name = "environment_cube",
+        .resource = cube,
+        .sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP, LOBE_WRAP_CLAMP, 0}};
+    lobe_pass_draw(pass, &(lobe_draw){
+                             .vertex_shader = "shading/background.vert",
+                             .fragment_shader = outputs ? "shading/background_aov.frag"
+                                                        : "shading/background.frag",
+                             .index_count = 3,
+                             .constants = &constants,
+                             .constants_size = sizeof constants,
+                             .bindings = &binding,
+                             .binding_count = 1,
+                         });
+}

@@ -1,0 +1,111 @@
+#include "passes/renderer/camera.h"
+
+#include <math.h>
+
+static void copy(const float source[3], vec3 target) {
+    for (int i = 0; i < 3; ++i)
+        target[i] = source[i];
+}
+
+static void view_direction(const lobe_camera *camera, vec3 forward) {
+    vec3 eye, target;
+    copy(camera->eye, eye);
+    copy(camera->target, target);
+    glm_vec3_sub(target, eye, forward);
+    if (glm_vec3_norm(forward) == 0)
+        forward[2] = -1;
+    glm_vec3_normalize(forward);
+}
+
+void camera_rotation(const lobe_camera *camera, mat3 rotation) {
+    vec3 forward, up, right;
+    view_direction(camera, forward);
+    copy(camera->up, up);
+    glm_vec3_cross(forward, up, right);
+    if (glm_vec3_norm(right) < 1e-6f) {
+        // Looking along the up vector: any other will do.
+        vec3 other = {fabsf(forward[0]) < 0.5f, 0, fabsf(forward[0]) >= 0.5f};
+        glm_vec3_cross(forward, other, right);
+    }
+    glm_vec3_normalize(right);
+    glm_vec3_cross(right, forward, up);
+    for (int column = 0; column < 3; ++column) {
+        rotation[column][0] = right[column];
+        rotation[column][1] = up[column];
+        rotation[column][2] = -forward[column];
+    }
+}
+
+void camera_eye(const lobe_camera *camera, vec4 eye) {
+    copy(camera->eye, eye);
+    eye[3] = 1;
+    if (camera->vertical_field_of_view > 0)
+        return;
+    view_direction(camera, eye);
+    glm_vec3_negate(eye);
+    eye[3] = 0;
+}
+
+void camera_axis(const lobe_camera *camera, vec4 axis) {
+    vec3 eye;
+    copy(camera->eye, eye);
+    view_direction(camera, axis);
+    axis[3] = glm_vec3_dot(axis, eye);
+}
+
+/// Distance along the view of the farthest corner of the bounds.
+static float farthest(const lobe_camera *camera, const float minimum[3], const float maximum[3]) {
+    vec4 axis;
+    camera_axis(camera, axis);
+    float distance = -axis[3];
+    for (int i = 0; i < 3; ++i)
+        distance += axis[i] * (axis[i] > 0 ? maximum[i] : minimum[i]);
+    return distance;
+}
+
+static void perspective(const lobe_camera *camera, float aspect, mat4 projection) {
+    float scale = 1 / tanf(0.5f * camera->vertical_field_of_view);
+    glm_mat4_zero(projection);
+    projection[0][0] = scale / aspect;
+    projection[1][1] = -scale;
+    projection[2][3] = -1;
+    projection[3][2] = camera->near_plane; // depth = near / distance: 1 near, 0 at infinity
+}
+
+static void orthographic(const lobe_camera *camera, float aspect, float far_plane,
+                         mat4 projection) {
+    float scale = 2 / camera->orthographic_height;
+    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f);
+    glm_mat4_identity(projection);
+    projection[0][0] = scale / aspect;
+    projection[1][1] = -scale;
+    projection[2][2] = 1 / depth;
+    projection[3][2] = 1 + camera->near_plane / depth;
+}
+
+void camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
+                       const float sample[2], const float minimum[3], const float maximum[3],
+                       mat4 world_to_clip) {
+    float aspect = (float)width / (float)height;
+    mat4 projection, shift, view;
+    if (camera->vertical_field_of_view > 0)
+        perspective(camera, aspect, projection);
+    else
+        orthographic(camera, aspect, 1.01f * farthest(camera, minimum, maximum), projection);
+    // Rasterisation samples at the pixel's centre: the picture is moved instead.
+    glm_mat4_identity(shift);
+    shift[3][0] = (1 - 2 * sample[0]) / (float)width;
+    shift[3][1] = (1 - 2 * sample[1]) / (float)height;
+    mat3 rotation;
+    camera_rotation(camera, rotation);
+    glm_mat4_identity(view);
+    glm_mat4_ins3(rotation, view);
+    vec3 eye, moved;
+    copy(camera->eye, eye);
+    glm_mat3_mulv(rotation, eye, moved);
+    for (int i = 0; i < 3; ++i)
+        view[3][i] = -moved[i];
+    mat4 shifted;
+    glm_mat4_mul(shift, projection, shifted);
+    glm_mat4_mul(shifted, view, world_to_clip);
+}

@@ -1,0 +1,21 @@
+#ifndef PASSES_RENDERER_MATERIAL_SPECIALISATION_H
+#define PASSES_RENDERER_MATERIAL_SPECIALISATION_H
+
+#include <lobe/graph.h>
+
+#include "passes/upload/device_scene.h"
+
+#define MAXIMUM_SPECIALISATIONS 64
+
+typedef struct specialisation_list {
+    lobe_specialisation items[MAXIMUM_SPECIALISATIONS];
+    size_t count;
+} specialisation_list;
+
+void specialise(specialisation_list *list, uint32_t id, uint32_t bits);
+void specialise_number(specialisation_list *list, uint32_t id, float value);
+
+/// What the shaders compile out for a material: maps, lobes and features that it lacks.
+void material_specialise(const device_material *material, specialisation_list *list);
+
+#endif

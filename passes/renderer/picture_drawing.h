@@ -1,0 +1,11 @@
+#ifndef PASSES_RENDERER_PICTURE_DRAWING_H
+#define PASSES_RENDERER_PICTURE_DRAWING_H
+
+#include "passes/renderer/shading.h"
+
+/// Adds the pass that draws a finished picture, as large as the targets, into their radiance: over
+/// what that holds, where it is to be kept. `texels`: width * height of RGBA, radiance times
+/// coverage and coverage; copied.
+void picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets);
+
+#endif

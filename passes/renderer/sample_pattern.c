@@ -1,0 +1,30 @@
+#include "passes/renderer/sample_pattern.h"
+
+#include <math.h>
+
+/// The bits of `index` mirrored at the binary point: 1, 2, 3 give 0.5, 0.25, 0.75.
+static float radical_inverse(uint32_t index) {
+    float result = 0, digit = 0.5f;
+    for (; index; index >>= 1, digit *= 0.5f)
+        result += (float)(index & 1) * digit;
+    return result;
+}
+
+void sample_position(uint32_t index, uint32_t count, float position[2]) {
+    // Half a stratum, so that the points' mean is the centre.
+    uint32_t strata = 1;
+    while (strata < count)
+        strata *= 2;
+    position[0] = ((float)index + 0.5f) / (float)count;
+    position[1] = radical_inverse(index) + 0.5f / (float)strata;
+}
+
+void sample_position_in_pattern(uint32_t pattern, float position[2]) {
+    // Powers of the root of x^3 = x + 1, the plane's golden ratio: patterns keep apart.
+    static const double step[2] = {0.7548776662466927, 0.5698402909980532};
+    const float below_one = 0x1.fffffep-1f;
+    for (int i = 0; pattern != 0 && i < 2; ++i) {
+        double moved = (double)position[i] + pattern * step[i];
+        position[i] = fminf((float)(moved - floor(moved)), below_one);
+    }
+}

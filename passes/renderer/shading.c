@@ -1,0 +1,241 @@
+#include "passes/renderer/shading.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "passes/renderer/background.h"
+#include "passes/renderer/camera.h"
+#include "passes/renderer/material_specialisation.h"
+#include "shaders/interface/frame.h"
+#include "shaders/interface/instance.h"
+#include "shaders/interface/light.h"
+#include "shaders/interface/specialisation.h"
+
+static const char *const map_names[MAP_COUNT] = {
+    [MAP_BASE_COLOUR] = "base_colour_map",
+    [MAP_NORMAL] = "normal_map",
+    [MAP_WIDTH] = "width_map",
+    [MAP_SPECULAR] = "specular_map",
+    [MAP_EMISSIVE] = "emissive_map",
+    [MAP_OCCLUSION] = "occlusion_map",
+};
+
+static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_format format,
+                                    uint32_t width, uint32_t height) {
+    return lobe_graph_image(graph,
+                            &(lobe_image_description){
+                                .name = name, .format = format, .width = width, .height = height});
+}
+
+shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
+                                        bool arbitrary_output_variables) {
+    shading_targets targets = {.width = width, .height = height};
+    targets.radiance = declare_target(graph, "radiance", LOBE_FORMAT_RGBA32_FLOAT, width, height);
+    targets.depth = declare_target(graph, "depth", LOBE_FORMAT_D32_FLOAT, width, height);
+    if (arbitrary_output_variables) {
+        targets.normal_depth =
+            declare_target(graph, "normal and depth", LOBE_FORMAT_RGBA32_FLOAT, width, height);
+        targets.lobes_level =
+            declare_target(graph, "lobes and level", LOBE_FORMAT_RG32_FLOAT, width, height);
+    }
+    return targets;
+}
+
+static uint32_t count_lights(const lobe_scene *scene, lobe_light_type type) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < scene->light_count; ++i)
+        count += scene->lights[i].type == type;
+    return count;
+}
+
+static void fill_light(const lobe_light *source, struct light *light) {
+    memset(light, 0, sizeof *light);
+    float sign = source->type == LOBE_LIGHT_DIRECTIONAL ? -1.0f : 1.0f;
+    for (int i = 0; i < 3; ++i) {
+        light->position[i] = source->position[i];
+        light->direction[i] = sign * source->direction[i];
+        light->intensity[i] = source->intensity[i];
+    }
+    light->position[3] = source->range > 0 ? 1 / (source->range * source->range) : 0;
+    if (source->type != LOBE_LIGHT_SPOT)
+        return;
+    // KHR_lights_punctual: a smooth step in the cosine between the cones.
+    float outer = cosf(source->outer_cone);
+    light->cone[0] = 1 / fmaxf(0.001f, cosf(source->inner_cone) - outer);
+    light->cone[1] = -outer * light->cone[0];
+}
+
+static lobe_resource upload_lights(const filter_context *context) {
+    static const lobe_light_type order[] = {LOBE_LIGHT_DIRECTIONAL, LOBE_LIGHT_POINT,
+                                            LOBE_LIGHT_SPOT};
+    const lobe_scene *scene = context->scene->scene;
+    size_t size = (scene->light_count ? scene->light_count : 1) * sizeof(struct light);
+    struct light *lights = lobe_allocate(lobe_log_allocator(context->log), 1, size);
+    if (!lights) {
+        lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory for lights",
+                        scene->name);
+        return (lobe_resource){0};
+    }
+    size_t next = 0;
+    for (size_t type = 0; type < 3; ++type) {
+        for (size_t i = 0; i < scene->light_count; ++i) {
+            if (scene->lights[i].type == order[type])
+                fill_light(&scene->lights[i], &lights[next++]);
+        }
+    }
+    lobe_resource resource = lobe_graph_upload(context->graph, "lights", lights, size);
+    lobe_release(lights);
+    return resource;
+}
+
+shading_light shading_light_prepare(const filter_context *context) {
+    return (shading_light){.punctual = upload_lights(context),
+                           .environment = environment_light_build(context)};
+}
+
+static lobe_resource upload_frame(const filter_context *context, const float sample[2],
+                                  const shading_targets *targets) {
+    const lobe_scene *scene = context->scene->scene;
+    struct frame_constants frame = {
+        .directional_count = count_lights(scene, LOBE_LIGHT_DIRECTIONAL),
+        .point_count = count_lights(scene, LOBE_LIGHT_POINT),
+        .spot_count = count_lights(scene, LOBE_LIGHT_SPOT),
+    };
+    mat4 matrix;
+    camera_projection(context->camera, targets->width, targets->height, sample, scene->minimum,
+                      scene->maximum, matrix);
+    memcpy(frame.world_to_clip, matrix, sizeof matrix);
+    mat3 rotation;
+    camera_rotation(context->camera, rotation);
+    glm_mat4_identity(matrix);
+    glm_mat4_ins3(rotation, matrix);
+    memcpy(frame.world_to_camera, matrix, sizeof matrix);
+    vec4 vector;
+    camera_eye(context->camera, vector);
+    memcpy(frame.eye, vector, sizeof vector);
+    camera_axis(context->camera, vector);
+    memcpy(frame.axis, vector, sizeof vector);
+    return lobe_graph_upload(context->graph, "frame", &frame, sizeof frame);
+}
+
+static bool draws_background(const filter_context *context, const environment_light *light) {
+    return light->present && context->scene->scene->environment_visible;
+}
+
+static void attach(lobe_pass *pass, const filter_context *context, shading_targets *targets) {
+    lobe_attachment radiance = {.resource = targets->radiance,
+                                .load = targets->keep_radiance ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR};
+    if (!targets->without_background)
+        memcpy(radiance.clear, context->scene->scene->background, 3 * sizeof(float));
+    targets->radiance = lobe_pass_colour(pass, 0, &radiance);
+    targets->depth = lobe_pass_depth(
+        pass, &(lobe_attachment){.resource = targets->depth,
+                                 .load = targets->keep_depth ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+    if (targets->normal_depth.version || targets->normal_depth.index) {
+        targets->normal_depth =
+            lobe_pass_colour(pass, 1, &(lobe_attachment){.resource = targets->normal_depth});
+        targets->lobes_level =
+            lobe_pass_colour(pass, 2, &(lobe_attachment){.resource = targets->lobes_level});
+    }
+}
+
+/// The features of a draw: of its material, its mesh, the lights and the user, then the filter's.
+static void specialise_draw(const filter_context *context, const environment_light *light,
+                            size_t instance, const filtered_appearance *appearance,
+                            specialisation_list *list) {
+    const lobe_scene *scene = context->scene->scene;
+    const device_instance *drawn = &context->scene->instances[instance];
+    material_specialise(&context->scene->materials[drawn->material], list);
+    specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
+    specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
+    specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS,
+               count_lights(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
+    specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
+    specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
+    uint32_t lights = (uint32_t)scene->light_count;
+    specialise(list, SPECIALISE_LIGHTS_AT_ONCE, environment_light_lights_at_once(light, lights));
+    environment_light_specialise(light, context, list);
+    specialise(list, SPECIALISE_VIEW, (uint32_t)filter_setting(context, "view"));
+    specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
+    for (size_t i = 0; i < appearance->specialisation_count; ++i)
+        specialise(list, appearance->specialisation[i].id, appearance->specialisation[i].bits);
+}
+
+static size_t bind_draw(const filter_context *context, const environment_light *light,
+                        size_t instance, const filtered_appearance *appearance,
+                        lobe_binding *bindings) {
+    lobe_graph *graph = context->graph;
+    const device_instance *drawn = &context->scene->instances[instance];
+    const device_material *material = &context->scene->materials[drawn->material];
+    size_t count = 0;
+    bindings[count++] = (lobe_binding){
+        .name = "vertex_block",
+        .resource = lobe_graph_import_buffer(graph, context->scene->vertices[drawn->mesh])};
+    bindings[count++] = (lobe_binding){
+        .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
+    for (uint32_t map = 0; map < MAP_COUNT; ++map)
+        bindings[count++] =
+            (lobe_binding){.name = map_names[map],
+                           .resource = device_map_import(graph, context->scene, material, map),
+                           .sampler = device_map_sampler(material, map)};
+    bindings[count++] = environment_light_albedo(light, context, material->material);
+    for (size_t i = 0; i < appearance->binding_count; ++i)
+        bindings[count++] = appearance->bindings[i];
+    return count;
+}
+
+static void draw_instance(const filter_context *context, const environment_light *light,
+                          size_t instance, const filtered_appearance *appearance,
+                          const char *fragment_shader, lobe_pass *pass) {
+    const device_instance *drawn = &context->scene->instances[instance];
+    const lobe_material *material = context->scene->materials[drawn->material].material;
+    const float *transform = context->scene->scene->instances[instance].transform;
+    struct instance_constants constants;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column)
+            constants.rows[row][column] = transform[4 * column + row];
+    }
+    lobe_binding bindings[3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
+    size_t binding_count = bind_draw(context, light, instance, appearance, bindings);
+    specialisation_list list = {0};
+    specialise_draw(context, light, instance, appearance, &list);
+    lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
+    lobe_pass_draw(
+        pass, &(lobe_draw){
+                  .vertex_shader = "shading/shading.vert",
+                  .fragment_shader = fragment_shader,
+                  .indices = lobe_graph_import_buffer(context->graph,
+                                                      context->scene->indices[drawn->mesh]),
+                  .index_count = (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count,
+                  .cull = material->double_sided ? LOBE_CULL_NONE : outside,
+                  .depth_test = true,
+                  .depth_write = true,
+                  .constants = &constants,
+                  .constants_size = sizeof constants,
+                  .specialisation = list.items,
+                  .specialisation_count = list.count,
+                  .bindings = bindings,
+                  .binding_count = binding_count,
+              });
+}
+
+void shading(const filter_context *context, const filtered_appearance *appearances,
+             const shading_light *light, const shading_sample *sample, shading_targets *targets) {
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "shading");
+    lobe_resource frame = upload_frame(context, sample->position, targets);
+    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
+    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    environment_light_read(&light->environment, context, pass, sample);
+    bool outputs = targets->normal_depth.version || targets->normal_depth.index;
+    attach(pass, context, targets);
+    if (draws_background(context, &light->environment) && !targets->keep_radiance &&
+        !targets->without_background)
+        background(pass, context, light->environment.cube, sample->position, outputs);
+    char fragment_shader[64];
+    snprintf(fragment_shader, sizeof fragment_shader, "shading/shading_%s%s%s.frag",
+             context->filter->shading, light->environment.present ? "_environment" : "",
+             outputs ? "_aov" : "");
+    for (size_t i = 0; i < context->scene->scene->instance_count; ++i)
+        draw_instance(context, &light->environment, i, &appearances[i], fragment_shader, pass);
+}

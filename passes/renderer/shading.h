@@ -1,0 +1,36 @@
+#ifndef PASSES_RENDERER_SHADING_H
+#define PASSES_RENDERER_SHADING_H
+
+#include "passes/environment/light.h"
+#include "passes/filters/filter.h"
+
+/// What the shading pass draws into. Images are declared by shading_targets_declare; each shading
+/// pass clears them and leaves new versions here.
+typedef struct shading_targets {
+    uint32_t width, height;
+    lobe_resource radiance;     ///< RGBA32_FLOAT: linear RGB radiance, coverage
+    lobe_resource depth;        ///< D32_FLOAT
+    lobe_resource normal_depth; ///< RGBA32_FLOAT; none without arbitrary output variables
+    lobe_resource lobes_level;  ///< RG32_FLOAT; none without arbitrary output variables
+    /// Draw over what radiance and depth hold instead of clearing them.
+    bool keep_radiance, keep_depth;
+    /// Where nothing is hit, radiance stays black: the picture is laid over another later.
+    bool without_background;
+} shading_targets;
+
+shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
+                                        bool arbitrary_output_variables);
+
+/// All that lights the scene, once for all shading passes of a frame.
+typedef struct shading_light {
+    lobe_resource punctual; ///< lights, sorted by type
+    environment_light environment;
+} shading_light;
+
+shading_light shading_light_prepare(const filter_context *context);
+
+/// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
+void shading(const filter_context *context, const filtered_appearance *appearances,
+             const shading_light *light, const shading_sample *sample, shading_targets *targets);
+
+#endif

@@ -1,0 +1,208 @@
+#include "passes/upload/device_scene_parts.h"
+
+#include "passes/upload/scene_check.h"
+
+/// One update, and what follows from what the host says has changed.
+typedef struct scene_update {
+    lobe_device *device;
+    device_scene *scene;
+    const lobe_scene_changes *changes;
+    const lobe_log *log;
+    bool *materials; ///< to be described again
+    bool *instances; ///< to be measured again
+} scene_update;
+
+// ---------------------------------------------------------------------------------------------
+// Before anything is changed
+
+static lobe_result check_indices(const scene_update *update, const char *what,
+                                 const uint32_t *indices, size_t count, size_t limit) {
+    for (size_t i = 0; i < count; ++i)
+        if (indices[i] >= limit)
+            return lobe_log_fail(update->log, LOBE_ERROR_INVALID_ARGUMENT,
+                                 "%s: %s %u of %zu cannot have changed", update->scene->scene->name,
+                                 what, indices[i], limit);
+    return LOBE_OK;
+}
+
+static lobe_result check_all_indices(const scene_update *update) {
+    const lobe_scene *scene = update->scene->scene;
+    const lobe_scene_changes *changes = update->changes;
+    lobe_result result =
+        check_indices(update, "image", changes->images, changes->image_count, scene->image_count);
+    if (result == LOBE_OK)
+        result = check_indices(update, "material", changes->materials, changes->material_count,
+                               scene->material_count);
+    if (result == LOBE_OK)
+        result =
+            check_indices(update, "mesh", changes->meshes, changes->mesh_count, scene->mesh_count);
+    if (result == LOBE_OK)
+        result = check_indices(update, "instance", changes->instances, changes->instance_count,
+                               scene->instance_count);
+    return result;
+}
+
+/// The material, and those of its images that the device does not have yet.
+static lobe_result check_material(const scene_update *update, uint32_t index) {
+    const lobe_scene *scene = update->scene->scene;
+    lobe_result result = scene_check_material(scene, index, update->log);
+    for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; ++map) {
+        const lobe_texture_use *use = device_scene_map(scene, &scene->materials[index], map);
+        if (use && !update->scene->images[use->image])
+            result = scene_check_image(scene, (size_t)use->image, update->log);
+    }
+    return result;
+}
+
+/// The instance, and what it needs that the device does not have yet.
+static lobe_result check_instance(const scene_update *update, uint32_t index) {
+    const lobe_scene *scene = update->scene->scene;
+    lobe_result result = device_scene_check_instance(scene, index, update->log);
+    if (result != LOBE_OK)
+        return result;
+    uint32_t mesh = scene->instances[index].mesh, material = scene->instances[index].material;
+    if (!update->scene->vertices[mesh])
+        result = scene_check_mesh(scene, mesh, update->log);
+    if (result == LOBE_OK && !update->scene->materials[material].constants)
+        result = check_material(update, material);
+    return result;
+}
+
+static lobe_result check_content(const scene_update *update) {
+    const device_scene *scene = update->scene;
+    const lobe_scene_changes *changes = update->changes;
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; ++i)
+        if (scene->images[changes->images[i]])
+            result = scene_check_image(scene->scene, changes->images[i], update->log);
+    for (size_t i = 0; result == LOBE_OK && i < changes->material_count; ++i)
+        if (scene->materials[changes->materials[i]].constants)
+            result = check_material(update, changes->materials[i]);
+    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
+        if (scene->vertices[changes->meshes[i]])
+            result = scene_check_mesh(scene->scene, changes->meshes[i], update->log);
+    for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; ++i)
+        result = check_instance(update, changes->instances[i]);
+    if (result == LOBE_OK && changes->environment)
+        result = scene_check_environment(scene->scene, update->log);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// What follows from a change
+
+static bool uses_image(const device_material *material, uint32_t image) {
+    for (uint32_t map = 0; map < MAP_COUNT; ++map)
+        if (material->maps[map].use && (uint32_t)material->maps[map].use->image == image)
+            return true;
+    return false;
+}
+
+static void mark_materials(scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    device_scene *scene = update->scene;
+    // Where light from all around comes or goes, so do the maps that it needs.
+    bool other_maps = changes->environment && !scene->environment != !scene->scene->environment;
+    for (size_t m = 0; other_maps && m < scene->scene->material_count; ++m)
+        update->materials[m] = scene->materials[m].constants != NULL;
+    for (size_t m = 0; m < scene->scene->material_count; ++m)
+        for (size_t i = 0; i < changes->image_count; ++i)
+            update->materials[m] |= uses_image(&scene->materials[m], changes->images[i]);
+    // One that no instance uses is not on the device.
+    for (size_t i = 0; i < changes->material_count; ++i)
+        if (scene->materials[changes->materials[i]].constants)
+            update->materials[changes->materials[i]] = true;
+}
+
+static void mark_instances(scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    const lobe_scene *scene = update->scene->scene;
+    for (size_t i = 0; i < changes->instance_count; ++i)
+        update->instances[changes->instances[i]] = true;
+    for (size_t n = 0; n < scene->instance_count; ++n) {
+        update->instances[n] |= update->materials[scene->instances[n].material];
+        for (size_t i = 0; i < changes->mesh_count; ++i)
+            update->instances[n] |= scene->instances[n].mesh == changes->meshes[i];
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// The change
+
+/// Content of the same shape goes into the texture that is there.
+static lobe_result update_image(const scene_update *update, uint32_t index) {
+    const lobe_scene_image *image = &update->scene->scene->images[index];
+    lobe_texture **texture = &update->scene->images[index];
+    if (!*texture)
+        return LOBE_OK;
+    if (lobe_texture_takes(*texture, &image->image))
+        return lobe_texture_update(*texture, &image->image);
+    lobe_texture_destroy(texture);
+    return lobe_texture_create(
+        update->device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
+        texture);
+}
+
+static lobe_result update_mesh(const scene_update *update, uint32_t index) {
+    device_scene *scene = update->scene;
+    if (!scene->vertices[index])
+        return LOBE_OK;
+    lobe_buffer_destroy(&scene->vertices[index]);
+    lobe_buffer_destroy(&scene->indices[index]);
+    return device_scene_upload_mesh(update->device, scene, index);
+}
+
+static lobe_result update_environment(const scene_update *update) {
+    device_scene *scene = update->scene;
+    const lobe_environment *environment = scene->scene->environment;
+    if (environment && scene->environment &&
+        lobe_texture_takes(scene->environment, &environment->image))
+        return lobe_texture_update(scene->environment, &environment->image);
+    lobe_texture_destroy(&scene->environment);
+    return device_scene_upload_environment(update->device, scene);
+}
+
+static lobe_result apply(const scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    const lobe_scene *scene = update->scene->scene;
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; ++i)
+        result = update_image(update, changes->images[i]);
+    for (size_t i = 0; result == LOBE_OK && i < scene->material_count; ++i)
+        if (update->materials[i])
+            result = device_scene_upload_material(update->device, update->scene, (uint32_t)i,
+                                                  update->log);
+    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
+        result = update_mesh(update, changes->meshes[i]);
+    for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; ++i)
+        if (update->instances[i])
+            result = device_scene_upload_instance(update->device, update->scene, i, update->log);
+    if (result == LOBE_OK && changes->environment)
+        result = update_environment(update);
+    return result;
+}
+
+lobe_result device_scene_update(lobe_device *device, device_scene *scene,
+                                const lobe_scene_changes *changes, const lobe_log *log) {
+    scene_update update = {.device = device, .scene = scene, .changes = changes, .log = log};
+    lobe_result result = check_all_indices(&update);
+    if (result == LOBE_OK)
+        result = check_content(&update);
+    if (result != LOBE_OK)
+        return result;
+    update.materials = lobe_allocate(lobe_log_allocator(log), scene->scene->material_count + 1,
+                                     sizeof *update.materials);
+    update.instances = lobe_allocate(lobe_log_allocator(log), scene->scene->instance_count + 1,
+                                     sizeof *update.instances);
+    if (update.materials && update.instances) {
+        mark_materials(&update);
+        mark_instances(&update);
+        result = apply(&update);
+    } else {
+        result =
+            lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->scene->name);
+    }
+    lobe_release(update.materials);
+    lobe_release(update.instances);
+    return result;
+}

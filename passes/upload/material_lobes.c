@@ -1,0 +1,91 @@
+#include "passes/upload/material_lobes.h"
+
+#include <math.h>
+
+#include "passes/maps/mean_resultant_length.h"
+#include "passes/upload/image_texel.h"
+
+static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,
+                      uint32_t width, uint32_t height, float value[4]) {
+    const lobe_image *image = &scene->images[map->use->image].image;
+    return image_texel(image, (uint32_t)((uint64_t)x * image->width / width),
+                       (uint32_t)((uint64_t)y * image->height / height), value);
+}
+
+static bool texel_normal(const lobe_scene *scene, const device_material *material, uint32_t x,
+                         uint32_t y, uint32_t width, uint32_t height, double normal[3]) {
+    float value[4] = {0.5f, 0.5f, 1, 1};
+    const device_map *map = &material->maps[MAP_NORMAL];
+    if (map->use && !map_texel(scene, map, x, y, width, height, value))
+        return false;
+    double scale[3] = {material->material->normal_scale, material->material->normal_scale, 1};
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+        normal[i] = (2 * (double)value[i] - 1) * scale[i];
+        square += normal[i] * normal[i];
+    }
+    for (int i = 0; i < 3; ++i)
+        normal[i] = square > 0 && isfinite(square) ? normal[i] / sqrt(square) : i == 2;
+    return true;
+}
+
+/// As convolved_parameter in shaders/lib/lobe/base_lobe.glsl, with Xu et al. 2017, Eq. 8.
+static double convolved(lobe_distribution distribution, double kappa, double within) {
+    if (distribution != LOBE_DISTRIBUTION_VMF)
+        return kappa * within / (kappa + within);
+    double r = mean_resultant_length(kappa) * mean_resultant_length(within);
+    return r * (3 - r * r) / (1 - r * r);
+}
+
+/// Concentration of base lobe `i`, as base_concentration in shaders/maps/base_maps.glsl.
+static double base_concentration(const lobe_material *material, uint32_t i, double factor) {
+    double kappa;
+    if (material->model == LOBE_MATERIAL_MICROFACET) {
+        double roughness = fmin(fmax(material->roughness * factor, 0), 1);
+        double alpha = fmax(roughness * roughness, 1.5e-3);
+        kappa = 2 / (alpha * alpha);
+    } else {
+        kappa = fmax(material->lobes[i].width * factor, 0);
+        if (material->distribution == LOBE_DISTRIBUTION_BLINN_PHONG)
+            kappa += 1;
+    }
+    double within = material->normal_concentration;
+    return fmin(within > 0 ? convolved(material->distribution, kappa, within) : kappa, 1e6);
+}
+
+void material_lobe_extent(const device_material *material, uint32_t *width, uint32_t *height) {
+    const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
+    *width = normal->width > widths->width ? normal->width : widths->width;
+    *height = normal->height > widths->height ? normal->height : widths->height;
+}
+
+uint32_t material_lobes_read(const lobe_scene *scene, const device_material *material, uint32_t x,
+                             uint32_t y, material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
+    const lobe_material *source = material->material;
+    bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
+    uint32_t width, height, count = microfacet ? 1 : source->lobe_count;
+    material_lobe_extent(material, &width, &height);
+    double normal[3];
+    float widths[4] = {1, 1, 1, 1};
+    if (!texel_normal(scene, material, x, y, width, height, normal) ||
+        (material->maps[MAP_WIDTH].use &&
+         !map_texel(scene, &material->maps[MAP_WIDTH], x, y, width, height, widths)))
+        return 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        double pole[3] = {0, 0, 1};
+        for (int axis = 0; !microfacet && axis < 3; ++axis)
+            pole[axis] = source->lobes[i].direction[axis];
+        material_lobe_rotate(normal, pole, lobes[i].axis);
+        lobes[i].concentration = base_concentration(source, i, widths[microfacet ? 1 : 0]);
+        lobes[i].weight = microfacet ? 1 : material_lobe_share(source, i);
+    }
+    return count;
+}
+
+void material_lobe_rotate(const double normal[3], const double local[3], double result[3]) {
+    double product = normal[0] * local[0] + normal[1] * local[1];
+    double quotient = product / (1 + fmax(normal[2], -0.999999));
+    result[0] = local[0] + normal[0] * (local[2] - quotient);
+    result[1] = local[1] + normal[1] * (local[2] - quotient);
+    result[2] = normal[2] * local[2] - product;
+}

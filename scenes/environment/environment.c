@@ -1,0 +1,90 @@
+#include "scenes/environment/environment.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scenes/environment/direction.h"
+#include "scenes/environment/halve.h"
+#include "scenes/environment/repair.h"
+
+// What the largest cube that is made of an environment shows, of 2048 texels a face.
+#define LARGEST_FACE  2048
+#define LARGEST_WIDTH (4 * LARGEST_FACE)
+
+lobe_result environment_allocate(const char *name, const lobe_log *log,
+                                 lobe_environment **environment) {
+    *environment = lobe_allocate(lobe_log_allocator(log), 1, sizeof **environment);
+    if (*environment)
+        (*environment)->name = lobe_copy_text(lobe_log_allocator(log), name);
+    if (!*environment || !(*environment)->name) {
+        lobe_environment_destroy(environment);
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+    }
+    (*environment)->intensity = 1;
+    for (int i = 0; i < 3; i++)
+        (*environment)->world_from_environment[i][i] = 1;
+    return LOBE_OK;
+}
+
+static bool is_finer_than_needed(const lobe_environment *environment) {
+    uint32_t grid[2];
+    environment_grid(environment->layout, grid);
+    const bool faces = environment->layout != LOBE_ENVIRONMENT_LATITUDE_LONGITUDE;
+    const lobe_image *image = &environment->image;
+    return image->width / grid[0] > (faces ? LARGEST_FACE : LARGEST_WIDTH) ||
+           image->height / grid[1] > (faces ? LARGEST_FACE : LARGEST_WIDTH);
+}
+
+static bool is_larger_than(const lobe_environment *environment, uint32_t extent) {
+    return environment->image.width > extent || environment->image.height > extent;
+}
+
+void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent) {
+    while (is_larger_than(environment, maximum_extent) && environment_can_be_halved(environment))
+        environment_halve(environment);
+}
+
+lobe_result environment_complete(lobe_environment *environment, const lobe_log *log) {
+    const uint32_t width = environment->image.width, height = environment->image.height;
+    lobe_result result = environment_repair(environment, log);
+    if (result != LOBE_OK)
+        return result;
+    while (is_finer_than_needed(environment))
+        environment_halve(environment);
+    lobe_environment_shrink(environment, LOBE_ENVIRONMENT_MAXIMUM_EXTENT);
+    if (environment->image.width != width || environment->image.height != height)
+        lobe_log_print(
+            log, LOBE_LOG_NOTICE, "%s: %u x %u texels are finer than lobe needs; halved to %u x %u",
+            environment->name, width, height, environment->image.width, environment->image.height);
+    return LOBE_OK;
+}
+
+void lobe_environment_turn(lobe_environment *environment, double degrees) {
+    const double angle = degrees * M_PI / 180, cosine = cos(angle), sine = sin(angle);
+    for (int column = 0; column < 3; column++) {
+        float *v = environment->world_from_environment[column];
+        const double x = v[0], z = v[2];
+        v[0] = (float)(cosine * x + sine * z);
+        v[2] = (float)(cosine * z - sine * x);
+    }
+}
+
+#include "scenes/environment/direction.h"
+
+bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
+                               double position[2]) {
+    const lobe_image *image = &environment->image;
+    if (!environment_layout_fits(environment->layout, image->width, image->height))
+        return false;
+    environment_position(environment->layout, image->width, image->height, direction, position);
+    return true;
+}
+
+void lobe_environment_destroy(lobe_environment **environment) {
+    if (!environment || !*environment)
+        return;
+    lobe_image_free(&(*environment)->image);
+    lobe_release((*environment)->name);
+    lobe_release(*environment);
+    *environment = NULL;
+}

@@ -1,0 +1,129 @@
+#include <lobe/environment.h>
+
+#include <stdbool.h>
+#include <string.h>
+
+#include <lobe/exr.h>
+#include <lobe/file.h>
+
+#include "scenes/environment/direction.h"
+#include "scenes/environment/environment.h"
+#include "scenes/environment/sky.h"
+#include "scenes/format/radiance_hdr.h"
+#include "scenes/scene/file.h"
+
+// ---------------------------------------------------------------------------------------------
+// Which layout
+
+static bool find_cube(const lobe_image *image, lobe_environment_layout *layout) {
+    static const lobe_environment_layout cubes[] = {
+        LOBE_ENVIRONMENT_CUBE_COLUMN, LOBE_ENVIRONMENT_CUBE_ROW, LOBE_ENVIRONMENT_VERTICAL_CROSS,
+        LOBE_ENVIRONMENT_HORIZONTAL_CROSS};
+    for (size_t i = 0; i < sizeof cubes / sizeof *cubes; i++) {
+        if (environment_layout_fits(cubes[i], image->width, image->height)) {
+            *layout = cubes[i];
+            return true;
+        }
+    }
+    return false;
+}
+
+// What is not twice as wide as high may have been stretched, or be of a size that is odd.
+static bool may_be_latitude_longitude(const lobe_image *image) {
+    return image->width >= image->height && image->width / 4 <= image->height;
+}
+
+static bool is_twice_as_wide(const lobe_image *image) {
+    const uint64_t width = image->width, height = image->height;
+    return width + 1 >= 2 * height && width <= 2 * height + 1;
+}
+
+static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environment said,
+                                 const lobe_log *log) {
+    const lobe_image *image = &environment->image;
+    environment->layout = LOBE_ENVIRONMENT_LATITUDE_LONGITUDE;
+    if (said == LOBE_EXR_LATITUDE_LONGITUDE || find_cube(image, &environment->layout))
+        return LOBE_OK;
+    if (said == LOBE_EXR_CUBE || !may_be_latitude_longitude(image))
+        return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
+                             "%s: %u x %u texels are no environment of a known shape: latitude and "
+                             "longitude (2:1), columns and rows of six faces (1:6, 6:1), crosses "
+                             "(3:4, 4:3)",
+                             environment->name, image->width, image->height);
+    if (!is_twice_as_wide(image))
+        lobe_log_print(log, LOBE_LOG_NOTICE,
+                       "%s: taken as latitude and longitude, though %u x %u texels are not 2:1",
+                       environment->name, image->width, image->height);
+    return LOBE_OK;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Files
+
+static lobe_result decode_exr(const char *name, const uint8_t *bytes, size_t size,
+                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
+    lobe_exr_contents contents;
+    lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, log, &contents);
+    if (result != LOBE_OK)
+        return result;
+    *said = contents.environment;
+    *image = contents.levels[0];
+    contents.levels[0] = (lobe_image){0};
+    lobe_exr_contents_free(&contents);
+    return LOBE_OK;
+}
+
+static lobe_result decode(const char *name, const uint8_t *bytes, size_t size, const lobe_log *log,
+                          lobe_image *image, lobe_exr_environment *said) {
+    static const uint8_t exr[4] = {0x76, 0x2f, 0x31, 0x01};
+    *said = LOBE_EXR_NO_ENVIRONMENT;
+    if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0)
+        return decode_exr(name, bytes, size, log, image, said);
+    if (radiance_hdr_recognise(bytes, size))
+        return radiance_hdr_decode(bytes, size, name, log, image);
+    return lobe_log_fail(log, size < sizeof exr ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                         "%s: neither an OpenEXR file nor a Radiance picture", name);
+}
+
+static lobe_result read_image(const lobe_environment_open_parameters *parameters,
+                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
+    const char *name = parameters->environment;
+    uint8_t *bytes;
+    size_t size;
+    if (parameters->data)
+        return decode(name, parameters->data, parameters->size, log, image, said);
+    lobe_result result = scene_file_read(parameters->files, name, NULL, log, &bytes, &size);
+    if (result == LOBE_OK)
+        result = decode(name, bytes, size, log, image, said);
+    lobe_release(bytes);
+    return result;
+}
+
+static lobe_result open_file(const lobe_environment_open_parameters *parameters,
+                             const lobe_log *log, lobe_environment **environment) {
+    lobe_exr_environment said;
+    lobe_result result = environment_allocate(parameters->environment, log, environment);
+    if (result == LOBE_OK)
+        result = read_image(parameters, log, &(*environment)->image, &said);
+    if (result == LOBE_OK)
+        result = choose_layout(*environment, said, log);
+    if (result == LOBE_OK)
+        result = environment_complete(*environment, log);
+    if (result != LOBE_OK)
+        lobe_environment_destroy(environment);
+    return result;
+}
+
+lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
+                                       const lobe_log *log, lobe_environment **environment) {
+    *environment = NULL;
+    if (!parameters->data && strcmp(parameters->environment, "sky") == 0)
+        return environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, log, environment);
+    return open_file(parameters, log, environment);
+}
+
+lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
+                                  lobe_environment **environment) {
+    return lobe_environment_open_with(
+        &(lobe_environment_open_parameters){.environment = file_or_sky}, log, environment);
+}

@@ -1,0 +1,99 @@
+#include "scenes/format/image_file.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <lobe/file.h>
+
+#include "scenes/format/library_memory.h"
+#include "third_party/image_codec.h"
+
+// The densest that either format packs: deflate shrinks to 1/1032, on 8 texels a byte.
+#define MAXIMUM_TEXELS_PER_BYTE (1032 * 8)
+
+typedef enum image_file_kind { IMAGE_FILE_OTHER, IMAGE_FILE_PNG, IMAGE_FILE_JPEG } image_file_kind;
+
+static image_file_kind recognise(const void *bytes, size_t size) {
+    static const uint8_t png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    static const uint8_t jpeg[3] = {0xff, 0xd8, 0xff};
+    if (size >= sizeof png && memcmp(bytes, png, sizeof png) == 0)
+        return IMAGE_FILE_PNG;
+    if (size >= sizeof jpeg && memcmp(bytes, jpeg, sizeof jpeg) == 0)
+        return IMAGE_FILE_JPEG;
+    return IMAGE_FILE_OTHER;
+}
+
+// Before memory is taken for what a header of a few bytes promises.
+static lobe_result check_extent(const image_codec_extent *extent, size_t size, const char *name,
+                                const lobe_log *log) {
+    uint32_t width = extent->width, height = extent->height;
+    uint64_t texels = (uint64_t)width * height;
+    if (width > LOBE_IMAGE_MAXIMUM_EXTENT || height > LOBE_IMAGE_MAXIMUM_EXTENT ||
+        texels > SCENE_IMAGE_MAXIMUM_TEXELS)
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
+                             "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
+                             "all)",
+                             name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
+                             SCENE_IMAGE_MAXIMUM_TEXELS);
+    if (texels > (uint64_t)size * MAXIMUM_TEXELS_PER_BYTE)
+        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %zu bytes cannot hold %u x %u texels",
+                             name, size, width, height);
+    return LOBE_OK;
+}
+
+static lobe_format choose_format(const image_codec_extent *extent, scene_image_use use) {
+    if (use == SCENE_IMAGE_COLOUR)
+        return LOBE_FORMAT_RGBA8_SRGB;
+    return extent->sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_UNORM;
+}
+
+static lobe_result fail(const library_memory *memory, const char *name, const char *message,
+                        const lobe_log *log) {
+    if (memory->failed)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+}
+
+lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
+                               scene_image_use use, const lobe_log *log, lobe_image *image) {
+    *image = (lobe_image){0};
+    image_file_kind kind = recognise(bytes, size);
+    if (kind == IMAGE_FILE_OTHER)
+        return lobe_log_fail(log, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                             "%s: neither PNG nor JPEG", name);
+    char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
+    library_memory memory = scene_library_memory(log);
+    image_codec_extent extent = {0};
+    bool png = kind == IMAGE_FILE_PNG;
+    bool done = png ? png_measure(bytes, size, &memory, &extent, message)
+                    : jpeg_measure(bytes, size, &extent, message);
+    if (!done || memory.failed)
+        return fail(&memory, name, message, log);
+    lobe_result result = check_extent(&extent, size, name, log);
+    if (result != LOBE_OK)
+        return result;
+    lobe_format format = choose_format(&extent, use);
+    result = lobe_image_allocate(image, format, extent.width, extent.height, log);
+    if (result != LOBE_OK)
+        return result;
+    done = png ? png_decode(bytes, size, &memory, &extent, format == LOBE_FORMAT_RGBA16_UNORM,
+                            image->texels, message)
+               : jpeg_decode(bytes, size, &extent, image->texels, message);
+    if (done && !memory.failed)
+        return LOBE_OK;
+    lobe_image_free(image);
+    return fail(&memory, name, message, log);
+}
+
+lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
+                             lobe_image *image) {
+    *image = (lobe_image){0};
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &size);
+    if (result == LOBE_OK)
+        result = scene_image_decode(bytes, size, path, use, log, image);
+    lobe_release(bytes);
+    return result;
+}

@@ -1,0 +1,30 @@
+#ifndef SCENES_FORMAT_IMAGE_FILE_H
+#define SCENES_FORMAT_IMAGE_FILE_H
+
+#include <stddef.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// What an image file's numbers mean, which neither PNG nor JPEG says reliably.
+typedef enum scene_image_use {
+    SCENE_IMAGE_COLOUR, ///< sRGB; becomes RGBA8_SRGB
+    SCENE_IMAGE_DATA,   ///< linear; becomes RGBA8_UNORM, or RGBA16_UNORM from 16 bits
+} scene_image_use;
+
+/// Largest number of texels of one image file.
+#define SCENE_IMAGE_MAXIMUM_TEXELS ((size_t)1 << 28)
+
+/// Decodes PNG or JPEG, told apart by their first bytes. Grey becomes RGB, a missing alpha 1;
+/// colour profiles are ignored. `name` is for messages. On failure `image` is empty. Errors:
+/// LOBE_ERROR_UNSUPPORTED (another format), _MALFORMED, _LIMIT (extent above
+/// LOBE_IMAGE_MAXIMUM_EXTENT, or too many texels), _OUT_OF_MEMORY.
+lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
+                               scene_image_use use, const lobe_log *log, lobe_image *image);
+
+/// The same for a file; also LOBE_ERROR_NOT_FOUND and LOBE_ERROR_READ.
+lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
+                             lobe_image *image);
+
+#endif

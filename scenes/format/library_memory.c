@@ -1,0 +1,11 @@
+#include "scenes/format/library_memory.h"
+
+static void *resize(void *allocator, void *memory, size_t size) {
+    return lobe_reallocate(allocator, memory, size, 1);
+}
+
+library_memory scene_library_memory(const lobe_log *log) {
+    return (library_memory){.resize = resize,
+                            .release = lobe_release,
+                            .user = (void *)lobe_log_allocator(log)}; // only read
+}

@@ -1,0 +1,26 @@
+#ifndef SCENES_FORMAT_RADIANCE_HDR_H
+#define SCENES_FORMAT_RADIANCE_HDR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// Radiance pictures (.hdr, .pic).
+
+/// Whether the bytes begin as such a picture's do.
+bool radiance_hdr_recognise(const void *bytes, size_t size);
+
+/// Decodes a picture into RGBA32_FLOAT, alpha 1. Scan lines may be packed in the newer way, in the
+/// older, or not at all; they may run in any of the eight directions. Exposures and colour
+/// corrections that the header tells of are undone, so that the image holds radiance; CIE XYZ
+/// becomes RGB of Radiance's primaries, as which RGB is taken, too. `name` is for messages. On
+/// failure `image` is empty. Errors: LOBE_ERROR_MALFORMED, _UNSUPPORTED (another format of texels),
+/// _LIMIT, _OUT_OF_MEMORY.
+lobe_result radiance_hdr_decode(const void *bytes, size_t size, const char *name,
+                                const lobe_log *log, lobe_image *image);
+
+#endif

@@ -1,0 +1,145 @@
+#include "scenes/gltf/attributes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Kinds of component that an attribute may have, as bits.
+enum {
+    KIND_FLOAT = 1,
+    KIND_UNSIGNED_BYTE = 2,
+    KIND_UNSIGNED_SHORT = 4,
+    KIND_BYTE = 8,
+    KIND_SHORT = 16,
+    KIND_NORMALISED = 32, // shift from the plain integers to the normalised ones
+    UNSIGNED_NORMALISED = (KIND_UNSIGNED_BYTE | KIND_UNSIGNED_SHORT) * KIND_NORMALISED,
+    SIGNED_NORMALISED = (KIND_BYTE | KIND_SHORT) * KIND_NORMALISED,
+    ANY_INTEGER =
+        (KIND_UNSIGNED_BYTE | KIND_UNSIGNED_SHORT | KIND_BYTE | KIND_SHORT) * (1 + KIND_NORMALISED),
+};
+
+typedef struct attribute_rule {
+    const char *name;
+    unsigned minimum_channels, maximum_channels;
+    unsigned kinds, quantised_kinds;
+} attribute_rule;
+
+// glTF 2.0, section 3.7.2.1, and KHR_mesh_quantization.
+static const attribute_rule rules[GLTF_ATTRIBUTE_COUNT] = {
+    [GLTF_POSITION] = {"POSITION", 3, 3, KIND_FLOAT, ANY_INTEGER},
+    [GLTF_NORMAL] = {"NORMAL", 3, 3, KIND_FLOAT, SIGNED_NORMALISED},
+    [GLTF_TANGENT] = {"TANGENT", 4, 4, KIND_FLOAT, SIGNED_NORMALISED},
+    [GLTF_TEXCOORD_0] = {"TEXCOORD_0", 2, 2, KIND_FLOAT | UNSIGNED_NORMALISED, ANY_INTEGER},
+    [GLTF_TEXCOORD_1] = {"TEXCOORD_1", 2, 2, KIND_FLOAT | UNSIGNED_NORMALISED, ANY_INTEGER},
+    [GLTF_COLOR_0] = {"COLOR_0", 3, 4, KIND_FLOAT | UNSIGNED_NORMALISED, 0},
+};
+
+static unsigned kind_of(const gltf_elements *elements) {
+    unsigned shift = elements->normalised ? KIND_NORMALISED : 1;
+    switch (elements->component) {
+    case GLTF_FLOAT:
+        return KIND_FLOAT;
+    case GLTF_UNSIGNED_BYTE:
+        return KIND_UNSIGNED_BYTE * shift;
+    case GLTF_UNSIGNED_SHORT:
+        return KIND_UNSIGNED_SHORT * shift;
+    case GLTF_BYTE:
+        return KIND_BYTE * shift;
+    case GLTF_SHORT:
+        return KIND_SHORT * shift;
+    default:
+        return 0;
+    }
+}
+
+static lobe_result open_attribute(const gltf_import *import, const gltf_primitive *primitive,
+                                  gltf_attribute attribute, gltf_attributes *attributes) {
+    const attribute_rule *rule = &rules[attribute];
+    gltf_elements *elements = &attributes->elements[attribute];
+    char what[192];
+    snprintf(what, sizeof what, "%s of %s", rule->name, attributes->name);
+    lobe_result result =
+        gltf_open_accessor(import, primitive->attributes[attribute], what, elements);
+    if (result != LOBE_OK)
+        return result;
+    unsigned kinds = rule->kinds | (import->quantised ? rule->quantised_kinds : 0);
+    if (elements->channels < rule->minimum_channels ||
+        elements->channels > rule->maximum_channels || !(kind_of(elements) & kinds))
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: %s: %u components of type %d%s are not allowed", import->path,
+                             what, elements->channels, elements->component,
+                             elements->normalised ? ", normalised," : "");
+    size_t count = attributes->elements[GLTF_POSITION].count;
+    if (elements->count != count)
+        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                             "%s: %s: %zu elements for %zu positions", import->path, what,
+                             elements->count, count);
+    attributes->present[attribute] = true;
+    return LOBE_OK;
+}
+
+lobe_result gltf_open_attributes(const gltf_import *import, const gltf_primitive *primitive,
+                                 const char *name, gltf_attributes *attributes) {
+    *attributes = (gltf_attributes){.name = name};
+    for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
+        if (primitive->attributes[i] < 0)
+            continue;
+        lobe_result result = open_attribute(import, primitive, (gltf_attribute)i, attributes);
+        if (result != LOBE_OK)
+            return result;
+    }
+    return LOBE_OK;
+}
+
+static float *destination(lobe_scene_vertex *vertex, gltf_attribute attribute) {
+    switch (attribute) {
+    case GLTF_POSITION:
+        return vertex->position;
+    case GLTF_NORMAL:
+        return vertex->normal;
+    case GLTF_TANGENT:
+        return vertex->tangent;
+    case GLTF_TEXCOORD_0:
+        return vertex->texture_coordinates[0];
+    case GLTF_TEXCOORD_1:
+        return vertex->texture_coordinates[1];
+    default:
+        return vertex->colour;
+    }
+}
+
+static lobe_result read_attribute(const gltf_import *import, const gltf_attributes *attributes,
+                                  gltf_attribute attribute, const uint32_t *source,
+                                  lobe_mesh *mesh) {
+    const gltf_elements *elements = &attributes->elements[attribute];
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float values[4] = {0};
+        size_t element = source ? source[i] : i;
+        gltf_read_floats(elements, element, values);
+        for (unsigned c = 0; c < elements->channels; c++) {
+            if (!isfinite(values[c]))
+                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
+                                     "%s: %s: %s of vertex %zu is not finite", import->path,
+                                     attributes->name, rules[attribute].name, element);
+        }
+        // A colour of three channels keeps the alpha of 1 it was allocated with.
+        memcpy(destination(&mesh->vertices[i], attribute), values,
+               elements->channels * sizeof(float));
+    }
+    return LOBE_OK;
+}
+
+lobe_result gltf_read_vertices(const gltf_import *import, const gltf_attributes *attributes,
+                               const uint32_t *source, lobe_mesh *mesh) {
+    for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
+        if (!attributes->present[i])
+            continue;
+        lobe_result result = read_attribute(import, attributes, (gltf_attribute)i, source, mesh);
+        if (result != LOBE_OK)
+            return result;
+    }
+    mesh->has_texture_coordinates[0] = attributes->present[GLTF_TEXCOORD_0];
+    mesh->has_texture_coordinates[1] = attributes->present[GLTF_TEXCOORD_1];
+    mesh->has_colour = attributes->present[GLTF_COLOR_0];
+    return LOBE_OK;
+}

@@ -1,0 +1,186 @@
+#include "scenes/gltf/gltf.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/gltf/container.h"
+#include "scenes/gltf/schema.h"
+#include "scenes/scene/file.h"
+#include "scenes/scene/scene.h"
+
+// ---------------------------------------------------------------------------------------------
+// From the file to the document
+
+// What happened to a buffer's file, of which tinygltf only hears that it cannot be read. The line
+// waits until parsing has failed: of an image, which tinygltf may take for one, it does not fail.
+typedef struct buffer_reader {
+    const char *path;
+    const lobe_file_source *files;
+    const lobe_allocator *allocator;
+    lobe_result result;
+    char line[1024];
+} buffer_reader;
+
+static void keep_line(void *user, lobe_log_level level, const char *message) {
+    buffer_reader *reader = user;
+    if (level == LOBE_LOG_ERROR)
+        snprintf(reader->line, sizeof reader->line, "%s", message);
+}
+
+static void *read_buffer(void *user, const char *path, size_t *size) {
+    buffer_reader *reader = user;
+    lobe_log log = {.write = keep_line, .user = reader, .allocator = reader->allocator};
+    uint8_t *bytes = NULL;
+    reader->result = scene_file_read(reader->files, path, reader->path, &log, &bytes, size);
+    return bytes;
+}
+
+static lobe_result parse(const gltf_container *container, const char *path,
+                         const lobe_file_source *files, const lobe_log *log,
+                         const gltf_document **document) {
+    const char *slash = strrchr(path, '/');
+    const lobe_allocator *allocator = lobe_log_allocator(log);
+    char *folder = lobe_copy_text(allocator, path);
+    if (!folder)
+        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    folder[slash ? slash + 1 - path : 0] = 0;
+    char message[256];
+    buffer_reader reader = {.path = path, .files = files, .allocator = allocator};
+    gltf_source source = {.bytes = container->binary ? container->bytes : container->json,
+                          .size = container->binary ? container->size : container->json_size,
+                          .binary = container->binary,
+                          .folder = folder,
+                          .read = read_buffer,
+                          .release = lobe_release,
+                          .user = &reader};
+    *document = gltf_document_parse(&source, message, sizeof message);
+    lobe_release(folder);
+    if (*document)
+        return LOBE_OK;
+    if (reader.result != LOBE_OK)
+        return lobe_log_fail(log, reader.result, "%s", reader.line);
+    bool malformed = *message != 0;
+    return lobe_log_fail(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY, "%s: %s",
+                         path, malformed ? message : "out of memory");
+}
+
+// Reading mends the bytes: those of a host are copied.
+static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                              uint8_t **bytes, size_t *size) {
+    const char *path = parameters->scene;
+    return parameters->data
+               ? scene_file_copy(path, parameters->data, parameters->size, log, bytes, size)
+               : scene_file_read(parameters->files, path, NULL, log, bytes, size);
+}
+
+static lobe_result read_document(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                                 const gltf_document **document) {
+    const char *path = parameters->scene;
+    gltf_container container = {0};
+    uint8_t *bytes = NULL;
+    lobe_result result = read_bytes(parameters, log, &bytes, &container.size);
+    container.bytes = (char *)bytes;
+    if (result == LOBE_OK)
+        result = gltf_container_open(&container, path, log);
+    if (result == LOBE_OK)
+        result = gltf_schema_check(path, container.json, container.json_size, log);
+    if (result == LOBE_OK)
+        result = parse(&container, path, parameters->files, log, document);
+    lobe_release(bytes);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// From the document to the scene
+
+static int64_t *allocate_unconverted(const gltf_import *import, size_t count) {
+    int64_t *states = lobe_allocate(lobe_log_allocator(import->log), count, sizeof *states);
+    for (size_t i = 0; states && i < count; i++)
+        states[i] = GLTF_NOT_CONVERTED;
+    return states;
+}
+
+static bool allocate_primitives(gltf_import *import) {
+    const lobe_allocator *allocator = lobe_log_allocator(import->log);
+    const gltf_document *document = import->document;
+    size_t count = 0;
+    import->first_primitives =
+        lobe_allocate(allocator, document->mesh_count + 1, sizeof *import->first_primitives);
+    if (!import->first_primitives)
+        return false;
+    for (size_t i = 0; i < document->mesh_count; i++) {
+        import->first_primitives[i] = count;
+        count += document->meshes[i].primitive_count;
+    }
+    import->primitives = lobe_allocate(allocator, count + 1, sizeof *import->primitives);
+    for (size_t i = 0; import->primitives && i < count; i++)
+        import->primitives[i] =
+            (gltf_primitive_state){GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED};
+    return import->primitives != NULL;
+}
+
+static lobe_result allocate_states(gltf_import *import) {
+    const gltf_document *document = import->document;
+    import->materials = allocate_unconverted(import, document->material_count + 1);
+    import->images[0] = allocate_unconverted(import, document->image_count + 1);
+    import->images[1] = allocate_unconverted(import, document->image_count + 1);
+    if (allocate_primitives(import) && import->materials && import->images[0] && import->images[1])
+        return LOBE_OK;
+    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", import->path);
+}
+
+static void free_states(gltf_import *import) {
+    lobe_release(import->first_primitives);
+    lobe_release(import->primitives);
+    lobe_release(import->materials);
+    lobe_release(import->images[0]);
+    lobe_release(import->images[1]);
+}
+
+static void note_extensions(gltf_import *import) {
+    const gltf_document *document = import->document;
+    for (size_t i = 0; i < document->extension_count; i++) {
+        const char *name = document->extensions[i];
+        if (!gltf_extension_supported(name))
+            gltf_note_unsupported(import, name);
+        if (strcmp(name, "KHR_mesh_quantization") == 0)
+            import->quantised = true;
+    }
+    if (document->animation_count > 0)
+        gltf_note_unsupported(import, "animations");
+}
+
+static lobe_result convert(gltf_import *import) {
+    lobe_result result = allocate_states(import);
+    if (result != LOBE_OK)
+        return result;
+    note_extensions(import);
+    result = gltf_convert_nodes(import);
+    if (result == LOBE_OK)
+        result = gltf_convert_environment(import);
+    if (result != LOBE_OK)
+        return result;
+    gltf_report_notes(import);
+    result = scene_complete(import->scene, import->log);
+    if (result == LOBE_OK && import->scene->has_camera)
+        gltf_aim_camera(import->scene);
+    return result;
+}
+
+lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+                      lobe_scene **scene) {
+    gltf_import import = {.path = parameters->scene, .log = log, .files = parameters->files};
+    *scene = NULL;
+    lobe_result result = read_document(parameters, log, &import.document);
+    if (result == LOBE_OK)
+        result = scene_allocate(parameters->scene, log, &import.scene);
+    if (result == LOBE_OK)
+        result = convert(&import);
+    if (result == LOBE_OK)
+        *scene = import.scene;
+    else
+        lobe_scene_destroy(&import.scene);
+    free_states(&import);
+    gltf_document_free(import.document);
+    return result;
+}

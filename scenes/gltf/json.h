@@ -1,0 +1,57 @@
+#ifndef SCENES_GLTF_JSON_H
+#define SCENES_GLTF_JSON_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// Checks JSON text (RFC 8259) against the types that a reader expects, before the reader sees
+/// it. Builds nothing: memory does not depend on the text.
+
+typedef enum json_kind {
+    JSON_ANY,
+    JSON_OBJECT,
+    JSON_ARRAY,
+    JSON_STRING,
+    JSON_NUMBER,
+    JSON_INDEX, ///< an integer [0, 2^31 - 2] without fraction or exponent
+    JSON_SIZE,  ///< an integer [0, 2^53] without fraction or exponent
+    JSON_BOOLEAN,
+} json_kind;
+
+typedef struct json_schema json_schema;
+
+typedef struct json_member {
+    const char *name; ///< at most 63 bytes
+    const json_schema *schema;
+    bool required;
+} json_member;
+
+struct json_schema {
+    json_kind kind;
+    const json_member *members; ///< of an object; ends with a NULL name; at most 32
+    const json_schema *element; ///< of an array; of an object: all members not listed. NULL: any
+    unsigned length;            ///< of an array; 0: any
+    bool filled;                ///< an array must not be empty
+    /// Called with each string (cut at 255 bytes), where not NULL; an error, which it has
+    /// logged, ends the check.
+    lobe_result (*visit)(void *user, const char *text);
+};
+
+typedef struct json_text {
+    const char *name; ///< of the file, for messages
+    const char *bytes;
+    size_t size;
+    const lobe_log *log;
+    void *user; ///< for json_schema.visit
+} json_text;
+
+/// Deepest nesting that is accepted.
+#define JSON_MAXIMUM_DEPTH 128
+
+/// LOBE_ERROR_MALFORMED, with a line that says where and what, or what a visit returned.
+lobe_result json_check(const json_text *text, const json_schema *schema);
+
+#endif

@@ -1,0 +1,101 @@
+#include "scenes/material/carrier.h"
+
+#include <math.h>
+
+#include "scenes/builtin/noise.h"
+#include "scenes/mesh/circle.h"
+#include "scenes/mesh/grid_mesh.h"
+#include "scenes/mesh/mesh.h"
+#include "scenes/mesh/shape.h"
+#include "scenes/scene/scene.h"
+#include "scenes/scene/view.h"
+
+// ---------------------------------------------------------------------------------------------
+// Cloth
+
+// Metres.
+static const double cloth_width = 2.2, cloth_height = 1.5, texel_size = 0.0005;
+// Of maps of few texels, which would else repeat too often to be told apart.
+static const double smallest_tile = 0.05;
+
+// Waves run across the cloth and swing a little on their way down; they are free at the bottom.
+static void place_on_cloth(const void *shape, double u, double v, lobe_scene_vertex *vertex) {
+    const double *tile = shape;
+    double wave[2];
+    circle_point(4 * u + 0.35 * noise_gradient(1.5 * u, 1.5 * v, 16, 61, NULL), wave);
+    vertex->position[0] = (float)((u - 0.5) * cloth_width);
+    vertex->position[1] = (float)((0.5 - v) * cloth_height);
+    vertex->position[2] = (float)((0.02 + 0.02 * v) * wave[1]);
+    vertex->texture_coordinates[0][0] = (float)(u * cloth_width / *tile);
+    vertex->texture_coordinates[0][1] = (float)(v * cloth_height / *tile);
+}
+
+static lobe_result make_cloth(const lobe_scene *scene, const lobe_log *log, lobe_mesh *mesh) {
+    uint32_t texels = 0;
+    for (size_t i = 0; i < scene->image_count; i++) {
+        const lobe_image *image = &scene->images[i].image;
+        uint32_t extent = image->width > image->height ? image->width : image->height;
+        texels = extent > texels ? extent : texels;
+    }
+    double tile = fmax(texels * texel_size, smallest_tile);
+    const grid_mesh grid = {
+        .name = "cloth", .rows = 60, .columns = 120, .place = place_on_cloth, .shape = &tile};
+    return grid_mesh_make(&grid, log, mesh);
+}
+
+// ---------------------------------------------------------------------------------------------
+
+static lobe_result make_mesh(const lobe_scene *scene, lobe_carrier carrier, const lobe_log *log,
+                             lobe_mesh *mesh) {
+    switch (carrier) {
+    case LOBE_CARRIER_SPHERE:
+        return shape_sphere(64, 128, 4, 2, log, mesh);
+    case LOBE_CARRIER_CLOTH:
+        return make_cloth(scene, log, mesh);
+    default:
+        return shape_plane(4, 4, 1, log, mesh);
+    }
+}
+
+static void look(lobe_scene *scene, lobe_carrier carrier) {
+    switch (carrier) {
+    case LOBE_CARRIER_SPHERE:
+        scene_look(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
+        break;
+    case LOBE_CARRIER_CLOTH:
+        scene_look(scene, (float[]){1.15f, 0.2f, 1.3f}, (float[]){0.19f, 0.02f, 0}, 40);
+        break;
+    default:
+        scene_look(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
+    }
+}
+
+// A plane is lit from behind, and cloth from the side that the camera does not stand on, so that
+// highlights lie between light and camera; a sphere from the front.
+static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
+    static const float directions[][3] = {
+        [LOBE_CARRIER_PLANE] = {-0.36f, -0.48f, 0.8f},
+        [LOBE_CARRIER_SPHERE] = {-0.36f, -0.48f, -0.8f},
+        [LOBE_CARRIER_CLOTH] = {0.64f, -0.48f, -0.6f},
+    };
+    const float *direction = directions[carrier];
+    const lobe_light lights[] = {
+        {.type = LOBE_LIGHT_DIRECTIONAL,
+         .direction = {direction[0], direction[1], direction[2]},
+         .intensity = {3, 2.95f, 2.8f}},
+        {.type = LOBE_LIGHT_POINT, .position = {-2, 2, 1.5f}, .intensity = {10, 11, 12}},
+    };
+    look(scene, carrier);
+    scene->background[0] = scene->background[1] = scene->background[2] = 0.2f;
+    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+}
+
+lobe_result carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
+    lobe_mesh mesh;
+    // One walks round a cloth, and sees its back.
+    scene->materials[0].double_sided |= carrier == LOBE_CARRIER_CLOTH;
+    lobe_result status = make_mesh(scene, carrier, log, &mesh);
+    if (!status)
+        status = scene_place_mesh(scene, &mesh, 0, log);
+    return status ? status : add_view(scene, carrier, log);
+}

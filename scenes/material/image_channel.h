@@ -1,0 +1,26 @@
+#ifndef SCENES_MATERIAL_IMAGE_CHANNEL_H
+#define SCENES_MATERIAL_IMAGE_CHANNEL_H
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// Single channels of RGBA8_UNORM and RGBA16_UNORM images.
+
+/// Where a channel of a packed image comes from.
+typedef struct image_channel {
+    const lobe_image *image; ///< NULL or empty: `value` everywhere
+    uint32_t channel;        ///< of `image` [0, 3]
+    float value;             ///< [0, 1]
+} image_channel;
+
+/// Packs four channels into an RGBA8_UNORM image as wide as the widest and as high as the highest
+/// of them (1 x 1 where none has an image). Smaller ones are interpolated bilinearly, repeating
+/// at the edges. `name` is for messages. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result image_channel_pack(const image_channel channels[4], const char *name,
+                               const lobe_log *log, lobe_image *packed);
+
+/// Replaces a channel by one minus it.
+void image_channel_invert(lobe_image *image, uint32_t channel);
+
+#endif

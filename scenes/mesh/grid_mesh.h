@@ -1,0 +1,23 @@
+#ifndef SCENES_MESH_GRID_MESH_H
+#define SCENES_MESH_GRID_MESH_H
+
+#include <lobe/log.h>
+#include <lobe/result.h>
+#include <lobe/scene.h>
+
+/// Curved surfaces as grids of quadrilaterals.
+
+typedef struct grid_mesh {
+    const char *name;
+    uint32_t rows, columns; ///< quadrilaterals, 1 or more of each
+    bool closed;            ///< the last column of vertices lies on the first
+    /// Sets position and first texture coordinates of a vertex; u = column / columns from the left
+    /// and v = row / rows from the top, as seen on the front.
+    void (*place)(const void *shape, double u, double v, lobe_scene_vertex *vertex);
+    const void *shape; ///< what `place` is given
+} grid_mesh;
+
+/// Makes a mesh with smooth normals and tangents; `mesh` is overwritten. Errors: as mesh_allocate.
+lobe_result grid_mesh_make(const grid_mesh *grid, const lobe_log *log, lobe_mesh *mesh);
+
+#endif

@@ -1,0 +1,56 @@
+#include <math.h>
+#include <string.h>
+
+#include "scenes/mesh/vector.h"
+#include "scenes/scene/scene.h"
+
+// Squares and products of lengths up to here stay within single precision on the GPU.
+#define SCENE_MAXIMUM_LENGTH 1e18
+
+static void include_point(vector3 p, vector3 *minimum, vector3 *maximum) {
+    *minimum = (vector3){fmin(minimum->x, p.x), fmin(minimum->y, p.y), fmin(minimum->z, p.z)};
+    *maximum = (vector3){fmax(maximum->x, p.x), fmax(maximum->y, p.y), fmax(maximum->z, p.z)};
+}
+
+static void include_instance(const lobe_scene *scene, const lobe_instance *instance,
+                             vector3 *minimum, vector3 *maximum) {
+    const lobe_mesh *mesh = &scene->meshes[instance->mesh];
+    for (int corner = 0; corner < 8; corner++) {
+        vector3 p = {corner & 1 ? mesh->maximum[0] : mesh->minimum[0],
+                     corner & 2 ? mesh->maximum[1] : mesh->minimum[1],
+                     corner & 4 ? mesh->maximum[2] : mesh->minimum[2]};
+        include_point(vector3_transform(instance->transform, p), minimum, maximum);
+    }
+}
+
+static lobe_result set_bounds(lobe_scene *scene, const lobe_log *log) {
+    vector3 minimum = {0, 0, 0}, maximum = {0, 0, 0};
+    if (scene->instance_count > 0) {
+        minimum = (vector3){INFINITY, INFINITY, INFINITY};
+        maximum = vector3_scale(minimum, -1);
+    }
+    for (size_t i = 0; i < scene->instance_count; i++)
+        include_instance(scene, &scene->instances[i], &minimum, &maximum);
+    double largest = fmax(vector3_length(minimum), vector3_length(maximum));
+    if (!(largest <= SCENE_MAXIMUM_LENGTH))
+        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m", scene->name,
+                             SCENE_MAXIMUM_LENGTH);
+    vector3_store(minimum, scene->minimum);
+    vector3_store(maximum, scene->maximum);
+    return LOBE_OK;
+}
+
+lobe_result scene_complete(lobe_scene *scene, const lobe_log *log) {
+    lobe_result result = set_bounds(scene, log);
+    if (result != LOBE_OK)
+        return result;
+    if (!scene->has_camera)
+        lobe_scene_frame(scene, 16.0 / 9, &scene->camera);
+    // Of an empty scene, that it is empty is all there is to say; who draws it will.
+    if (scene->instance_count == 0)
+        return LOBE_OK;
+    if (!scene->has_camera)
+        lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
+                       scene->name);
+    return scene_add_missing_light(scene, log);
+}

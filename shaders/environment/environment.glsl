@@ -1,0 +1,134 @@
+#ifndef ENVIRONMENT_GLSL
+#define ENVIRONMENT_GLSL
+
+// The environment's maps, and the mean radiance of a lobe of directions by each method.
+
+#include "interface/environment_light.h"
+#include "lib/lobe/direction_lobe.glsl"
+#include "lib/light/environment_level.glsl"
+#include "shading/surface.glsl"
+
+layout(constant_id = SPECIALISE_ENVIRONMENT_METHOD) const uint ENVIRONMENT_METHOD =
+    ENVIRONMENT_PREFILTERED;
+layout(constant_id = SPECIALISE_ENVIRONMENT_PROBES) const uint ENVIRONMENT_PROBES = 4;
+layout(constant_id = SPECIALISE_ENVIRONMENT_GRID) const uint ENVIRONMENT_GRID = 5;
+layout(constant_id = SPECIALISE_ENVIRONMENT_BLENDED) const bool ENVIRONMENT_BLENDED = false;
+layout(constant_id = SPECIALISE_HORIZON) const uint HORIZON = HORIZON_CLIPPED;
+
+// Levels hold means over texels; the same without interpolation, and as an array of faces, to read
+// texels by their number.
+layout(set = 0, binding = 23) uniform samplerCube environment_texels;
+layout(set = 0, binding = 24) uniform samplerCube environment_cube;
+layout(set = 0, binding = 25) uniform sampler2DArray environment_faces;
+// Levels hold the environment seen through broader and broader lobes.
+layout(set = 0, binding = 26) uniform samplerCube prefiltered_environment;
+layout(set = 0, binding = 27) uniform samplerCube prefiltered_environment_ggx;
+// The same levels of lobes twice as concentrated.
+layout(set = 0, binding = 31) uniform samplerCube environment_between;
+layout(set = 0, binding = 28, std140) uniform environment_block {
+    environment_constants environment;
+};
+
+vec3 world_to_environment(vec3 direction) {
+    return vec3(dot(environment.environment_from_world[0].xyz, direction),
+                dot(environment.environment_from_world[1].xyz, direction),
+                dot(environment.environment_from_world[2].xyz, direction));
+}
+
+// From the tangent frame.
+vec3 to_environment(surface_point surface, vec3 direction) {
+    return world_to_environment(surface.world_from_tangent * direction);
+}
+
+float environment_width() {
+    return float(textureSize(environment_cube, 0).x);
+}
+
+// The mean over about `solid_angle` around a direction in the environment's space.
+vec3 environment_mean(vec3 direction, float solid_angle) {
+    float level = solid_angle_level(environment_width(), solid_angle);
+    return environment.intensity * textureLod(environment_cube, direction, level).rgb;
+}
+
+// What a lobe of half vectors is: its shape, and the kind and parameter of the base lobe where it is
+// one, DISTRIBUTION_VMF where it is a Gaussian.
+struct half_vector_distribution {
+    direction_lobe shape;
+    uint kind;
+};
+
+// McGuire, Evangelakos, Wilcox, Donow, Mara, 2013, Plausible Blinn-Phong Reflection of Standard
+// Cube MIP-Maps: one fetch at the level whose texels are as large as the lobe of half vectors.
+vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axis) {
+    float exponent = 1.0 / max(lobe_variance(lobe.shape), 1e-8) - 1.0;
+    return textureLod(environment_cube, to_environment(surface, axis),
+                      mip_level(environment_width(), exponent)).rgb;
+}
+
+// Whether a round lobe is read from two cubes. Of GGX lobes there is but one.
+bool is_blended(uint kind) {
+    return ENVIRONMENT_BLENDED && kind != DISTRIBUTION_GGX;
+}
+
+prefiltered_blend levels_of_lobe(uint kind, float width, float concentration) {
+    if (is_blended(kind))
+        return blend_of_lobe(width, concentration);
+    return prefiltered_blend(prefiltered_level(width, concentration), 0.0, 1.0);
+}
+
+float finest_concentration(uint kind, float width) {
+    return prefiltered_concentration(width, 0.0) * (is_blended(kind) ? 2.0 : 1.0);
+}
+
+// The environment through a round lobe.
+vec3 prefiltered_radiance(uint kind, vec3 direction, prefiltered_blend levels) {
+    if (kind == DISTRIBUTION_GGX)
+        return textureLod(prefiltered_environment_ggx, direction, levels.level).rgb;
+    vec3 radiance = textureLod(prefiltered_environment, direction, levels.level).rgb;
+    if (is_blended(kind))
+        radiance = mix(textureLod(environment_between, direction, levels.level_between).rgb,
+                       radiance, levels.share);
+    return radiance;
+}
+
+// An elongated lobe is a row of round ones, of Gaussian weights: n at distances of
+// sqrt(12/(n + 1)) have a variance of one (to 7 %), and overlap without a ripple as long as they
+// are half as broad as they are apart. Those conditions say how many it takes, and how broad they
+// have to be where there are not as many.
+vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) {
+    direction_lobe lobe = principal_lobe(incoming);
+    float major = dot(lobe.first, lobe.first);
+    float minor = dot(lobe.second, lobe.second);
+    float wanted = ceil(3.0 * major / max(minor, 1e-3 * major) - 4.0 - 0.5);
+    float count = clamp(wanted, 1.0, float(ENVIRONMENT_PROBES));
+    float variance = count > 1.0 ? max(minor, 3.0 * major / (count + 4.0)) : sqrt(major * minor);
+    float reach = sqrt(max(major - variance, 0.0) / major) * sqrt(12.0 / (count + 1.0));
+    float width = float(textureSize(prefiltered_environment, 0).x);
+    float concentration = 1.0 / max(variance, 1e-8);
+    prefiltered_blend levels = levels_of_lobe(kind, width, concentration);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint i = 0u; i < uint(count); ++i) {
+        float place = float(i) - 0.5 * (count - 1.0);
+        float weight = exp(-6.0 / (count + 1.0) * place * place);
+        vec3 direction = lobe.axis + place * reach * lobe.first;
+        sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), levels);
+        weights += weight;
+    }
+    // Lobes too sharp for the finest level are, in part, the radiance itself.
+    float unfiltered = count > 1.0 ? 0.0
+                                   : radiance_share(finest_concentration(kind, width),
+                                                    environment_width(), concentration);
+    vec3 radiance = textureLod(environment_cube, to_environment(surface, lobe.axis), 0.0).rgb;
+    return mix(sum / weights, radiance, unfiltered);
+}
+
+// Mean radiance over the incoming lobe that belongs to a lobe of half vectors.
+vec3 lobe_radiance(surface_point surface, half_vector_distribution lobe, direction_lobe incoming) {
+    vec3 mean = ENVIRONMENT_METHOD == ENVIRONMENT_MIP
+                    ? mip_radiance(surface, lobe, incoming.axis)
+                    : probed_radiance(surface, lobe.kind, incoming);
+    return environment.intensity * mean;
+}
+
+#endif

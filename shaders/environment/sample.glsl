@@ -1,0 +1,224 @@
+#ifndef ENVIRONMENT_SAMPLE_GLSL
+#define ENVIRONMENT_SAMPLE_GLSL
+
+// One unbiased sample of the light that a base material reflects of the environment, for pictures
+// that are the mean of many: a direction drawn from the environment and one drawn from the
+// material, weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining Sampling
+// Techniques for Monte Carlo Rendering, Eq. 14).
+//
+// The environment is that of the exact integral: radiance is constant within a texel of level 0.
+
+#include "shading/base_material.glsl"
+#include "environment/environment.glsl"
+#include "lib/light/cube_texel.glsl"
+
+// ---------------------------------------------------------------------------------------------
+// Random numbers
+
+// Jarzynski, Olano, 2020, Hash Functions for GPU Rendering: pcg.
+uint scrambled(uint value) {
+    uint state = value * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// Powers of the roots of x^3 = x + 1 and x^4 = x + 1, times 2^32: two and three dimensions (Roberts,
+// 2018, The Unreasonable Effectiveness of Quasirandom Sequences).
+const uint SEQUENCE_STEPS[5] =
+    uint[5](3242174889u, 2447445414u, 3518319155u, 2882110345u, 2360945575u);
+
+// Number `dimension` of this sample, in [0, 1): its sequence begins elsewhere for each pixel and
+// pattern.
+float sample_number(uint dimension) {
+    uint seed = scrambled(uint(gl_FragCoord.x) +
+                          scrambled(uint(gl_FragCoord.y) +
+                                    scrambled(environment.pattern * 8u + dimension)));
+    uint number = seed + environment.sample_number * SEQUENCE_STEPS[dimension];
+    return float(number >> 8u) / 16777216.0;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The environment
+
+float luminance(vec3 colour) {
+    return dot(colour, vec3(0.2126, 0.7152, 0.0722));
+}
+
+int last_level() {
+    return textureQueryLevels(environment_faces) - 1;
+}
+
+vec3 face_texel(int face, ivec2 texel, int level) {
+    return texelFetch(environment_faces, ivec3(texel, face), level).rgb;
+}
+
+// Luminance over the whole sphere. A level holds means, so that the last has all of it.
+float total_luminance() {
+    float sum = 0.0;
+    for (int face = 0; face < 6; ++face)
+        sum += luminance(face_texel(face, ivec2(0), last_level()));
+    return sum * (2.0 * PI / 3.0);
+}
+
+// What a texel of a level sends, all of its children together.
+float texel_luminance(int face, ivec2 texel, int level) {
+    int size = textureSize(environment_faces, level).x;
+    return luminance(face_texel(face, texel, level)) * cube_texel_solid_angle(texel, size);
+}
+
+// Takes the first of two with the probability of its share, and makes the number a new one.
+bool takes_first(float first, float second, inout float number) {
+    float share = first / max(first + second, 1e-30);
+    bool taken = number < share;
+    number = taken ? number / share : (number - share) / max(1.0 - share, 1e-30);
+    number = clamp(number, 0.0, 0.99999994);
+    return taken;
+}
+
+// Clarberg, Jarosz, Akenine-Moller, Jensen, 2005, Wavelet Importance Sampling: down the levels, each
+// time to one of four texels by what they send. The probability density is then the luminance over
+// that of the sphere.
+vec3 direction_from_environment(vec2 numbers) {
+    int face = 0;
+    float left = numbers.x * total_luminance();
+    for (int i = 0; i < 5; ++i) {
+        float sent = luminance(face_texel(face, ivec2(0), last_level())) * (2.0 * PI / 3.0);
+        if (face == i && left >= sent) {
+            left -= sent;
+            face = i + 1;
+        }
+    }
+    numbers.x = clamp(left / max(texel_luminance(face, ivec2(0), last_level()), 1e-30), 0.0,
+                      0.99999994);
+    ivec2 texel = ivec2(0);
+    for (int level = last_level() - 1; level >= 0; --level) {
+        texel *= 2;
+        float a = texel_luminance(face, texel, level);
+        float b = texel_luminance(face, texel + ivec2(1, 0), level);
+        float c = texel_luminance(face, texel + ivec2(0, 1), level);
+        float d = texel_luminance(face, texel + ivec2(1, 1), level);
+        bool left_half = takes_first(a + c, b + d, numbers.x);
+        texel.x += left_half ? 0 : 1;
+        bool upper_half = takes_first(left_half ? a : b, left_half ? c : d, numbers.y);
+        texel.y += upper_half ? 0 : 1;
+    }
+    int size = textureSize(environment_faces, 0).x;
+    vec2 place = (vec2(texel) + numbers) * (2.0 / float(size)) - 1.0;
+    return normalize(cube_direction(face, place));
+}
+
+// Radiance of the texel that a direction of the environment's space lies in.
+vec3 texel_radiance(vec3 direction) {
+    return textureLod(environment_texels, direction, 0.0).rgb;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The material
+
+// A half vector about `axis` from a base lobe, in proportion to D(h) <n, h> or rho(h).
+float half_vector_height(float parameter, float number) {
+    // 1 - cos, without its cancellation.
+    switch (DISTRIBUTION) {
+    case DISTRIBUTION_GGX: {
+        float square = parameter * parameter * number / (1.0 - number);
+        return square / (sqrt(1.0 + square) * (1.0 + sqrt(1.0 + square)));
+    }
+    case DISTRIBUTION_BECKMANN: {
+        float square = -parameter * parameter * log(1.0 - number);
+        return square / (sqrt(1.0 + square) * (1.0 + sqrt(1.0 + square)));
+    }
+    case DISTRIBUTION_BLINN_PHONG: {
+        float exponent = MODEL == MODEL_MICROFACET ? parameter + 2.0 : parameter + 1.0;
+        return -expm1(log(max(1.0 - number, 1e-30)) / exponent);
+    }
+    default:
+        // Wood, 1994, Simulation of the von Mises Fisher Distribution, inverted.
+        return clamp(-log(1.0 + number * expm1(-2.0 * parameter)) / max(parameter, 1e-6), 0.0, 2.0);
+    }
+}
+
+// Its probability density per steradian of half vectors, by its height 1 - cos.
+float half_vector_density(vec3 axis, vec3 halfway, float parameter) {
+    if (MODEL == MODEL_HALF_VECTOR_LOBES || DISTRIBUTION == DISTRIBUTION_VMF)
+        return half_vector_lobe(DISTRIBUTION, halfway, axis, parameter);
+    return normal_distribution(DISTRIBUTION, axis, halfway, parameter) * dot(axis, halfway);
+}
+
+vec3 base_axis(base_material base, int lobe) {
+    return MODEL == MODEL_MICROFACET
+               ? base.normal
+               : rotate_from_pole(base.normal, material.lobe_direction[lobe].xyz);
+}
+
+float base_parameter(base_material base, int lobe) {
+    return MODEL == MODEL_MICROFACET ? widened_width(base) : widened_lobe_parameter(lobe, base);
+}
+
+int base_lobes() {
+    return MODEL == MODEL_MICROFACET ? 1 : int(LOBE_COUNT);
+}
+
+const float LAMBERT_SHARE = 0.5;
+
+float lambert_share() {
+    return DIFFUSE ? LAMBERT_SHARE : 0.0;
+}
+
+vec3 direction_about(vec3 axis, float height, float angle) {
+    float cosine = 1.0 - height;
+    float sine = sqrt(max(height * (2.0 - height), 0.0));
+    return rotate_from_pole(axis, vec3(sine * cos(angle), sine * sin(angle), cosine));
+}
+
+// Half of the directions for Lambert's part, the others from one of the lobes.
+vec3 direction_from_material(base_material base, vec3 outgoing, vec3 numbers) {
+    float angle = 2.0 * PI * numbers.y;
+    if (numbers.z < lambert_share()) {
+        float height = 1.0 - sqrt(1.0 - numbers.x);
+        return direction_about(base.normal, height, angle);
+    }
+    float which = (numbers.z - lambert_share()) / (1.0 - lambert_share());
+    int lobe = min(int(which * float(base_lobes())), base_lobes() - 1);
+    vec3 halfway = direction_about(
+        base_axis(base, lobe), half_vector_height(base_parameter(base, lobe), numbers.x), angle);
+    float cosine = dot(outgoing, halfway);
+    // Facets that look away reflect nothing.
+    return cosine > 0.0 ? 2.0 * cosine * halfway - outgoing : vec3(0.0, 0.0, -1.0);
+}
+
+float material_density(base_material base, vec3 outgoing, vec3 incoming) {
+    vec3 halfway = half_vector(incoming, outgoing);
+    float jacobian = 4.0 * max(dot(outgoing, halfway), 1e-6);
+    float sum = 0.0;
+    for (int i = 0; i < base_lobes(); ++i)
+        sum += half_vector_density(base_axis(base, i), halfway, base_parameter(base, i)) / jacobian;
+    sum *= (1.0 - lambert_share()) / float(base_lobes());
+    return sum + lambert_share() * INVERSE_PI * max(dot(base.normal, incoming), 0.0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Both
+
+vec3 weighted_sample(surface_point surface, base_material base, vec3 incoming, float total) {
+    if (incoming.z <= 0.0)
+        return vec3(0.0);
+    vec3 radiance = texel_radiance(to_environment(surface, incoming));
+    float density = material_density(base, surface.outgoing, incoming) +
+                    luminance(radiance) / max(total, 1e-30);
+    vec3 reflectance = evaluate_base_material(base, surface.outgoing, incoming);
+    return density > 0.0 ? reflectance * radiance * (environment.intensity / density) : vec3(0.0);
+}
+
+vec3 sampled_environment(surface_point surface, base_material base) {
+    float total = total_luminance();
+    vec3 from_environment = direction_from_environment(vec2(sample_number(0u), sample_number(1u)));
+    vec3 world = environment.environment_from_world[0].xyz * from_environment.x +
+                 environment.environment_from_world[1].xyz * from_environment.y +
+                 environment.environment_from_world[2].xyz * from_environment.z;
+    vec3 sum = weighted_sample(surface, base, world * surface.world_from_tangent, total);
+    vec3 numbers = vec3(sample_number(2u), sample_number(3u), sample_number(4u));
+    vec3 from_material = direction_from_material(base, surface.outgoing, numbers);
+    return sum + weighted_sample(surface, base, from_material, total);
+}
+
+#endif

@@ -1,0 +1,84 @@
+#ifndef LOBE_CLUSTERING_GLSL
+#define LOBE_CLUSTERING_GLSL
+
+// Characteristic vectors of base lobes, summed by cluster.
+//
+// Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Each cluster j of a
+// subdivision keeps w_j r_j and, as a fourth channel, w_j: only these can be averaged further.
+// Texels that were left out (outside the atlas, facing away) add nothing to either, so that the
+// weights of a subdivision add up to the coverage.
+
+#include "maps/base_maps.glsl"
+#include "interface/mixture.h"
+#include "lib/map/box_reduction.glsl"
+#include "lib/lobe/half_vector_lobe.glsl"
+#include "lib/lobe/lobe_cluster.glsl"
+#include "lib/lobe/von_mises_fisher.glsl"
+
+layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
+layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
+
+layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
+
+struct cluster_sums {
+    vec4 halves[8]; // finest clusters; only the first where SUBDIVISION is 0
+    vec4 mean;      // normal, and 1 - |r| of the base lobes
+};
+
+cluster_sums no_lobes() {
+    cluster_sums sums;
+    for (int i = 0; i < 8; ++i)
+        sums.halves[i] = vec4(0.0);
+    sums.mean = vec4(0.0);
+    return sums;
+}
+
+// `complement` is 1 - |r| of the lobe, `weight` its share of the target texel.
+void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight) {
+    vec4 moment = weight * vec4((1.0 - complement) * axis, 1.0);
+    if (SUBDIVISION == 0u) {
+        sums.halves[0] += moment;
+    } else {
+        uint cluster = cluster_of(axis);
+        for (uint i = 0u; i < 8u; ++i)
+            sums.halves[i] += i == cluster ? moment : vec4(0.0);
+    }
+    sums.mean.w += weight * complement;
+}
+
+void add_normal(inout cluster_sums sums, vec3 normal, float weight) {
+    sums.mean.xyz += weight * normal;
+}
+
+// 1 - |r| of each base lobe of a texel. Where widths do not vary this is a constant of the
+// dispatch, which the caller takes out of its loop over texels.
+void texel_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]) {
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        complements[i] = mean_resultant_complement(base_concentration(i, width));
+}
+
+void store_layer(ivec2 position, int layer, vec4 value) {
+    imageStore(mixture_map, ivec3(position, layer), value);
+}
+
+void store_clusters(ivec2 position, cluster_sums sums) {
+    if (SUBDIVISION == 0u) {
+        store_layer(position, MIXTURE_LAYER_ONE, sums.halves[0]);
+    } else {
+        vec4 one = vec4(0.0);
+        for (int i = 0; i < 4; ++i) {
+            vec4 sector = sums.halves[2 * i] + sums.halves[2 * i + 1];
+            one += sector;
+            store_layer(position, MIXTURE_LAYER_SECTORS + i, sector);
+            if (SUBDIVISION >= 2u) {
+                store_layer(position, MIXTURE_LAYER_HALVES + 2 * i, sums.halves[2 * i]);
+                store_layer(position, MIXTURE_LAYER_HALVES + 2 * i + 1, sums.halves[2 * i + 1]);
+            }
+        }
+        store_layer(position, MIXTURE_LAYER_ONE, one);
+    }
+    if (MEAN_LAYER != 0u)
+        store_layer(position, int(MEAN_LAYER), sums.mean);
+}
+
+#endif

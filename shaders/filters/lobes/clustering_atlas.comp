@@ -1,0 +1,66 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The finest level of a map of lobe mixtures in object or camera space: as lobe_clustering, with
+// each texel's tangent frame from the mesh's surface atlas. What faces away from the camera is
+// left out (Xu et al. 2017, section 4, Generation of instant BRDF map).
+
+#include "interface/clustering.h"
+#include "filters/lobes/clustering.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 17) uniform sampler2D atlas_normal;   // xyz, coverage
+layout(set = 0, binding = 18) uniform sampler2D atlas_tangent;  // xyz, handedness
+layout(set = 0, binding = 19) uniform sampler2D atlas_position; // xyz
+
+layout(push_constant) uniform constants_block { atlas_constants constants; };
+
+vec3 rotated(vec3 direction) {
+    return vec3(dot(constants.rotation[0].xyz, direction), dot(constants.rotation[1].xyz, direction),
+                dot(constants.rotation[2].xyz, direction));
+}
+
+bool faces_away(vec3 normal, ivec2 texel) {
+    if (constants.eye.w < 0.0)
+        return false;
+    vec3 to_eye = constants.eye.xyz - texelFetch(atlas_position, texel, 0).xyz * constants.eye.w;
+    return dot(normal, to_eye) <= 0.0;
+}
+
+void main() {
+    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(position, imageSize(mixture_map).xy)))
+        return;
+    ivec2 size = ivec2(constants.width, constants.height);
+    vec3 column_weights = box_weights(size.x, position.x);
+    vec3 row_weights = box_weights(size.y, position.y);
+    cluster_sums sums = no_lobes();
+    float complements[MATERIAL_MAXIMUM_LOBES];
+    if (!has_map(MAP_WIDTH))
+        texel_complements(1.0, complements);
+    for (int y = 0; y < box_taps(size.y); ++y) {
+        for (int x = 0; x < box_taps(size.x); ++x) {
+            ivec2 texel = 2 * position + ivec2(x, y);
+            vec4 surface_normal = texelFetch(atlas_normal, texel, 0);
+            if (surface_normal.w == 0.0 || faces_away(surface_normal.xyz, texel))
+                continue;
+            vec4 tangent = texelFetch(atlas_tangent, texel, 0);
+            mat3 from_tangent = mat3(tangent.xyz, tangent.w * cross(surface_normal.xyz, tangent.xyz),
+                                     surface_normal.xyz);
+            float weight = row_weights[y] * column_weights[x];
+            vec3 normal = texel_normal(texel, size);
+            if (has_map(MAP_WIDTH))
+                texel_complements(texel_width(texel, size), complements);
+            add_normal(sums, rotated(from_tangent * normal), weight);
+            for (int i = 0; i < LOBE_COUNT; ++i) {
+                vec3 axis = MODEL == MODEL_MICROFACET
+                                ? normal
+                                : rotate_from_pole(normal, material.lobe_direction[i].xyz);
+                float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
+                add_lobe(sums, rotated(from_tangent * axis), complements[i], weight * share);
+            }
+        }
+    }
+    store_clusters(position, sums);
+}

@@ -1,0 +1,168 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The finest level of a map of lobe moments: every base lobe of the texels under a target texel
+// goes, as mass, place, second moments of the place and sharpness in the Lambert plane, to the
+// bins that it is a member of. All of these are sums, so that any linear filter of the map is that
+// of the lobes. The texels' own lobes are level 0; the map begins where texels are averaged.
+
+#include "maps/base_maps.glsl"
+#include "interface/clustering.h"
+#include "lib/lobe/bin_membership.glsl"
+#include "lib/map/box_reduction.glsl"
+#include "lib/lobe/half_vector_lobe.glsl"
+#include "lib/lobe/lambert_plane.glsl"
+#include "lib/lobe/plane_lobe.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
+layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
+layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
+layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
+layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
+
+layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
+layout(set = 0, binding = 7) uniform sampler2D specular_map;
+layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
+layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants binning; };
+
+layout(push_constant) uniform constants_block { clustering_constants constants; };
+
+struct bin_sums {
+    vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
+    vec3 spread[MOMENT_MAXIMUM_BINS]; // m p p
+    vec3 colour[MOMENT_MAXIMUM_BINS];
+    vec3 diffuse;
+};
+
+// A base lobe of a texel.
+struct plane_lobe {
+    vec2 place;
+    float variance;
+    float mass;
+    vec3 colour;
+};
+
+void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
+    float most = -1e30;
+    for (int i = 0; i < BINS; ++i) {
+        members[i] = bin_likelihood(binning.bins[i], lobe.place, lobe.variance);
+        most = max(most, members[i]);
+    }
+    float sum = 0.0;
+    for (int i = 0; i < BINS; ++i) {
+        members[i] = exp(members[i] - most);
+        sum += members[i];
+    }
+    for (int i = 0; i < BINS; ++i)
+        members[i] /= sum;
+}
+
+// Bin 0 has what is rough; the others share the rest by direction.
+void share_hats(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
+    bool rough = lobe.variance >= binning.hats.w;
+    vec2 d = lobe.place - binning.hats.xy;
+    float middle = PARTITION == PARTITION_CAP ? cap(d, binning.hats.z) : 0.0;
+    for (int i = 0; i < 4; ++i)
+        members[i + 1] = rough ? 0.0 : (1.0 - middle) * quarter(i, d, binning.hats.z);
+    members[0] = rough ? 1.0 : 0.0;
+    members[5] = rough ? 0.0 : middle;
+}
+
+void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
+    float members[MOMENT_MAXIMUM_BINS];
+    if (PARTITION == PARTITION_FITTED)
+        share_fitted(lobe, members);
+    else
+        share_hats(lobe, members);
+    moment_range range = binning.range;
+    vec2 p = (lobe.place - range.place.xy) / range.place.z;
+    float sharpness = inversesqrt(lobe.variance) / range.largest.y;
+    for (int i = 0; i < BINS; ++i) {
+        float mass = members[i] * weight * lobe.mass / range.largest.x;
+        sums.place[i] += mass * vec4(1.0, p, sharpness);
+        sums.spread[i] += mass * vec3(p * p, p.x * p.y);
+        if (BIN_COLOUR)
+            sums.colour[i] += mass * lobe.colour;
+    }
+}
+
+vec4 texel_of(int map, sampler2D image, ivec2 texel, ivec2 base_size) {
+    return has_map(map) ? texelFetch(image, texel * textureSize(image, 0) / base_size, 0)
+                        : vec4(1.0);
+}
+
+// Specular: F0 of microfacets, or the factor of the lobes' colours. Diffuse: what is not metal.
+void texel_colours(ivec2 texel, ivec2 size, out vec3 specular, out vec3 diffuse) {
+    diffuse =
+        material.base_colour.rgb * texel_of(MAP_BASE_COLOUR, base_colour_map, texel, size).rgb;
+    if (MODEL == MODEL_MICROFACET) {
+        float metallic = material.metallic;
+        if (METALLIC_MAP)
+            metallic *= texel_of(MAP_WIDTH, width_map, texel, size).b;
+        specular = mix(vec3(0.04), diffuse, metallic);
+        diffuse *= 1.0 - metallic;
+    } else {
+        specular = texel_of(MAP_SPECULAR, specular_map, texel, size).rgb;
+    }
+}
+
+plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
+    bool microfacet = MODEL == MODEL_MICROFACET;
+    float parameter = base_parameter(i, factor);
+    uint distribution = DISTRIBUTION;
+    if (BASE_AS_LOBE) {
+        parameter = base_lobe_concentration(DISTRIBUTION, parameter);
+        distribution = DISTRIBUTION_VMF;
+    }
+    float share = microfacet ? 1.0 : material.lobe_colour[i].w;
+    plane_lobe lobe;
+    lobe.place = plane_from_direction(
+        microfacet ? normal : rotate_from_pole(normal, material.lobe_direction[i].xyz));
+    lobe.variance = plane_variance(distribution, parameter);
+    lobe.mass = share * plane_mass(MODEL, distribution, parameter);
+    lobe.colour = specular / binning.range.largest.z;
+    if (!microfacet)
+        lobe.colour *= material.lobe_colour[i].rgb / max(share, 1e-6);
+    return lobe;
+}
+
+void main() {
+    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(position, imageSize(moment_map).xy)))
+        return;
+    ivec2 size = ivec2(constants.width, constants.height);
+    vec3 column_weights = box_weights(size.x, position.x);
+    vec3 row_weights = box_weights(size.y, position.y);
+    bin_sums sums;
+    sums.diffuse = vec3(0.0);
+    for (int i = 0; i < BINS; ++i) {
+        sums.place[i] = vec4(0.0);
+        sums.spread[i] = sums.colour[i] = vec3(0.0);
+    }
+    for (int y = 0; y < box_taps(size.y); ++y) {
+        for (int x = 0; x < box_taps(size.x); ++x) {
+            ivec2 texel = 2 * position + ivec2(x, y);
+            float weight = row_weights[y] * column_weights[x];
+            vec3 normal = texel_normal(texel, size);
+            float factor = texel_width(texel, size);
+            vec3 specular = vec3(0.0), diffuse = vec3(0.0);
+            if (BIN_COLOUR)
+                texel_colours(texel, size, specular, diffuse);
+            sums.diffuse += weight * diffuse;
+            for (int i = 0; i < LOBE_COUNT; ++i)
+                add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
+        }
+    }
+    int layers = BIN_COLOUR ? 3 : 2;
+    for (int i = 0; i < BINS; ++i) {
+        imageStore(moment_map, ivec3(position, layers * i), sums.place[i]);
+        imageStore(moment_map, ivec3(position, layers * i + 1), vec4(sums.spread[i], 0.0));
+        if (BIN_COLOUR)
+            imageStore(moment_map, ivec3(position, layers * i + 2), vec4(sums.colour[i], 0.0));
+    }
+    if (BIN_COLOUR)
+        imageStore(moment_map, ivec3(position, layers * BINS),
+                   vec4(sums.diffuse / binning.range.largest.z, 0.0));
+}

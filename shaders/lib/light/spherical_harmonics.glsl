@@ -1,0 +1,56 @@
+#ifndef LIB_SPHERICAL_HARMONICS_GLSL
+#define LIB_SPHERICAL_HARMONICS_GLSL
+
+#include "interface/irradiance_harmonics.h"
+#include "lib/lobe/von_mises_fisher.glsl"
+
+// Real spherical harmonics up to degree 2, orthonormal over the sphere: Ramamoorthi, Hanrahan,
+// 2001, An Efficient Representation for Irradiance Environment Maps, Eq. 3. For a unit direction.
+void spherical_harmonics(vec3 direction, out float basis[HARMONICS]) {
+    vec3 d = direction;
+    basis[0] = 0.282094791773878143; // sqrt(1/(4 pi))
+    const float linear = 0.488602511902919921; // sqrt(3/(4 pi))
+    basis[1] = linear * d.y;
+    basis[2] = linear * d.z;
+    basis[3] = linear * d.x;
+    const float quadratic = 1.09254843059207907; // sqrt(15/(4 pi))
+    basis[4] = quadratic * d.x * d.y;
+    basis[5] = quadratic * d.y * d.z;
+    basis[6] = 0.315391565252520002 * (3.0 * d.z * d.z - 1.0); // sqrt(5/(16 pi))
+    basis[7] = quadratic * d.x * d.z;
+    basis[8] = 0.5 * quadratic * (d.x * d.x - d.y * d.y);
+}
+
+// Their sum, with degrees 1 and 2 multiplied by something. Never negative: nine harmonics of a
+// single light ring down to -4 % of its irradiance behind it.
+vec3 harmonic_irradiance_by_degree(vec4 coefficients[HARMONICS], vec3 direction, float first,
+                                   float second) {
+    float basis[HARMONICS];
+    spherical_harmonics(direction, basis);
+    vec3 sum = basis[0] * coefficients[0].rgb;
+    for (int i = 1; i < 4; ++i)
+        sum += (first * basis[i]) * coefficients[i].rgb;
+    for (int i = 4; i < HARMONICS; ++i)
+        sum += (second * basis[i]) * coefficients[i].rgb;
+    return max(sum, vec3(0.0));
+}
+
+// Irradiance of a surface with this unit normal: Ramamoorthi, Hanrahan, 2001, Eq. 6.
+vec3 harmonic_irradiance(vec4 coefficients[HARMONICS], vec3 normal) {
+    return harmonic_irradiance_by_degree(coefficients, normal, 1.0, 1.0);
+}
+
+// Mean irradiance of surfaces whose normals have the mean r mu, 0 <= r <= 1, and are distributed
+// about mu as von Mises-Fisher. A convolution with such a distribution multiplies degree l by
+// its own coefficient (Funk, Hecke; Ramamoorthi, Hanrahan, 2001, On the Relationship between
+// Radiance and Irradiance, Eq. 21), which is the mean of the Legendre polynomial P_l(<mu, omega>):
+// Mardia, Jupp, 2000, Directional Statistics, section 9.3,
+//   A_1 = R(kappa) = r,   A_2 = I_{5/2}(kappa)/I_{1/2}(kappa) = 1 - 3 r/kappa.
+vec3 harmonic_irradiance_of_mean_normal(vec4 coefficients[HARMONICS], vec3 mean_normal) {
+    // Without any direction left both are zero: 1e-6 keeps r/kappa, which tends to 1/3, off 0/0.
+    float r = clamp(length(mean_normal), 1e-6, 1.0);
+    float second = max(1.0 - 3.0 * r / concentration_from_resultant(r, 1.0 - r), 0.0);
+    return harmonic_irradiance_by_degree(coefficients, mean_normal / r, r, second);
+}
+
+#endif

@@ -1,0 +1,61 @@
+#ifndef LIB_PLANE_LOBE_GLSL
+#define LIB_PLANE_LOBE_GLSL
+
+#include "interface/specialisation.h"
+#include "lib/lobe/base_lobe.glsl"
+#include "lib/microfacet/normal_distribution.glsl"
+#include "lib/lobe/von_mises_fisher.glsl"
+
+// A base lobe as a bell in the Lambert plane: its variance v about its place, and its mass, the
+// integral of the bell, chosen so that the peak mass / (2 pi v) is the lobe's own. Distributions of
+// microfacet normals have a projected area of one; their mass is therefore above one.
+
+// Broader lobes are taken to be this broad, and keep their peak; but GGX keeps its projected area.
+const float PLANE_VARIANCE_MAXIMUM = 5.0;
+
+// GGX, with sin^2 = x^2 at small x = |q|:
+//   D = a/(pi (a + (1 - a) x^2)^2) = 1/(1 - a) (1/(pi e)) (1 + x^2/e)^-2,
+//   a = alpha^2, e = a/(1 - a):
+// Student's t distribution of two degrees of freedom, of mass 1/(1 - a). Its variance is infinite;
+// v = e/2 is that of Beckmann's distribution of the same curvature.
+const float GGX_SQUARE_MAXIMUM = 0.9;
+
+float plane_variance(uint distribution, float parameter) {
+    if (distribution == DISTRIBUTION_GGX) {
+        float square = min(parameter * parameter, GGX_SQUARE_MAXIMUM);
+        return 0.5 * square / (1.0 - square);
+    }
+    return min(1.0 / base_lobe_concentration(distribution, parameter), PLANE_VARIANCE_MAXIMUM);
+}
+
+// The parameter of the base lobe of a variance.
+float parameter_of_plane_variance(uint distribution, float variance) {
+    if (distribution == DISTRIBUTION_GGX)
+        return sqrt(2.0 * variance / (1.0 + 2.0 * variance));
+    return base_lobe_of_concentration(distribution, 1.0 / variance);
+}
+
+float plane_mass(uint model, uint distribution, float parameter) {
+    float variance = plane_variance(distribution, parameter);
+    bool microfacet = model == MODEL_MICROFACET;
+    switch (distribution) {
+    case DISTRIBUTION_GGX:
+        return 1.0 + 2.0 * variance;
+    case DISTRIBUTION_BECKMANN:
+        return 1.0;
+    case DISTRIBUTION_BLINN_PHONG:
+        return variance * (microfacet ? parameter + 2.0 : parameter + 1.0);
+    default:
+        return 2.0 * PI * variance * von_mises_fisher_peak(parameter) /
+               (microfacet ? von_mises_fisher_projected_area(parameter) : 1.0);
+    }
+}
+
+// Student's t distribution of two degrees of freedom as a sum of Gaussians of variances s v and
+// weights c, for GGX: the first TAIL_TERMS of each, fitted for the least squared error over
+// x/alpha < 6, weighted by x / D. The mass beyond, 2.5 %, is left out.
+const int TAIL_TERMS = 3;
+const vec3 TAIL_WEIGHT = vec3(0.3115, 0.4593, 0.2037);
+const vec3 TAIL_SPREAD = vec3(0.4592, 1.7128, 8.7987);
+
+#endif

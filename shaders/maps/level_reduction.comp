@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// One MIP level of an array of linear maps from the level above it, at any size.
+
+#include "lib/map/box_reduction.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform sampler2DArray source;
+layout(set = 0, binding = 1) uniform writeonly image2DArray target;
+
+void main() {
+    ivec3 position = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(position, imageSize(target))))
+        return;
+    ivec2 size = textureSize(source, 0).xy;
+    vec3 column_weights = box_weights(size.x, position.x);
+    vec3 row_weights = box_weights(size.y, position.y);
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < box_taps(size.y); ++y) {
+        vec4 row = vec4(0.0);
+        for (int x = 0; x < box_taps(size.x); ++x)
+            row += column_weights[x] *
+                   texelFetch(source, ivec3(2 * position.xy + ivec2(x, y), position.z), 0);
+        sum += row_weights[y] * row;
+    }
+    imageStore(target, position, sum);
+}

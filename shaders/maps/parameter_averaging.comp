@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The finest level of the naive filter's map: normals and concentrations averaged like colours.
+// Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
+
+#include "maps/base_maps.glsl"
+#include "interface/clustering.h"
+#include "lib/map/box_reduction.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 16) uniform writeonly image2DArray parameter_map;
+
+layout(push_constant) uniform constants_block { clustering_constants constants; };
+
+void main() {
+    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(position, imageSize(parameter_map).xy)))
+        return;
+    ivec2 size = ivec2(constants.width, constants.height);
+    vec3 column_weights = box_weights(size.x, position.x);
+    vec3 row_weights = box_weights(size.y, position.y);
+    vec4 mean = vec4(0.0);
+    for (int y = 0; y < box_taps(size.y); ++y) {
+        for (int x = 0; x < box_taps(size.x); ++x) {
+            ivec2 texel = 2 * position + ivec2(x, y);
+            float factor = texel_width(texel, size);
+            float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
+            mean += row_weights[y] * column_weights[x] * vec4(texel_normal(texel, size), width);
+        }
+    }
+    imageStore(parameter_map, ivec3(position, 0), mean);
+}

@@ -1,0 +1,76 @@
+#ifndef AVERAGED_MAPS_GLSL
+#define AVERAGED_MAPS_GLSL
+
+// Fetching one mean normal and one mean width of a footprint, for filters that take them for those
+// of one texel.
+
+#include "shading/filtered_maps.glsl"
+#include "lib/lobe/characteristic_vector.glsl"
+
+#ifdef ENVIRONMENT
+#include "environment/lobes.glsl"
+#endif
+
+layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;
+
+// xyz: mean normal; w: mean of the concentration of microfacets, or of the factor of the lobes'
+// widths (see parameter_averaging.comp).
+layout(set = 0, binding = 16) uniform sampler2D parameter_map;
+
+struct appearance {
+    base_material base;
+    vec3 mean_normal; // of any length up to one
+    vec3 emission;
+    float alpha;
+    vec3 normal;
+    float lobe_count;
+    float level;
+};
+
+// What parameter_averaging.comp averages, of one texel; and back.
+float averaged_width(base_material base) {
+    return MODEL == MODEL_MICROFACET ? base_lobe_concentration(DISTRIBUTION, base.width)
+                                     : base.width;
+}
+
+float width_from_average(float average) {
+    return MODEL == MODEL_MICROFACET ? base_lobe_of_concentration(DISTRIBUTION, average) : average;
+}
+
+// The averages over the footprint: a normal of any length, and a width.
+vec4 fetch_averages(map_area area, surface_point surface) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i)
+        sum += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
+    sum /= float(probes_of(area));
+    if (may_see_level_0(lobe_map())) {
+        base_material base = unfiltered_material(surface);
+        sum = mix(vec4(base.normal, averaged_width(base)), sum, min(area.level, 1.0));
+    }
+    return sum;
+}
+
+appearance fetch_appearance(surface_point surface) {
+    appearance result;
+    map_area area = lobe_area(surface);
+    vec4 averages = AVERAGED ? fetch_averages(area, surface) : vec4(0.0);
+    result.normal = AVERAGED ? mean_direction(averages.xyz, vec3(0.0, 0.0, 1.0))
+                             : unfiltered_normal(surface);
+    result.mean_normal = AVERAGED ? averages.xyz : result.normal;
+    result.base = filtered_material(surface, result.normal, area);
+    if (AVERAGED)
+        result.base.width = width_from_average(averages.w);
+    result.alpha = 1.0;
+    if (ALPHA_MASK)
+        result.alpha = filtered_base_colour(surface, area).a * material.base_colour.a *
+                       surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
+    result.lobe_count = float(LOBE_COUNT);
+    result.level = AVERAGED ? area.level : 0.0;
+    return result;
+}
+
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+}
+
+#endif

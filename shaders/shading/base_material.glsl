@@ -1,0 +1,130 @@
+#ifndef BASE_MATERIAL_GLSL
+#define BASE_MATERIAL_GLSL
+
+// A material at one point of its maps, and its reflectance: what `direct` and the reference
+// evaluate, and what all filters are to average.
+
+#include "shading/albedo_table.glsl"
+#include "lib/number/angle.glsl"
+#include "lib/lobe/base_lobe.glsl"
+#include "lib/lobe/half_vector_lobe.glsl"
+#include "lib/microfacet/microfacet.glsl"
+#include "lib/map/normal_map.glsl"
+#include "lib/lobe/normal_variance.glsl"
+#include "lib/lobe/von_mises_fisher.glsl"
+#include "shading/surface.glsl"
+
+struct base_material {
+    vec3 normal;   // in the tangent frame
+    vec3 diffuse;  // albedo of the Lambert part
+    vec3 specular; // microfacets: F0; half-vector lobes: factor of every lobe's colour
+    float width;   // microfacets: the distribution's parameter; lobes: factor of their widths
+    float variance; // of normals under the pixel, which widens the lobes; 0: none
+};
+
+// A lobe's parameter with the spread of normals inside a texel.
+float convolved(float parameter) {
+    return NORMAL_CONCENTRATION
+               ? convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration)
+               : parameter;
+}
+
+// The material's constants times the texels of its maps, white where it has none.
+base_material assemble_material(surface_point surface, vec3 normal, vec4 base_colour, vec4 width,
+                                vec3 specular) {
+    base_material base;
+    vec3 albedo = material.base_colour.rgb * base_colour.rgb;
+    if (VERTEX_COLOUR)
+        albedo *= surface.colour.rgb;
+    base.normal = normal;
+    base.variance = isotropic_variance(surface.curvature);
+    if (MODEL == MODEL_MICROFACET) {
+        float metallic = material.metallic * (METALLIC_MAP ? width.b : 1.0);
+        // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
+        base.diffuse = albedo * (1.0 - metallic);
+        base.specular = mix(vec3(0.04), albedo, metallic);
+        base.width = convolved(microfacet_parameter(DISTRIBUTION, material.roughness * width.g));
+    } else {
+        base.diffuse = albedo;
+        base.specular = specular;
+        base.width = width.r;
+    }
+    return base;
+}
+
+float half_vector_lobe_parameter(int i, float factor) {
+    return convolved(base_lobe_parameter(DISTRIBUTION, material.lobe_direction[i].w * factor));
+}
+
+float widened_lobe_parameter(int i, base_material base) {
+    return widened_parameter(DISTRIBUTION, half_vector_lobe_parameter(i, base.width),
+                             base.variance);
+}
+
+// Of microfacets. Their masking is widened too: facets that lean away hide each other, and at a
+// silhouette nothing else holds a broad distribution down.
+float widened_width(base_material base) {
+    return widened_parameter(DISTRIBUTION, base.width, base.variance);
+}
+
+float evaluate_half_vector_lobe(vec3 half_vector, vec3 axis, float parameter) {
+    return BASE_AS_LOBE ? von_mises_fisher(half_vector, axis,
+                                           base_lobe_concentration(DISTRIBUTION, parameter))
+                        : half_vector_lobe(DISTRIBUTION, half_vector, axis, parameter);
+}
+
+float evaluate_normal_distribution(vec3 normal, vec3 half_vector, float parameter) {
+    return BASE_AS_LOBE
+               ? distribution_von_mises_fisher(normal, half_vector,
+                                               base_lobe_concentration(DISTRIBUTION, parameter))
+               : normal_distribution(DISTRIBUTION, normal, half_vector, parameter);
+}
+
+// The microfacet frame around any distribution of half vectors. `mean_normal` may be shorter than
+// one: its product with the incoming direction is the mean of the texels' cosines.
+vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distribution,
+                          vec3 half_vector, vec3 outgoing, vec3 incoming) {
+    float incoming_cosine = dot(base.normal, incoming);
+    float outgoing_cosine = dot(base.normal, outgoing);
+    if (incoming_cosine <= 0.0 || outgoing_cosine <= 0.0)
+        return vec3(0.0);
+    vec3 fresnel = fresnel_schlick(base.specular, vec3(1.0), dot(incoming, half_vector));
+    float shadowing = masking_shadowing(DISTRIBUTION, incoming_cosine, outgoing_cosine, base.width);
+    return microfacet_specular(fresnel, distribution, shadowing, outgoing_cosine) *
+               scattering_scale(base.specular, outgoing_cosine, base.width) +
+           microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
+}
+
+// All lobes with their colours, but for the specular map's.
+vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
+        sum += material.lobe_colour[i].rgb *
+               evaluate_half_vector_lobe(halfway, axis, widened_lobe_parameter(i, base));
+    }
+    return sum;
+}
+
+// Reflectance times cosine, for unit directions in the tangent frame. Nothing reaches a point
+// from below the macro-surface. `mean_normal` is the Lambert part's: as in evaluate_microfacets.
+vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
+    if (incoming.z <= 0.0)
+        return vec3(0.0);
+    vec3 halfway = half_vector(incoming, outgoing);
+    if (MODEL == MODEL_MICROFACET) {
+        base.width = widened_width(base);
+        float distribution = evaluate_normal_distribution(base.normal, halfway, base.width);
+        return evaluate_microfacets(base, mean_normal, distribution, halfway, outgoing, incoming);
+    }
+    vec3 sum = base.specular * evaluate_half_vector_lobes(base, halfway);
+    if (DIFFUSE)
+        sum += microfacet_diffuse(base.diffuse, vec3(0.0), dot(mean_normal, incoming));
+    return sum;
+}
+
+vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
+    return evaluate_base_material(base, base.normal, outgoing, incoming);
+}
+
+#endif

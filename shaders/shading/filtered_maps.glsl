@@ -1,0 +1,129 @@
+#ifndef FILTERED_MAPS_GLSL
+#define FILTERED_MAPS_GLSL
+
+// Reading maps over a pixel's footprint. A filtered map holds levels 1 and up of its base map (its
+// own level 0 has half the base map's size); level 0 is the base map itself.
+
+#include "interface/mixture.h"
+#include "lib/map/footprint.glsl"
+#include "shading/unfiltered_maps.glsl"
+
+layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
+layout(constant_id = SPECIALISE_LEVEL_BIAS) const float LEVEL_BIAS = 0.0;
+layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
+layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
+layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
+
+layout(set = 0, binding = 17) uniform sampler2D base_colour_filtered;
+layout(set = 0, binding = 18) uniform sampler2D width_filtered;
+layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
+layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
+layout(set = 0, binding = 21) uniform sampler2D occlusion_filtered;
+
+// By how much of its width a footprint may be longer than its probes cover.
+const float SLACK = 0.25;
+
+// Where and how widely a map is read.
+struct map_area {
+    vec2 centre; // texture coordinates
+    vec2 stride; // from probe to probe, along the major axis
+    float level; // of the base map, at least 0
+    uint probes;
+};
+
+uint probes_of(map_area area) {
+    return PROBES > 1u ? area.probes : 1u;
+}
+
+// As many as the footprint is longer than wide.
+uint probes_needed(footprint pixel) {
+    float length = pixel.major_axis / max(pixel.minor_axis, 1e-6 * pixel.major_axis);
+    return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));
+}
+
+// Whether a pixel of this draw may see level 0 of a map.
+bool may_see_level_0(int map) {
+    return (MAGNIFIED_MAPS & (1u << map)) != 0u;
+}
+
+// `size`: texels of the base map.
+map_area area_of(int map, vec2 size, surface_point surface) {
+    footprint pixel =
+        footprint_of(map_coordinates(map, surface.coordinates_dx, 0.0) * size,
+                     map_coordinates(map, surface.coordinates_dy, 0.0) * size);
+    map_area area;
+    area.centre = map_coordinates(map, surface.coordinates, 1.0);
+    area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
+    float probes = float(probes_of(area));
+    area.stride = pixel.direction * (pixel.major_axis / probes) / size;
+    area.level = max(level_of(pixel, probes) + LEVEL_BIAS, may_see_level_0(map) ? 0.0 : 1.0);
+    return area;
+}
+
+// The larger of the maps that lobes come from, in texels.
+vec2 lobe_map_size() {
+    vec2 size = vec2(1.0);
+    if (has_map(MAP_NORMAL))
+        size = max(size, vec2(textureSize(normal_map, 0)));
+    if (has_map(MAP_WIDTH))
+        size = max(size, vec2(textureSize(width_map, 0)));
+    return size;
+}
+
+// The lobes' footprint follows the normal map, or where there is none the width map.
+int lobe_map() {
+    return has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH;
+}
+
+map_area lobe_area(surface_point surface) {
+    return area_of(lobe_map(), lobe_map_size(), surface);
+}
+
+vec2 probe_position(map_area area, uint probe) {
+    return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
+}
+
+// `lobes`: the area of the lobes' map, which serves maps that are laid out like it.
+vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface,
+                    map_area lobes) {
+    if (!has_map(map))
+        return vec4(1.0);
+    if ((COLOUR_MAPS & (1u << map)) == 0u)
+        return textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0);
+    map_area area = lobes;
+    if ((LIKE_LOBES & (1u << map)) == 0u)
+        area = area_of(map, vec2(textureSize(base, 0)), surface);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i) {
+        vec2 position = probe_position(area, i);
+        vec4 value = textureLod(filtered, position, max(area.level - 1.0, 0.0));
+        if (may_see_level_0(map))
+            value = mix(textureLod(base, position, 0.0), value, min(area.level, 1.0));
+        sum += value;
+    }
+    return sum / float(probes_of(area));
+}
+
+vec4 filtered_base_colour(surface_point surface, map_area lobes) {
+    return filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface, lobes);
+}
+
+vec3 filtered_emission(surface_point surface, map_area lobes) {
+    return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface, lobes).rgb;
+}
+
+// What part of the environment's light comes to the footprint.
+float fetch_occlusion(surface_point surface) {
+    float texel = filtered_texel(MAP_OCCLUSION, occlusion_map, occlusion_filtered, surface,
+                                 lobe_area(surface)).r;
+    return unoccluded(texel);
+}
+
+base_material filtered_material(surface_point surface, vec3 normal, map_area lobes) {
+    return assemble_material(
+        surface, normal, filtered_base_colour(surface, lobes),
+        filtered_texel(MAP_WIDTH, width_map, width_filtered, surface, lobes),
+        filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface, lobes).rgb);
+}
+
+#endif

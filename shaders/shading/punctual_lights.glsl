@@ -1,0 +1,49 @@
+#ifndef PUNCTUAL_LIGHTS_GLSL
+#define PUNCTUAL_LIGHTS_GLSL
+
+// The scene's lights, sorted: directional, point, spot.
+
+#include "interface/light.h"
+#include "lib/light/light.glsl"
+#include "shading/surface.glsl"
+
+layout(set = 0, binding = 2, std430) readonly buffer light_block { light lights[]; };
+
+uint light_count() {
+    return (DIRECTIONAL_LIGHTS ? frame.directional_count : 0u) +
+           (POINT_LIGHTS ? frame.point_count : 0u) + (SPOT_LIGHTS ? frame.spot_count : 0u);
+}
+
+bool is_directional(uint i) {
+    return DIRECTIONAL_LIGHTS && (!(POINT_LIGHTS || SPOT_LIGHTS) || i < frame.directional_count);
+}
+
+bool is_spot(uint i) {
+    return SPOT_LIGHTS && (!(DIRECTIONAL_LIGHTS || POINT_LIGHTS) ||
+                           i >= frame.directional_count + frame.point_count);
+}
+
+// Unit direction from a point to light `i`, in the world.
+vec3 light_direction(uint i, vec3 position) {
+    if (!POINT_LIGHTS && !SPOT_LIGHTS)
+        return lights[i].direction.xyz;
+    vec3 towards = normalize(lights[i].position.xyz - position);
+    return is_directional(i) ? lights[i].direction.xyz : towards;
+}
+
+// Irradiance of light `i` at a point, perpendicular to `direction`, which points to it.
+vec3 light_irradiance(uint i, vec3 position, vec3 direction) {
+    float attenuation = 1.0;
+    if (POINT_LIGHTS || SPOT_LIGHTS) {
+        vec3 offset = lights[i].position.xyz - position;
+        attenuation = is_directional(i)
+                          ? 1.0
+                          : distance_attenuation(dot(offset, offset), lights[i].position.w);
+    }
+    if (SPOT_LIGHTS && is_spot(i))
+        attenuation *= cone_attenuation(direction, lights[i].direction.xyz, lights[i].cone.x,
+                                        lights[i].cone.y);
+    return lights[i].intensity.rgb * attenuation;
+}
+
+#endif

@@ -1,0 +1,95 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Shades a pixel under punctual lights, from the appearance that the filter fetches there. The
+// build makes one variant of this shader for each file in filters/. What such a file brings:
+//
+//   struct appearance                           with emission, alpha, normal, lobe_count, level
+//   appearance fetch_appearance(surface_point)  the appearance of the pixel's footprint
+//   void gather_lights(inout appearance, surface_point, vec3 incoming[4])
+//                                               prepares for up to LIGHTS_AT_ONCE directions,
+//                                               so that what is fetched serves them all
+//   vec3 evaluate_appearance(appearance, surface_point, vec3 incoming, uint light)
+//                                               reflectance times cosine for one of those
+//
+// and, where ENVIRONMENT is defined, light comes from all sides as well:
+//   vec3 reflect_environment(inout appearance, surface_point)
+//                                               radiance reflected of it
+//   float fetch_occlusion(surface_point)        how much of it comes to the footprint
+
+#include "filter.glsl"
+#include "shading/punctual_lights.glsl"
+#ifdef ENVIRONMENT
+#include "environment/integral.glsl"
+#endif
+
+layout(location = 0) out vec4 radiance_out;
+#ifdef AOV
+layout(location = 1) out vec4 normal_depth_out;
+layout(location = 2) out vec2 lobes_level_out;
+#endif
+
+vec3 incoming_direction(uint i, surface_point surface) {
+    return light_direction(i, surface.world_position) * surface.world_from_tangent;
+}
+
+// Radiance from all lights, LIGHTS_AT_ONCE after LIGHTS_AT_ONCE.
+vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
+    vec3 sum = vec3(0.0);
+    uint count = light_count();
+    for (uint first = 0u; first < count; first += LIGHTS_AT_ONCE) {
+        vec3 incoming[4];
+        incoming[0] = incoming_direction(first, surface);
+        incoming[1] = LIGHTS_AT_ONCE > 1u ? incoming_direction(min(first + 1u, count - 1u), surface)
+                                          : incoming[0];
+        incoming[2] = LIGHTS_AT_ONCE > 2u ? incoming_direction(min(first + 2u, count - 1u), surface)
+                                          : incoming[0];
+        incoming[3] = LIGHTS_AT_ONCE > 3u ? incoming_direction(min(first + 3u, count - 1u), surface)
+                                          : incoming[0];
+        gather_lights(fetched, surface, incoming);
+        for (uint i = 0u; i < LIGHTS_AT_ONCE && first + i < count; ++i) {
+            vec3 direction = light_direction(first + i, surface.world_position);
+            sum += light_irradiance(first + i, surface.world_position, direction) *
+                   evaluate_appearance(fetched, surface, direction * surface.world_from_tangent, i);
+        }
+    }
+    return sum;
+}
+
+#ifdef ENVIRONMENT
+vec3 environment_light(inout appearance fetched, surface_point surface) {
+    vec3 reflected = ENVIRONMENT_METHOD == ENVIRONMENT_EXACT
+                         ? integrated_environment(fetched, surface)
+                         : reflect_environment(fetched, surface);
+    return fetch_occlusion(surface) * reflected;
+}
+#endif
+
+void main() {
+    surface_point surface = read_surface();
+    appearance fetched = fetch_appearance(surface);
+    if (ALPHA_MASK && fetched.alpha < material.emissive.w)
+        discard;
+
+    // Views of what it took to shade need the shading.
+    vec3 value = vec3(0.0);
+    if (DIRECTIONAL_LIGHTS || POINT_LIGHTS || SPOT_LIGHTS)
+        value = reflected_radiance(fetched, surface);
+#ifdef ENVIRONMENT
+    value += environment_light(fetched, surface);
+#endif
+    if (EMISSION)
+        value += material.emissive.rgb * fetched.emission;
+    if (VIEW == VIEW_LOBES)
+        value = vec3(fetched.lobe_count);
+    if (VIEW == VIEW_LEVEL)
+        value = vec3(fetched.level);
+    radiance_out = vec4(value, 1.0);
+
+#ifdef AOV
+    vec3 world_normal = normalize(surface.world_from_tangent * fetched.normal);
+    float depth = dot(frame.axis.xyz, surface.world_position) - frame.axis.w;
+    normal_depth_out = vec4(world_normal, depth);
+    lobes_level_out = vec2(fetched.lobe_count, fetched.level);
+#endif
+}

@@ -1,0 +1,112 @@
+#ifndef SLOPE_APPEARANCE_GLSL
+#define SLOPE_APPEARANCE_GLSL
+
+// Shading from slope moments. Level 0 of the maps is the base material itself. What a file in
+// filters/ brings, the structure before it includes this one:
+//
+//   struct footprint_lobe                         what its lobe is made of
+//   footprint_lobe footprint_lobe_of(slope_moments)
+//   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
+//   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
+//                                                 as gather_lights and evaluate_appearance
+
+#include "shading/slope_maps.glsl"
+
+struct appearance {
+    base_material base;     // level 0, where it may be seen; its colours are the footprint's
+    base_material filtered; // averaged over the footprint
+    slope_moments moments;
+    footprint_lobe lobe;
+    float base_share; // [0, 1]: how much of the appearance is level 0
+    vec4 gathered;    // what the filter keeps for each of the lights gathered last
+    vec3 emission;
+    float alpha;
+    vec3 normal;
+    float lobe_count;
+    float level;
+};
+
+footprint_lobe footprint_lobe_of(slope_moments moments);
+void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
+vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
+
+void fetch_base(inout appearance fetched, surface_point surface) {
+    fetched.base = unfiltered_material(surface);
+    fetched.base.normal = scaled_normal(fetched.base.normal);
+    fetched.base.diffuse = fetched.filtered.diffuse;
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        fetched.base.specular = fetched.filtered.specular;
+}
+
+appearance fetch_appearance(surface_point surface) {
+    appearance result;
+    map_area area = lobe_area(surface);
+    result.base_share = 1.0;
+    result.level = 0.0;
+    if (SLOPES) {
+        result.level = area.level;
+        result.base_share = may_see_level_0(lobe_map()) ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
+        result.moments = fetch_moments(area, surface);
+        result.lobe = footprint_lobe_of(result.moments);
+        result.normal = normal_of_slope(result.moments.mean);
+    } else {
+        result.normal = scaled_normal(unfiltered_normal(surface));
+    }
+    result.filtered = filtered_material(surface, result.normal, area);
+    if (SLOPES && may_see_level_0(lobe_map()))
+        fetch_base(result, surface);
+    if (SLOPES && MODEL == MODEL_MICROFACET)
+        result.filtered.width =
+            base_lobe_of_concentration(DISTRIBUTION, 1.0 / result.moments.base_variance);
+    result.gathered = vec4(0.0);
+    result.alpha = 1.0;
+    if (ALPHA_MASK)
+        result.alpha = filtered_base_colour(surface, area).a * material.base_colour.a *
+                       surface.colour.a;
+    result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
+    result.lobe_count = (result.base_share > 0.0 ? float(LOBE_COUNT) : 0.0) +
+                        (result.base_share < 1.0 ? 1.0 : 0.0);
+    return result;
+}
+
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (SLOPES)
+        gather_footprint(fetched, surface, incoming);
+}
+
+vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
+    if (!SLOPES)
+        return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
+    if (incoming.z <= 0.0)
+        return vec3(0.0);
+    vec3 sum = evaluate_footprint(fetched, surface.outgoing, incoming, light);
+    if (may_see_level_0(lobe_map()))
+        sum = mix(sum, evaluate_base_material(fetched.base, surface.outgoing, incoming),
+                  fetched.base_share);
+    return sum;
+}
+
+// The colour of all base lobes together.
+vec3 lobes_colour() {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        sum += material.lobe_colour[i].rgb;
+    return sum;
+}
+
+#ifdef ENVIRONMENT
+// As evaluate_footprint, of the environment: what the filter brings.
+vec3 reflect_footprint(appearance fetched, surface_point surface);
+
+vec3 reflect_environment(appearance fetched, surface_point surface) {
+    if (!SLOPES)
+        return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
+    vec3 sum = reflect_footprint(fetched, surface);
+    if (may_see_level_0(lobe_map()))
+        sum = mix(sum, reflect_base_material(surface, fetched.base, fetched.base.normal),
+                  fetched.base_share);
+    return sum;
+}
+#endif
+
+#endif

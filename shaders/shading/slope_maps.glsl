@@ -1,0 +1,58 @@
+#ifndef SLOPE_MAPS_GLSL
+#define SLOPE_MAPS_GLSL
+
+// Reading maps of slope moments over a pixel's footprint.
+
+#include "shading/filtered_maps.glsl"
+#include "interface/slope_moments.h"
+#include "lib/lobe/characteristic_vector.glsl"
+#include "lib/microfacet/slope_distribution.glsl"
+#include "lib/microfacet/tilted_slopes.glsl"
+
+#ifdef ENVIRONMENT
+#include "environment/lobes.glsl"
+#endif
+
+layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
+layout(constant_id = SPECIALISE_HEIGHT) const float HEIGHT = 1.0;
+
+layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+
+// Of the directions in a footprint, and of the base lobes about them.
+struct slope_moments {
+    vec2 mean;
+    vec3 covariance;     // (xx, yy, xy), of the directions alone
+    float mean_cosine;   // mean n_z
+    float base_variance; // of the base lobes, mean alpha^2/2
+};
+
+vec3 scaled_normal(vec3 normal) {
+    return HEIGHT == 1.0 ? normal : normalize(vec3(HEIGHT * normal.xy, normal.z));
+}
+
+vec4 fetch_moment_layer(map_area area, int layer) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i)
+        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
+                          max(area.level - 1.0, 0.0));
+    return sum / float(probes_of(area));
+}
+
+// Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor, second
+// ones by its square.
+//
+// The surface's own curvature joins the slopes: about its normal, slopes are differences of
+// normals.
+slope_moments fetch_moments(map_area area, surface_point surface) {
+    vec4 first = fetch_moment_layer(area, SLOPE_LAYER_FIRST);
+    vec4 second = fetch_moment_layer(area, SLOPE_LAYER_SECOND);
+    slope_moments result;
+    result.mean = HEIGHT * first.xy;
+    result.covariance =
+        HEIGHT * HEIGHT * covariance_of_moments(first.xy, second.xyz) + surface.curvature;
+    result.mean_cosine = first.z;
+    result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
+    return result;
+}
+
+#endif

@@ -1,0 +1,35 @@
+#ifndef UNFILTERED_MAPS_GLSL
+#define UNFILTERED_MAPS_GLSL
+
+// One sample of the maps as they are, without any filtering over the pixel.
+
+#include "shading/base_material.glsl"
+
+vec4 unfiltered_texel(int map, sampler2D image, surface_point surface) {
+    return has_map(map) ? textureLod(image, map_coordinates(map, surface.coordinates, 1.0), 0.0)
+                        : vec4(1.0);
+}
+
+vec3 unfiltered_normal(surface_point surface) {
+    if (!has_map(MAP_NORMAL))
+        return vec3(0.0, 0.0, 1.0);
+    return decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
+                         material.normal_scale);
+}
+
+vec4 unfiltered_base_colour(surface_point surface) {
+    return unfiltered_texel(MAP_BASE_COLOUR, base_colour_map, surface);
+}
+
+// glTF 2.0, section 3.9.3: of an occlusion map's texel, or a mean of them.
+float unoccluded(float texel) {
+    return has_map(MAP_OCCLUSION) ? 1.0 + material.occlusion_strength * (texel - 1.0) : 1.0;
+}
+
+base_material unfiltered_material(surface_point surface) {
+    return assemble_material(surface, unfiltered_normal(surface), unfiltered_base_colour(surface),
+                             unfiltered_texel(MAP_WIDTH, width_map, surface),
+                             unfiltered_texel(MAP_SPECULAR, specular_map, surface).rgb);
+}
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef TESTS_ENGINE_GRAPH_GRAPH_SUPPORT_H
+#define TESTS_ENGINE_GRAPH_GRAPH_SUPPORT_H
+
+#include <lobe/graph.h>
+
+#include "tests/engine/support/log_recorder.h"
+
+/// A device with validation that knows the test shaders, and one graph on it.
+typedef struct graph_fixture {
+    log_recorder recorder;
+    lobe_device *device;
+    lobe_graph *graph;
+} graph_fixture;
+
+/// For cmocka: a fresh fixture before each test. Tearing down fails where the validation layer
+/// complained, or memory was not given back.
+int graph_fixture_open(void **state);
+int graph_fixture_close(void **state);
+
+/// A buffer without former content, and an image with one level and layer.
+lobe_resource graph_fixture_buffer(graph_fixture *fixture, const char *name, size_t size);
+lobe_resource graph_fixture_image(graph_fixture *fixture, const char *name, lobe_format format,
+                                  uint32_t width, uint32_t height);
+
+/// A compute pass with one dispatch of graph_count.comp: target[n] = factor * n for n < count.
+/// Returns the buffer's new version.
+lobe_resource graph_fixture_count(graph_fixture *fixture, const char *pass, lobe_resource target,
+                                  float factor, uint32_t count);
+/// A compute pass with one dispatch of graph_add.comp: target[n] = source[n] + offset.
+lobe_resource graph_fixture_add(graph_fixture *fixture, const char *pass, lobe_resource source,
+                                lobe_resource target, float offset, uint32_t count);
+
+/// What was done with a pass of the frame; fails the test where there is none of that name.
+lobe_pass_state graph_fixture_state(const graph_fixture *fixture, const char *pass);
+
+/// Executes and asserts that this works.
+void graph_fixture_execute(graph_fixture *fixture);
+/// Executes and asserts that this fails with `expected` and exactly one error line, which contains
+/// all of `words` (up to the first NULL).
+void graph_fixture_expect(graph_fixture *fixture, lobe_result expected, const char *const words[]);
+#define GRAPH_EXPECT(fixture, expected, ...)                                                       \
+    graph_fixture_expect((fixture), (expected), (const char *const[]){__VA_ARGS__, NULL})
+
+#endif

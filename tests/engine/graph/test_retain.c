@@ -1,0 +1,383 @@
+#include "tests/engine/support/cmocka_all.h"
+
+#include <string.h>
+
+#include "tests/engine/graph/graph_support.h"
+
+#define COUNT 64
+#define BYTES (COUNT * sizeof(float))
+
+static lobe_resource retained(graph_fixture *fixture, const char *name, size_t size) {
+    return lobe_graph_buffer(
+        fixture->graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
+}
+
+/// What the frames of these tests differ in.
+typedef struct chain {
+    float source[COUNT], other[COUNT]; ///< uploads
+    float offset;                      ///< of the first pass
+    bool without_second;
+} chain;
+
+/// uploads -> "first" -> kept_1 -> "second" -> kept_2 -> "last" (transient) -> read back; and
+/// "side" from the other upload.
+static lobe_resource declare_chain(graph_fixture *fixture, const chain *frame) {
+    lobe_graph_begin(fixture->graph);
+    lobe_resource source =
+        lobe_graph_upload(fixture->graph, "source", frame->source, sizeof frame->source);
+    lobe_resource other =
+        lobe_graph_upload(fixture->graph, "other", frame->other, sizeof frame->other);
+    lobe_resource middle = graph_fixture_buffer(fixture, "middle", BYTES);
+    middle = graph_fixture_add(fixture, "before", source, middle, 0.0f, COUNT);
+    lobe_resource kept = retained(fixture, "kept_1", BYTES);
+    kept = graph_fixture_add(fixture, "first", middle, kept, frame->offset, COUNT);
+    lobe_resource side = retained(fixture, "side", BYTES);
+    side = graph_fixture_add(fixture, "side", other, side, 1.0f, COUNT);
+    lobe_graph_output(fixture->graph, side);
+    if (!frame->without_second)
+        kept = graph_fixture_add(fixture, "second", kept, retained(fixture, "kept_2", BYTES), 1.0f,
+                                 COUNT);
+    lobe_resource result = graph_fixture_buffer(fixture, "result", BYTES);
+    result = graph_fixture_add(fixture, "last", kept, result, 1.0f, COUNT);
+    lobe_graph_read_back(fixture->graph, result, (lobe_range){0});
+    return result;
+}
+
+static float run_chain(graph_fixture *fixture, const chain *frame) {
+    lobe_resource result = declare_chain(fixture, frame);
+    graph_fixture_execute(fixture);
+    const float *data = lobe_graph_data(fixture->graph, result, NULL);
+    assert_non_null(data);
+    return data[1];
+}
+
+/// In the order "before", "first", "side", "second", "last".
+static void assert_states(const graph_fixture *fixture, lobe_pass_state before,
+                          lobe_pass_state first, lobe_pass_state side, lobe_pass_state second) {
+    assert_int_equal(graph_fixture_state(fixture, "before"), before);
+    assert_int_equal(graph_fixture_state(fixture, "first"), first);
+    assert_int_equal(graph_fixture_state(fixture, "side"), side);
+    assert_int_equal(graph_fixture_state(fixture, "second"), second);
+    assert_int_equal(graph_fixture_state(fixture, "last"), LOBE_PASS_RUN);
+}
+
+static void unchanged_passes_are_skipped(void **state) {
+    graph_fixture *fixture = *state;
+    const chain frame = {.source = {0, 5}};
+    assert_true(run_chain(fixture, &frame) == 7.0f);
+    assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
+    for (int n = 0; n < 2; n++) {
+        assert_true(run_chain(fixture, &frame) == 7.0f);
+        // What only a skipped pass needed is culled, and takes no memory.
+        assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
+                      LOBE_PASS_SKIPPED);
+    }
+}
+
+static void only_dependents_of_a_change_run_again(void **state) {
+    graph_fixture *fixture = *state;
+    chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    frame.other[3] = 1.0f;
+    assert_true(run_chain(fixture, &frame) == 7.0f);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_RUN, LOBE_PASS_SKIPPED);
+    frame.source[1] = 6.0f;
+    assert_true(run_chain(fixture, &frame) == 8.0f);
+    assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
+    // A push constant counts as well as content.
+    frame.offset = 100.0f;
+    assert_true(run_chain(fixture, &frame) == 108.0f);
+    assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
+}
+
+static void invalidation_runs_all_again(void **state) {
+    graph_fixture *fixture = *state;
+    chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    lobe_device_memory first, second;
+    lobe_device_memory_query(fixture->device, &first);
+    lobe_graph_invalidate(fixture->graph);
+    run_chain(fixture, &frame);
+    assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
+    lobe_device_memory_query(fixture->device, &second);
+    assert_int_equal(first.used_bytes, second.used_bytes);
+    run_chain(fixture, &frame);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
+                  LOBE_PASS_SKIPPED);
+    // After the declaration it counts, too.
+    declare_chain(fixture, &frame);
+    lobe_graph_invalidate(fixture->graph);
+    graph_fixture_execute(fixture);
+    assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
+}
+
+static void invalidation_may_spare_some(void **state) {
+    graph_fixture *fixture = *state;
+    chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    lobe_graph_invalidate_except(fixture->graph, "kept");
+    assert_true(run_chain(fixture, &frame) == 7.0f);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_RUN, LOBE_PASS_SKIPPED);
+}
+
+static void what_is_not_declared_again_is_freed(void **state) {
+    graph_fixture *fixture = *state;
+    chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    uint64_t with_second = lobe_graph_describe(fixture->graph)->retained_bytes;
+    frame.without_second = true;
+    assert_true(run_chain(fixture, &frame) == 6.0f);
+    uint64_t without_second = lobe_graph_describe(fixture->graph)->retained_bytes;
+    assert_int_equal(3 * without_second, 2 * with_second);
+    frame.without_second = false;
+    assert_true(run_chain(fixture, &frame) == 7.0f);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
+}
+
+static void another_size_means_another_resource(void **state) {
+    graph_fixture *fixture = *state;
+    for (int n = 0; n < 4; n++) {
+        size_t size = n < 2 ? BYTES : 2 * BYTES;
+        lobe_graph_begin(fixture->graph);
+        lobe_resource kept = retained(fixture, "kept", size);
+        kept = graph_fixture_count(fixture, "count", kept, 1.0f, COUNT);
+        lobe_graph_output(fixture->graph, kept);
+        graph_fixture_execute(fixture);
+        assert_int_equal(graph_fixture_state(fixture, "count"),
+                         n % 2 ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+    }
+}
+
+static void imports_count_by_their_content(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_buffer *buffer = NULL;
+    float data[COUNT] = {1, 2, 3};
+    const lobe_buffer_parameters parameters = {.name = "held", .size = BYTES, .data = data};
+    assert_int_equal(lobe_buffer_create(fixture->device, &parameters, &buffer), LOBE_OK);
+    const lobe_pass_state expected[] = {LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN,
+                                        LOBE_PASS_SKIPPED};
+    for (int n = 0; n < 4; n++) {
+        data[0] = (float)n;
+        if (n == 2)
+            assert_int_equal(lobe_buffer_update(buffer, data), LOBE_OK);
+        lobe_graph_begin(fixture->graph);
+        lobe_resource kept = retained(fixture, "kept", BYTES);
+        kept = graph_fixture_add(fixture, "add", lobe_graph_import_buffer(fixture->graph, buffer),
+                                 kept, 1, COUNT);
+        lobe_graph_read_back(fixture->graph, kept, (lobe_range){0});
+        graph_fixture_execute(fixture);
+        assert_int_equal(graph_fixture_state(fixture, "add"), expected[n]);
+        const float *result = lobe_graph_data(fixture->graph, kept, NULL);
+        assert_true(result[0] == (n < 2 ? 2.0f : 3.0f));
+    }
+    lobe_buffer_destroy(&buffer);
+}
+
+static lobe_resource declare_levels(graph_fixture *fixture, float value) {
+    lobe_graph_begin(fixture->graph);
+    lobe_resource image =
+        lobe_graph_image(fixture->graph, &(lobe_image_description){.name = "levels",
+                                                                   .format = LOBE_FORMAT_R32_FLOAT,
+                                                                   .width = 4,
+                                                                   .height = 4,
+                                                                   .levels = 3,
+                                                                   .retained = true});
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "base");
+    image = lobe_pass_fill(pass, image, (lobe_range){0, 1, 0, 0}, (const float[4]){value});
+    for (uint32_t level = 1; level < 3; level++) {
+        pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "halve");
+        lobe_pass_read(
+            pass,
+            &(lobe_binding){.name = "source", .resource = image, .range = {level - 1, 1, 0, 0}});
+        image = lobe_pass_write(
+            pass, &(lobe_binding){.name = "target", .resource = image, .range = {level, 1, 0, 0}});
+        lobe_pass_dispatch(pass,
+                           &(lobe_dispatch){.shader = "graph_halve.comp", .threads = {4, 4, 1}});
+    }
+    lobe_graph_read_back(fixture->graph, image, (lobe_range){2, 1, 0, 1});
+    return image;
+}
+
+/// Layouts of each level are remembered from frame to frame.
+static void levels_are_retained(void **state) {
+    graph_fixture *fixture = *state;
+    const float values[] = {3.0f, 3.0f, 3.0f, 4.0f, 4.0f};
+    for (int n = 0; n < 5; n++) {
+        bool same = n > 0 && values[n] == values[n - 1];
+        lobe_resource image = declare_levels(fixture, values[n]);
+        graph_fixture_execute(fixture);
+        const float *texel = lobe_graph_data(fixture->graph, image, NULL);
+        assert_true(texel[0] == values[n]);
+        assert_int_equal(graph_fixture_state(fixture, "base"),
+                         same ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+        assert_int_equal(graph_fixture_state(fixture, "halve"),
+                         same ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+    }
+}
+
+/// Content of an earlier version that the memory no longer holds is made again, and then also
+/// what comes after it.
+static void overwritten_content_is_made_again(void **state) {
+    graph_fixture *fixture = *state;
+    const float offsets[] = {1.0f, 1.0f, 2.0f, 2.0f};
+    for (int n = 0; n < 4; n++) {
+        lobe_graph_begin(fixture->graph);
+        lobe_resource kept = retained(fixture, "kept", BYTES);
+        kept = graph_fixture_count(fixture, "early", kept, 1.0f, COUNT);
+        lobe_resource seen = graph_fixture_buffer(fixture, "seen", BYTES);
+        seen = graph_fixture_add(fixture, "look", kept, seen, offsets[n], COUNT);
+        lobe_resource copy = retained(fixture, "copy", BYTES);
+        copy = graph_fixture_add(fixture, "hold", seen, copy, 0.0f, COUNT);
+        kept = graph_fixture_count(fixture, "late", kept, 10.0f, COUNT);
+        lobe_graph_read_back(fixture->graph, copy, (lobe_range){0});
+        lobe_graph_read_back(fixture->graph, kept, (lobe_range){0});
+        graph_fixture_execute(fixture);
+        bool again = n % 2 == 0;
+        assert_int_equal(graph_fixture_state(fixture, "early"),
+                         again ? LOBE_PASS_RUN : LOBE_PASS_SKIPPED);
+        assert_int_equal(graph_fixture_state(fixture, "late"),
+                         again ? LOBE_PASS_RUN : LOBE_PASS_SKIPPED);
+        const float *held = lobe_graph_data(fixture->graph, copy, NULL);
+        assert_true(held[7] == 7.0f + offsets[n]);
+        const float *late = lobe_graph_data(fixture->graph, kept, NULL);
+        assert_true(late[7] == 70.0f);
+    }
+}
+
+static lobe_resource accumulate(graph_fixture *fixture, bool start) {
+    lobe_graph_begin(fixture->graph);
+    lobe_resource sum =
+        lobe_graph_image(fixture->graph, &(lobe_image_description){.name = "sum",
+                                                                   .format = LOBE_FORMAT_R32_FLOAT,
+                                                                   .width = 8,
+                                                                   .height = 8,
+                                                                   .retained = true});
+    lobe_resource sample = graph_fixture_image(fixture, "sample", LOBE_FORMAT_R32_FLOAT, 8, 8);
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "sample");
+    sample = lobe_pass_fill(pass, sample, (lobe_range){0}, (const float[4]){1.5f});
+    if (start) {
+        pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "start");
+        sum = lobe_pass_fill(pass, sum, (lobe_range){0}, (const float[4]){100.0f});
+    }
+    pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "accumulate");
+    lobe_pass_read(pass, &(lobe_binding){.name = "sample_image", .resource = sample});
+    sum = lobe_pass_modify(pass, &(lobe_binding){.name = "sum", .resource = sum});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "graph_accumulate.comp", .threads = {8, 8}});
+    lobe_graph_output(fixture->graph, sum);
+    return sum;
+}
+
+static void sums_run_over_frames(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_resource sum;
+    for (int n = 0; n < 5; n++) {
+        sum = accumulate(fixture, n == 0);
+        if (n == 4)
+            lobe_graph_read_back(fixture->graph, sum, (lobe_range){0});
+        graph_fixture_execute(fixture);
+        assert_int_equal(graph_fixture_state(fixture, "accumulate"), LOBE_PASS_RUN);
+    }
+    const float *texels = lobe_graph_data(fixture->graph, sum, NULL);
+    assert_true(texels[63] == 107.5f);
+    // To start again, the whole chain runs, although it is that of the first frame.
+    accumulate(fixture, true);
+    graph_fixture_execute(fixture);
+    assert_int_equal(graph_fixture_state(fixture, "start"), LOBE_PASS_RUN);
+}
+
+static void a_sum_needs_a_start(void **state) {
+    graph_fixture *fixture = *state;
+    accumulate(fixture, false);
+    GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'accumulate'", "'sum'");
+}
+
+static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
+    graph_fixture *fixture = *state;
+    for (int n = 0; n < 2; n++) {
+        lobe_graph_begin(fixture->graph);
+        lobe_resource kept = retained(fixture, "kept", BYTES);
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill");
+        lobe_pass_fill(pass, kept, (lobe_range){0}, (const float[4]){1.0f});
+        lobe_pass_keep(pass);
+        graph_fixture_execute(fixture);
+        assert_int_equal(graph_fixture_state(fixture, "fill"),
+                         n ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+    }
+}
+
+/// A frame that fails leaves what was kept as it was.
+static void a_failed_frame_changes_nothing(void **state) {
+    graph_fixture *fixture = *state;
+    const chain frame = {.source = {0, 5}};
+    run_chain(fixture, &frame);
+    lobe_resource result = declare_chain(fixture, &frame);
+    lobe_graph_output(fixture->graph, (lobe_resource){.index = result.index, .version = 99});
+    assert_int_equal(lobe_graph_execute(fixture->graph), LOBE_ERROR_GRAPH);
+    fixture->recorder.errors = 0;
+    run_chain(fixture, &frame);
+    assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
+                  LOBE_PASS_SKIPPED);
+}
+
+/// Anything that a draw does differently makes another picture.
+static void raster_passes_are_compared(void **state) {
+    graph_fixture *fixture = *state;
+    static const float vertices[] = {-1, -1, -1, 3, 3, -1};
+    lobe_draw draws[] = {{.index_count = 3},
+                         {.index_count = 3},
+                         {.index_count = 3, .cull = LOBE_CULL_BACK},
+                         {.index_count = 3, .cull = LOBE_CULL_BACK},
+                         {.index_count = 3, .cull = LOBE_CULL_BACK, .blend = LOBE_BLEND_ADD}};
+    const float constants[5] = {1, 1, 1, 1, 0};
+    for (int n = 0; n < 7; n++) {
+        lobe_draw draw = draws[n < 5 ? n : 4];
+        lobe_graph_begin(fixture->graph);
+        lobe_resource picture = lobe_graph_image(
+            fixture->graph, &(lobe_image_description){.name = "picture",
+                                                      .format = LOBE_FORMAT_RGBA16_FLOAT,
+                                                      .width = 8,
+                                                      .height = 8,
+                                                      .retained = true});
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "draw");
+        lobe_pass_read(pass,
+                       &(lobe_binding){.name = "vertex_block",
+                                       .resource = lobe_graph_upload(fixture->graph, "vertices",
+                                                                     vertices, sizeof vertices)});
+        picture = lobe_pass_colour(
+            pass, 0, &(lobe_attachment){.resource = picture, .clear = {n == 6 ? 1.0f : 0.0f}});
+        draw.vertex_shader = "graph_triangle.vert";
+        draw.fragment_shader = "graph_triangle.frag";
+        draw.constants = constants;
+        draw.constants_size = sizeof constants;
+        lobe_pass_draw(pass, &draw);
+        lobe_graph_output(fixture->graph, picture);
+        graph_fixture_execute(fixture);
+        bool same = n == 1 || n == 3 || n == 5;
+        assert_int_equal(graph_fixture_state(fixture, "draw"),
+                         same ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+    }
+}
+
+#define TEST(function)                                                                             \
+    cmocka_unit_test_setup_teardown(function, graph_fixture_open, graph_fixture_close)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(unchanged_passes_are_skipped),
+        TEST(only_dependents_of_a_change_run_again),
+        TEST(invalidation_runs_all_again),
+        TEST(invalidation_may_spare_some),
+        TEST(what_is_not_declared_again_is_freed),
+        TEST(another_size_means_another_resource),
+        TEST(imports_count_by_their_content),
+        TEST(levels_are_retained),
+        TEST(overwritten_content_is_made_again),
+        TEST(sums_run_over_frames),
+        TEST(a_sum_needs_a_start),
+        TEST(a_kept_pass_is_skipped_while_its_results_are_valid),
+        TEST(a_failed_frame_changes_nothing),
+        TEST(raster_passes_are_compared),
+    };
+    return cmocka_run_group_tests_name("graph_retain", tests, NULL, NULL);
+}

@@ -1,0 +1,12 @@
+#ifndef TESTS_ENGINE_SUPPORT_CMOCKA_ALL_H
+#define TESTS_ENGINE_SUPPORT_CMOCKA_ALL_H
+
+// cmocka.h wants these before it.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#endif

@@ -1,0 +1,58 @@
+#ifndef TESTS_ENGINE_SUPPORT_HOST_DEVICE_H
+#define TESTS_ENGINE_SUPPORT_HOST_DEVICE_H
+
+#include <lobe/vulkan.h>
+
+#include "tests/engine/support/log_recorder.h"
+
+/// A program with Vulkan of its own, under the validation layer, that lets lobe use its device.
+typedef struct host_device {
+    log_recorder recorder;     ///< of lobe
+    lobe_vulkan_device vulkan; ///< made with all that lobe recommends, but no callbacks
+    lobe_vulkan_features features;
+    const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
+    VkDebugUtilsMessengerEXT messenger;
+    VkCommandPool pool;
+    uint64_t mistakes; ///< messages of the validation layer
+    char last_mistake[16384];
+} host_device;
+
+/// Asserts that all works. The structure must stay where it is.
+void host_device_open(host_device *host);
+/// The same without the validation layer, whose books grow with each call.
+void host_device_open_unvalidated(host_device *host);
+/// Asserts that the validation layer had nothing to say.
+void host_device_close(host_device *host);
+
+/// Imports it, and asserts that this works.
+lobe_device *host_device_import(host_device *host);
+
+/// An image with memory of its own.
+typedef struct host_image {
+    VkImage image;
+    VkDeviceMemory memory;
+    VkFormat format;
+    uint32_t width, height;
+} host_image;
+
+host_image host_image_create(const host_device *host, VkFormat format, uint32_t width,
+                             uint32_t height, VkImageUsageFlags usage);
+void host_image_destroy(const host_device *host, host_image *image);
+
+/// A command buffer in recording state.
+VkCommandBuffer host_begin(const host_device *host);
+/// Ends, submits, waits and frees it.
+void host_finish(const host_device *host, VkCommandBuffer commands);
+/// Makes all that came before visible to all that follows, and changes the layout of an image
+/// (colour or depth, by its format).
+void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayout from,
+                  VkImageLayout to);
+/// Fills an image in TRANSFER_DST_OPTIMAL with a colour.
+void host_clear(VkCommandBuffer commands, const host_image *image, const float colour[4]);
+/// Copies `size` bytes of texels from an image in TRANSFER_SRC_OPTIMAL; waits for it.
+void host_read(const host_device *host, const host_image *image, void *texels, size_t size);
+
+/// A semaphore; `timeline`: one that counts from 0.
+VkSemaphore host_semaphore(const host_device *host, bool timeline);
+
+#endif

@@ -1,0 +1,20 @@
+#include "tests/engine/support/log_recorder.h"
+
+#include <stdio.h>
+
+static void record(void *user, lobe_log_level level, const char *message) {
+    log_recorder *recorder = user;
+    if (level == LOBE_LOG_ERROR) {
+        recorder->errors++;
+        snprintf(recorder->last_error, sizeof recorder->last_error, "%s", message);
+    } else if (level == LOBE_LOG_WARNING) {
+        recorder->warnings++;
+        snprintf(recorder->last_warning, sizeof recorder->last_warning, "%s", message);
+    } else if (level == LOBE_LOG_NOTICE) {
+        recorder->notices++;
+    }
+}
+
+void log_recorder_start(log_recorder *recorder) {
+    *recorder = (log_recorder){.log = {.write = record, .user = recorder}};
+}

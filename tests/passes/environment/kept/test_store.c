@@ -1,0 +1,304 @@
+// Filtered cubes that a renderer takes from a folder and adds to it: pictures are the same, bit by
+// bit, and cubes are made only where the folder does not have them.
+
+#include "tests/passes/support/fixture.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#include <lobe/vulkan.h>
+
+#include "passes/environment/kept/cache.h"
+#include "tests/engine/support/log_recorder.h"
+#include "tests/engine/support/temporary_folder.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+#define SIZE 4
+
+static void coloured(const double direction[3], float radiance[3]) {
+    for (int i = 0; i < 3; i++)
+        radiance[i] = (float)(1 + 0.9 * direction[i]);
+}
+
+/// A square of rough metal, which is lit by lobes of both kinds.
+static lobe_scene *metal_square(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.roughness = 0.5f;
+    material.metallic = 1;
+    scene_add_square(scene, &material, 1, NULL);
+    scene_surround(scene, 16, coloured);
+    scene_look_from(scene, (double[]){0.5, 1, 0.3}, 0.5);
+    scene_end(scene);
+    return scene;
+}
+
+/// The same environment from another side.
+static void turn(lobe_scene *scene) {
+    float *texels = scene->environment->image.texels;
+    size_t count = (size_t)4 * scene->environment->image.width * scene->environment->image.height;
+    for (size_t i = 0; i < count / 2; i++) {
+        float kept = texels[i];
+        texels[i] = texels[count - 1 - i];
+        texels[count - 1 - i] = kept;
+    }
+}
+
+/// A renderer with a log of its own.
+typedef struct drawing {
+    log_recorder recorder;
+    lobe_renderer *renderer;
+    uint32_t parts;
+    const char *base; ///< an assignment
+} drawing;
+
+static void start(fixture *f, const lobe_scene *scene, drawing *drawing) {
+    drawing->parts = 0;
+    drawing->base = "base=exact";
+    log_recorder_start(&drawing->recorder);
+    assert_int_equal(lobe_renderer_create(f->device, &drawing->recorder.log, &drawing->renderer),
+                     LOBE_OK);
+    assert_int_equal(lobe_renderer_set_scene(drawing->renderer, scene), LOBE_OK);
+}
+
+static void stop(drawing *drawing) {
+    assert_int_equal(drawing->recorder.errors, 0);
+    lobe_renderer_destroy(&drawing->renderer);
+}
+
+static size_t ran(const drawing *drawing, const char *pass) {
+    return count_passes(lobe_renderer_graph(drawing->renderer), pass, LOBE_PASS_RUN);
+}
+
+static bool made(const drawing *drawing) {
+    return ran(drawing, "environment_prefiltering") > 0;
+}
+
+static bool restored(const drawing *drawing) {
+    return ran(drawing, "environment_restoring") > 0;
+}
+
+static lobe_frame frame_of(drawing *drawing, const char *folder,
+                           const lobe_vulkan_submission *submission) {
+    const lobe_filter *filter = filter_named("direct");
+    lobe_settings settings =
+        settings_of(filter, (const char *[]){"env_size=16", drawing->base, NULL});
+    lobe_frame frame;
+    if (lobe_renderer_render(drawing->renderer,
+                             &(lobe_render_parameters){.filter = filter,
+                                                       .settings = &settings,
+                                                       .width = SIZE,
+                                                       .height = SIZE,
+                                                       .environment_parts = drawing->parts,
+                                                       .environment_cache = folder,
+                                                       .submission = submission},
+                             &frame) != LOBE_OK)
+        fail_msg("%s", drawing->recorder.last_error);
+    return frame;
+}
+
+static uint64_t picture(drawing *drawing, const char *folder) {
+    lobe_frame frame = frame_of(drawing, folder, NULL);
+    uint64_t hash = image_hash(&frame.radiance);
+    lobe_frame_free(&frame);
+    return hash;
+}
+
+/// Drawn by a renderer of its own without a folder.
+static uint64_t plain_picture(fixture *f, const lobe_scene *scene) {
+    drawing plain;
+    start(f, scene, &plain);
+    uint64_t hash = picture(&plain, NULL);
+    assert_true(made(&plain));
+    stop(&plain);
+    return hash;
+}
+
+static size_t kept(void) {
+    return temporary_folder_count(&test_folder);
+}
+
+/// Made and kept by the first renderer, found by the second; neither looks a second time.
+static void what_one_renderer_makes_another_finds(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    for (int again = 0; again < 2; again++) {
+        drawing drawing;
+        start(*state, scene, &drawing);
+        assert_true(picture(&drawing, test_folder.path) == expected);
+        assert_int_equal(made(&drawing), !again);
+        assert_int_equal(restored(&drawing), again);
+        assert_int_equal(kept(), 2);
+        assert_true(picture(&drawing, test_folder.path) == expected);
+        assert_int_equal(ran(&drawing, NULL), 1);
+        // What was found stays without the folder.
+        assert_true(picture(&drawing, NULL) == expected);
+        assert_int_equal(ran(&drawing, NULL), 1);
+        assert_int_equal(drawing.recorder.notices + drawing.recorder.warnings, 0);
+        stop(&drawing);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// Any of the two files.
+static const char *a_kept_file(const lobe_scene *scene) {
+    char name[32];
+    uint64_t key = environment_cache_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
+    snprintf(name, sizeof name, "%016llx.exr", (unsigned long long)key);
+    return temporary_folder_file(&test_folder, name);
+}
+
+static void a_damaged_file_is_made_anew(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    for (int round = 0; round < 3; round++) {
+        drawing drawing;
+        start(*state, scene, &drawing);
+        assert_true(picture(&drawing, test_folder.path) == expected);
+        // Damaged after the first round, whole again after the second.
+        assert_int_equal(made(&drawing), round < 2);
+        assert_int_equal(drawing.recorder.notices, round == 1);
+        assert_int_equal(drawing.recorder.warnings, 0);
+        assert_int_equal(kept(), 2);
+        if (round == 0)
+            assert_int_equal(truncate(a_kept_file(scene), 1000), 0);
+        stop(&drawing);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// Back and forth: each environment is made once, and found when it comes back.
+static void another_environment_is_looked_up(void **state) {
+    lobe_scene *scene = metal_square();
+    drawing drawing;
+    uint64_t expected[2];
+    for (int i = 0; i < 2; i++) {
+        expected[i] = plain_picture(*state, scene);
+        turn(scene);
+    }
+    assert_true(expected[0] != expected[1]);
+    start(*state, scene, &drawing);
+    for (int i = 0; i < 4; i++) {
+        assert_true(picture(&drawing, test_folder.path) == expected[i % 2]);
+        assert_int_equal(made(&drawing), i < 2);
+        assert_int_equal(restored(&drawing), i >= 2);
+        turn(scene);
+        const lobe_scene_changes changes = {.environment = true};
+        assert_int_equal(lobe_renderer_update_scene(drawing.renderer, &changes), LOBE_OK);
+    }
+    assert_int_equal(kept(), 4);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Kept in the frame in which they are complete, not before; found all at once.
+static void parts_are_kept_when_all_are_there(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    for (int again = 0; again < 2; again++) {
+        drawing drawing;
+        start(*state, scene, &drawing);
+        drawing.parts = 3;
+        uint64_t hash;
+        int frames = 0;
+        do {
+            assert_int_equal(kept(), again ? 2 : 0);
+            hash = picture(&drawing, test_folder.path);
+            frames++;
+        } while (hash != expected && frames < 20);
+        assert_true(again ? frames == 1 : frames > 2 && frames < 20);
+        assert_int_equal(kept(), 2);
+        stop(&drawing);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// One kind of lobes first, then both.
+static void what_is_wanted_later_is_added(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    drawing drawing;
+    start(*state, scene, &drawing);
+    drawing.base = "base=lobe";
+    uint64_t as_lobes = picture(&drawing, test_folder.path);
+    assert_int_equal(kept(), 1);
+    drawing.base = "base=exact";
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(kept(), 2);
+    drawing.base = "base=lobe";
+    assert_true(picture(&drawing, test_folder.path) == as_lobes);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Of a frame that nobody waits for, the next keeps what was made.
+static void submitted_frames_keep_with_the_next(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    const lobe_vulkan_submission submission = {0};
+    drawing drawing;
+    start(*state, scene, &drawing);
+    for (size_t files = 0; files <= 2; files += 2) {
+        lobe_frame frame = frame_of(&drawing, test_folder.path, &submission);
+        assert_int_equal(kept(), files);
+        lobe_frame_free(&frame);
+    }
+    stop(&drawing);
+    start(*state, scene, &drawing);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_true(restored(&drawing));
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+static void a_folder_that_takes_nothing_is_told_once(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    drawing drawing;
+    start(*state, scene, &drawing);
+    for (int i = 0; i < 2; i++) {
+        assert_true(picture(&drawing, "/nonexistent/folder") == expected);
+        assert_int_equal(drawing.recorder.warnings, 2);
+    }
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Methods that filter nothing neither look nor keep.
+static void other_methods_leave_the_folder_alone(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = metal_square();
+    const lobe_filter *filter = filter_named("direct");
+    lobe_settings settings = settings_of(filter, (const char *[]){"env=mip", "env_size=16", NULL});
+    lobe_frame frame;
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    assert_int_equal(
+        lobe_renderer_render(f->renderer,
+                             &(lobe_render_parameters){.filter = filter,
+                                                       .settings = &settings,
+                                                       .width = SIZE,
+                                                       .height = SIZE,
+                                                       .environment_cache = test_folder.path},
+                             &frame),
+        LOBE_OK);
+    assert_int_equal(kept(), 0);
+    lobe_frame_free(&frame);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        IN_TEST_FOLDER(what_one_renderer_makes_another_finds),
+        IN_TEST_FOLDER(a_damaged_file_is_made_anew),
+        IN_TEST_FOLDER(another_environment_is_looked_up),
+        IN_TEST_FOLDER(parts_are_kept_when_all_are_there),
+        IN_TEST_FOLDER(what_is_wanted_later_is_added),
+        IN_TEST_FOLDER(submitted_frames_keep_with_the_next),
+        cmocka_unit_test(a_folder_that_takes_nothing_is_told_once),
+        IN_TEST_FOLDER(other_methods_leave_the_folder_alone),
+    };
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
+}

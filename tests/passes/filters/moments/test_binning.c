@@ -1,0 +1,265 @@
+// The map of lobe moments against means in double precision: every level, layer and channel.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/image/half.h"
+#include "passes/filters/moments/binning.h"
+#include "tests/passes/support/mixture_reference.h"
+#include "tests/passes/support/moment_reference.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/reference/map/box_reduction.h"
+
+/// How a map is made, and how near it must come.
+typedef struct map_request {
+    uint32_t kind, bins; ///< of the partition, as asked for
+    bool colour;
+    double colour_scale;
+    const char *base; ///< assignment
+    lobe_format format;
+    double rounding; ///< absolute, of each level
+    double tolerance;
+} map_request;
+
+static const map_request usual = {
+    .colour_scale = 1, .base = "base=exact", .format = LOBE_FORMAT_RGBA32_FLOAT, .tolerance = 2e-5};
+
+/// Looks at a map, read back: layers within levels.
+typedef void (*map_check)(const float *texels, const moment_map *map, const reference_layers *exact,
+                          const reference_moment_bins *bins, const map_request *request);
+
+static float number_at(const void *data, size_t i, lobe_format format) {
+    if (format == LOBE_FORMAT_RGBA32_FLOAT)
+        return ((const float *)data)[i];
+    if (format == LOBE_FORMAT_RGBA16_FLOAT)
+        return engine_half_to_float(((const uint16_t *)data)[i]);
+    return fmaxf((float)((const int16_t *)data)[i] / 32767, -1);
+}
+
+/// To free by the caller.
+static float *read_map(fixture *f, const moment_map *map) {
+    size_t size = 0;
+    const void *data = lobe_graph_data(f->graph, map->map.resource, &size);
+    size_t count = size / lobe_format_size(map->format) * 4;
+    float *texels = malloc(count * sizeof *texels);
+    assert_non_null(texels);
+    for (size_t i = 0; i < count; i++)
+        texels[i] = number_at(data, i, map->format);
+    return texels;
+}
+
+static moment_map build_map(fixture *f, const device_scene *scene, const map_request *request,
+                            const moment_partition *partition) {
+    const lobe_filter *filter = filter_named("moments");
+    lobe_settings settings = settings_of(filter, (const char *[]){request->base, NULL});
+    filter_context context = {.graph = f->graph,
+                              .settings = &settings,
+                              .filter = filter,
+                              .scene = scene,
+                              .camera = &scene->scene->camera,
+                              .log = &f->log};
+    lobe_graph_begin(f->graph);
+    moment_map map = moment_binning(&context, 0, partition, request->format, request->colour,
+                                    (float)request->colour_scale);
+    lobe_graph_read_back(f->graph, map.map.resource, (lobe_range){0});
+    if (lobe_graph_execute(f->graph) != LOBE_OK)
+        fail_msg("%s", f->error);
+    return map;
+}
+
+/// The scene is destroyed after.
+static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
+                     const map_request *request, map_check check) {
+    scene_add_square(scene, material, 1, NULL);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    device_scene *uploaded;
+    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    const moment_partition *partition =
+        moment_partition_of(uploaded, 0, request->kind, request->bins);
+    reference_moment_bins bins = moment_bins_of(partition, request->colour, request->colour_scale);
+    moment_map map = build_map(f, uploaded, request, partition);
+    reference_layers exact =
+        moments_of_texels(scene, material, &bins, strcmp(request->base, "base=lobe") == 0);
+    float *texels = read_map(f, &map);
+    check(texels, &map, &exact, &bins, request);
+    free(texels);
+    reference_layers_free(&exact);
+    lobe_graph_begin(f->graph);
+    device_scene_destroy(&uploaded);
+    lobe_scene_destroy(&scene);
+}
+
+/// Every level and layer.
+static void check_all(const float *texel, const moment_map *map, const reference_layers *texels,
+                      const reference_moment_bins *bins, const map_request *request) {
+    assert_int_equal(map->map.layers, reference_moment_layers(bins));
+    check_reduced_levels(&map->map, texel, texels, request->tolerance, request->rounding);
+}
+
+static lobe_material microfacet_material(int distribution) {
+    lobe_material material;
+    lobe_material_default(&material);
+    material.distribution = (lobe_distribution)distribution;
+    material.metallic = 0.7f;
+    material.base_colour[1] = 0.5f;
+    return material;
+}
+
+/// Three lobes that lean, of different widths and colours.
+static lobe_material leaning_lobes(lobe_distribution distribution) {
+    lobe_material material = half_vector_material(distribution, 30);
+    material.lobe_count = 3;
+    material.lobes[0] = (lobe_base_lobe){{0.6f, 0, 0.8f}, 40, {0.5f, 0.25f, 0.125f}};
+    material.lobes[1] = (lobe_base_lobe){{0, -0.28f, 0.96f}, 3, {0.1f, 0.2f, 0.3f}};
+    material.lobes[2] = (lobe_base_lobe){{-0.48f, 0.64f, 0.6f}, 15, {0.1f, 0.1f, 0.1f}};
+    material.base_colour[2] = 0.75f;
+    return material;
+}
+
+/// Normals and widths of different sizes; `colours`: colour maps too.
+static lobe_scene *mapped_scene(lobe_material *material, uint32_t width, uint32_t height,
+                                bool colours, uint64_t seed) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    lobe_scene *scene = scene_begin();
+    material->normal_map = scene_add_map(scene, random_normal_map(width, height, 0.8, seed));
+    lobe_texture_use widths =
+        scene_add_map(scene, random_map(height, width, 0.3, microfacet ? 1 : 3, seed + 1));
+    if (microfacet)
+        material->metallic_roughness_map = widths;
+    else
+        material->width_map = widths;
+    if (colours)
+        material->base_colour_map = scene_add_map(scene, random_map(3, 2, 0.1, 1, seed + 2));
+    if (colours && !microfacet)
+        material->specular_map = scene_add_map(scene, random_map(width, 1, 0.1, 2, seed + 3));
+    return scene;
+}
+
+static const uint32_t sizes[][2] = {{1, 7}, {7, 1}, {2, 2}, {16, 8}, {23, 13}};
+enum { SIZES = sizeof sizes / sizeof *sizes, KINDS = 3 };
+
+static void microfacets_of_any_size(void **state) {
+    for (int i = 0; i < SIZES * KINDS; i++) {
+        lobe_material material = microfacet_material(i % 4);
+        lobe_scene *scene = mapped_scene(&material, sizes[i / KINDS][0], sizes[i / KINDS][1], i % 2,
+                                         301 + (uint64_t)i);
+        map_request request = usual;
+        request.kind = (uint32_t)(i % KINDS);
+        request.bins = 4;
+        request.colour = i % 2;
+        request.base = i % 5 ? "base=exact" : "base=lobe";
+        with_map(*state, scene, &material, &request, check_all);
+    }
+}
+
+static void lobes_of_any_size(void **state) {
+    for (int i = 0; i < SIZES * KINDS; i++) {
+        lobe_material material =
+            leaning_lobes(i % 4 < 2 ? LOBE_DISTRIBUTION_VMF : LOBE_DISTRIBUTION_BLINN_PHONG);
+        material.normal_concentration = i % 3 ? 0 : 50;
+        lobe_scene *scene = mapped_scene(&material, sizes[i / KINDS][0], sizes[i / KINDS][1], i % 2,
+                                         321 + (uint64_t)i);
+        map_request request = usual;
+        request.kind = (uint32_t)(i % KINDS);
+        request.bins = 1 + (uint32_t)i % MOMENT_MAXIMUM_BINS;
+        request.colour = i % 2;
+        request.colour_scale = 8;
+        request.base = i % 5 ? "base=exact" : "base=lobe";
+        with_map(*state, scene, &material, &request, check_all);
+    }
+}
+
+/// Without a normal map every texel is upright, and only widths tell bins apart.
+static void widths_alone(void **state) {
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX);
+        lobe_scene *scene = scene_begin();
+        material.metallic_roughness_map = scene_add_map(scene, random_map(9, 12, 0.1, 1, 341));
+        map_request request = usual;
+        request.kind = kind;
+        request.bins = 2;
+        with_map(*state, scene, &material, &request, check_all);
+    }
+}
+
+/// 16 bits keep numbers in [-1, 1] to half a step a level, or float16's eleven digits.
+static void sixteen_bits_are_within_a_step(void **state) {
+    static const struct {
+        lobe_format format;
+        double rounding, tolerance;
+    } formats[] = {{LOBE_FORMAT_RGBA16_SNORM, 0.51 / 32767, 2e-5},
+                   {LOBE_FORMAT_RGBA16_FLOAT, 1e-7, 3e-3}};
+    for (int i = 0; i < 2 * KINDS; i++) {
+        lobe_material material =
+            i % 2 ? microfacet_material(i / 2) : leaning_lobes(LOBE_DISTRIBUTION_VMF);
+        lobe_scene *scene = mapped_scene(&material, 23, 14, true, 351 + (uint64_t)i);
+        map_request request = usual;
+        request.kind = (uint32_t)(i / 2);
+        request.bins = 3;
+        request.colour = true;
+        request.colour_scale = 8;
+        request.format = formats[i % 2].format;
+        request.rounding = formats[i % 2].rounding;
+        request.tolerance = formats[i % 2].tolerance;
+        with_map(*state, scene, &material, &request, check_all);
+    }
+}
+
+/// Bins together have what one bin for all lobes has, in every texel of every level.
+static void check_sums(const float *texels, const moment_map *map, const reference_layers *exact,
+                       const reference_moment_bins *bins, const map_request *request) {
+    (void)exact;
+    const float *level = texels;
+    uint32_t width = map->map.width, height = map->map.height;
+    static double sums[2][8 * 4096];
+    static int calls;
+    double *sum = sums[calls++ % 2];
+    for (uint32_t i = 0; i < map->map.levels; i++) {
+        uint32_t count = width * height;
+        for (uint32_t j = 0; j < count; j++, sum += 8) {
+            for (int channel = 0; channel < 8; channel++)
+                sum[channel] = 0;
+            for (uint32_t layer = 0; layer < 2 * bins->bins; layer++)
+                for (uint32_t channel = 0; channel < 4; channel++)
+                    sum[4 * (layer % 2) + channel] +=
+                        (double)level[4 * (layer * count + j) + channel];
+        }
+        level += (size_t)4 * count * map->map.layers;
+        width = half_extent(width);
+        height = half_extent(height);
+    }
+    size_t used = (size_t)(sum - sums[(calls - 1) % 2]);
+    assert_true(used > 0 && used <= sizeof sums[0] / sizeof **sums);
+    for (size_t i = 0; calls > 1 && i < used; i++)
+        if (!(fabs(sums[0][i] - sums[1][i]) <= request->tolerance))
+            fail_msg("partition %u of %u: %.8g of all bins, then %.8g", request->kind,
+                     request->bins, sums[0][i], sums[1][i]);
+}
+
+static void bins_add_up_to_all_lobes(void **state) {
+    static const uint32_t partitions[][2] = {{0, 1}, {0, 2}, {0, 6}, {1, 0}, {2, 0}};
+    for (size_t i = 0; i < sizeof partitions / sizeof *partitions; i++) {
+        lobe_material material = leaning_lobes(LOBE_DISTRIBUTION_VMF);
+        lobe_scene *scene = mapped_scene(&material, 31, 18, false, 361);
+        map_request request = usual;
+        request.kind = partitions[i][0];
+        request.bins = partitions[i][1];
+        with_map(*state, scene, &material, &request, check_sums);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(microfacets_of_any_size),
+        cmocka_unit_test(lobes_of_any_size),
+        cmocka_unit_test(widths_alone),
+        cmocka_unit_test(sixteen_bits_are_within_a_step),
+        cmocka_unit_test(bins_add_up_to_all_lobes),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}

@@ -1,0 +1,287 @@
+// How a material's lobes are shared out to bins: what is told apart, how many bins that takes, and
+// that nothing lies beyond the ranges.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "passes/upload/device_scene.h"
+#include "tests/passes/support/moment_reference.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+/// A number of bins to be chosen.
+enum { AUTOMATIC = 0 };
+
+/// Uploads a scene of one square and looks at its material's partition. The scene is destroyed
+/// after, unless `keep`.
+static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_material *material,
+                                     uint32_t kind, uint32_t bins, bool keep) {
+    scene_add_square(scene, material, 1, NULL);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    device_scene *uploaded;
+    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    moment_partition partition = *moment_partition_of(uploaded, 0, kind, bins);
+    assert_memory_equal(&partition, moment_partition_of(uploaded, 0, kind, bins), sizeof partition);
+    device_scene_destroy(&uploaded);
+    if (!keep)
+        lobe_scene_destroy(&scene);
+    return partition;
+}
+
+/// A map whose texels take turns at `count` normals, each tilted from the pole towards +X by so
+/// many degrees.
+static lobe_image tilts_in_turn(uint32_t width, uint32_t height, const double *tilts,
+                                uint32_t count) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
+    for (uint32_t i = 0; i < width * height; i++) {
+        double tilt = tilts[(i % width + i / width) % count] * M_PI / 180;
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        texel[0] = (float)(0.5 + 0.5 * sin(tilt));
+        texel[1] = 0.5f;
+        texel[2] = (float)(0.5 + 0.5 * cos(tilt));
+    }
+    return image;
+}
+
+/// The same with factors of width.
+static lobe_image widths_in_turn(uint32_t width, uint32_t height, const float *widths,
+                                 uint32_t count) {
+    lobe_image image = constant_map(width, height, 1, 1, 1);
+    for (uint32_t i = 0; i < width * height; i++)
+        ((float *)image.texels)[(size_t)4 * i] = widths[(i % width + i / width) % count];
+    return image;
+}
+
+static moment_partition partition_of_tilts(fixture *f, float concentration, const double *tilts,
+                                           uint32_t count, uint32_t bins) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, concentration);
+    material.normal_map = scene_add_map(scene, tilts_in_turn(64, 48, tilts, count));
+    return partition_of(f, scene, &material, PARTITION_FITTED, bins, false);
+}
+
+static moment_partition partition_of_widths(fixture *f, const float *widths, uint32_t count,
+                                            uint32_t bins) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
+    material.width_map = scene_add_map(scene, widths_in_turn(40, 30, widths, count));
+    return partition_of(f, scene, &material, PARTITION_FITTED, bins, false);
+}
+
+/// The bin that has nearly all of a lobe.
+static uint32_t bin_of(const moment_partition *partition, double tilt, double concentration) {
+    reference_moment_bins bins = moment_bins_of(partition, false, 1);
+    double members[MOMENT_MAXIMUM_BINS];
+    reference_plane_lobe lobe = {.place = {2 * sin(tilt * M_PI / 360), 0},
+                                 .variance = 1 / concentration};
+    reference_bin_members(&bins, &lobe, members);
+    for (uint32_t i = 0; i < partition->bins; i++)
+        if (members[i] > 0.99)
+            return i;
+    fail_msg("a lobe of kappa %g at %g degrees: bins have (%g, %g, %g) of it", concentration, tilt,
+             members[0], members[1], members[2]);
+    return 0;
+}
+
+static const double two_sides[] = {-30, 30};
+static const float two_widths[] = {20, 2000};
+
+static void directions_are_told_apart(void **state) {
+    moment_partition partition = partition_of_tilts(*state, 300, two_sides, 2, 2);
+    assert_int_equal(partition.bins, 2);
+    assert_int_not_equal(bin_of(&partition, -30, 300), bin_of(&partition, 30, 300));
+}
+
+static void widths_are_told_apart(void **state) {
+    moment_partition partition = partition_of_widths(*state, two_widths, 2, 2);
+    assert_int_equal(partition.bins, 2);
+    assert_int_not_equal(bin_of(&partition, 0, 20), bin_of(&partition, 0, 2000));
+}
+
+static void as_many_bins_as_pay(void **state) {
+    static const double flat[] = {20}, three[] = {-40, 0, 40};
+    static const float one_width[] = {50};
+    assert_int_equal(partition_of_tilts(*state, 300, flat, 1, AUTOMATIC).bins, 1);
+    assert_int_equal(partition_of_widths(*state, one_width, 1, AUTOMATIC).bins, 1);
+    assert_int_equal(partition_of_tilts(*state, 300, two_sides, 2, AUTOMATIC).bins, 2);
+    assert_int_equal(partition_of_widths(*state, two_widths, 2, AUTOMATIC).bins, 2);
+    assert_int_equal(partition_of_tilts(*state, 300, three, 3, AUTOMATIC).bins, 3);
+    // Lobes so broad that nothing shows of the normals.
+    assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
+}
+
+static void what_was_asked_for(void **state) {
+    for (uint32_t bins = 1; bins <= MOMENT_MAXIMUM_BINS; bins++)
+        assert_int_equal(partition_of_tilts(*state, 300, two_sides, 2, bins).bins, bins);
+    for (uint32_t kind = PARTITION_HATS; kind <= PARTITION_CAP; kind++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
+        material.width_map = scene_add_map(scene, widths_in_turn(8, 8, two_widths, 2));
+        moment_partition partition = partition_of(*state, scene, &material, kind, 3, false);
+        assert_int_equal(partition.bins, kind == PARTITION_CAP ? 6 : 5);
+        // Between the two widths.
+        assert_int_equal(bin_of(&partition, 0, 20), 0);
+        reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+        double members[MOMENT_MAXIMUM_BINS];
+        reference_plane_lobe sharp = {.variance = 1.0 / 2000};
+        reference_bin_members(&bins, &sharp, members);
+        assert_true(members[0] == 0);
+        assert_true(members[5] == (kind == PARTITION_CAP ? 1 : 0));
+    }
+}
+
+/// Materials at random, of every kind.
+static lobe_scene *random_scene(uint64_t seed, uint32_t width, uint32_t height,
+                                lobe_material *material) {
+    lobe_scene *scene = scene_begin();
+    if (seed % 2) {
+        *material = half_vector_material(
+            seed % 4 == 1 ? LOBE_DISTRIBUTION_VMF : LOBE_DISTRIBUTION_BLINN_PHONG, 20);
+        material->lobe_count = 2;
+        material->lobes[0] = (lobe_base_lobe){{0.6f, 0, 0.8f}, 40, {0.5f, 0.25f, 0.125f}};
+        material->lobes[1] = (lobe_base_lobe){{0, -0.28f, 0.96f}, 0.5f, {0.1f, 0.2f, 0.3f}};
+        material->width_map = scene_add_map(scene, random_map(height, 7, 0, 3, seed));
+    } else {
+        lobe_material_default(material);
+        material->distribution = (lobe_distribution)(seed / 2 % 4);
+        material->metallic_roughness_map = scene_add_map(scene, random_map(height, 7, 0, 1, seed));
+    }
+    material->normal_concentration = seed % 3 ? 0 : (float)seed / 10;
+    material->normal_map =
+        scene_add_map(scene, random_normal_map(width, height, seed % 5 ? 0.9 : 2.5, seed + 1));
+    return scene;
+}
+
+/// No number of any texel's moments is beyond [-1, 1], whatever base lobes are taken for.
+static void ranges_hold_all_lobes(void **state) {
+    for (uint64_t seed = 400; seed < 424; seed++) {
+        lobe_material material;
+        lobe_scene *scene = random_scene(seed, 24, 20, &material);
+        moment_partition partition =
+            partition_of(*state, scene, &material, PARTITION_FITTED, 1, true);
+        reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+        for (int as_lobe = 0; as_lobe < 2; as_lobe++) {
+            reference_layers texels = moments_of_texels(scene, &material, &bins, as_lobe);
+            for (uint32_t i = 0; i < texels.width * texels.height * 8; i++)
+                if (!(fabs(texels.texels[i]) <= 1 + 1e-6))
+                    fail_msg("material %u, number %u: %g", (unsigned)seed, i, texels.texels[i]);
+            reference_layers_free(&texels);
+        }
+        lobe_scene_destroy(&scene);
+    }
+}
+
+static void the_same_every_time(void **state) {
+    for (uint64_t seed = 430; seed < 434; seed++) {
+        moment_partition partitions[2];
+        for (int i = 0; i < 2; i++) {
+            lobe_material material;
+            lobe_scene *scene = random_scene(seed, 67, 45, &material);
+            partitions[i] =
+                partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false);
+        }
+        assert_memory_equal(&partitions[0], &partitions[1], sizeof *partitions);
+    }
+}
+
+static void assert_sound(const moment_partition *partition) {
+    const moment_range *range = &partition->constants.range;
+    assert_in_range(partition->bins, 1, MOMENT_MAXIMUM_BINS);
+    assert_true(range->place[2] > 0 && isfinite(range->place[2]));
+    assert_true(range->largest[0] > 0 && isfinite(range->largest[0]));
+    assert_true(range->largest[1] > 0 && isfinite(range->largest[1]));
+    for (uint32_t i = 0; i < partition->bins; i++)
+        for (int j = 0; j < 4; j++)
+            assert_true(isfinite(partition->constants.bins[i].centre[j]) &&
+                        isfinite(partition->constants.bins[i].shape[j]) &&
+                        isfinite(partition->constants.hats[j]));
+}
+
+/// Of any size and width, and of normals that point nowhere or down.
+static void any_map_has_a_partition(void **state) {
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 2}, {3, 5}, {25, 23}, {671, 3}};
+    static const float widths[] = {0, 1e6f, 1e-3f};
+    for (uint32_t i = 0; i < 15; i++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
+        const uint32_t *size = sizes[i / 3];
+        material.normal_map =
+            scene_add_map(scene, i % 2 ? map_image(LOBE_FORMAT_RGBA32_FLOAT, size[0], size[1])
+                                       : random_normal_map(size[0], size[1], 3.1, 441 + i));
+        material.width_map = scene_add_map(scene, widths_in_turn(size[1], size[0], widths, 3));
+        moment_partition partition = partition_of(*state, scene, &material, i % 3, i / 3, false);
+        assert_sound(&partition);
+    }
+}
+
+/// Normals in half floats, which the host does not read, from a map in floats.
+static lobe_image half_map(const lobe_image *image) {
+    lobe_image halves = map_image(LOBE_FORMAT_RGBA16_FLOAT, image->width, image->height);
+    for (size_t i = 0; i < (size_t)4 * image->width * image->height; i++) {
+        // Exact for the numbers below: sixteenths.
+        static const uint16_t sixteenths[] = {0,      0x2c00, 0x3000, 0x3200, 0x3400, 0x3500,
+                                              0x3600, 0x3700, 0x3800, 0x3880, 0x3900, 0x3980,
+                                              0x3a00, 0x3a80, 0x3b00, 0x3b80, 0x3c00};
+        ((uint16_t *)halves.texels)[i] =
+            sixteenths[(int)lroundf(16 * ((const float *)image->texels)[i])];
+    }
+    return halves;
+}
+
+static lobe_frame draw_normals(fixture *f, const lobe_material *base, lobe_image image) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = *base;
+    material.normal_map = scene_add_map(scene, image);
+    scene_add_square(scene, &material, 20, NULL);
+    scene_add_sun(scene, (double[]){0.2, 1, 0.1}, 1);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    picture_request request = {
+        .filter = "moments", .settings = {"bins=1"}, .width = 24, .height = 24, .samples = 1};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    lobe_scene_destroy(&scene);
+    return frame;
+}
+
+/// One bin for all, of the widest range there is, which leaves the picture fewer digits.
+static void unreadable_maps_are_drawn(void **state) {
+    lobe_material materials[2] = {half_vector_material(LOBE_DISTRIBUTION_VMF, 60)};
+    lobe_material_default(&materials[1]);
+    materials[1].roughness = 0.4f;
+    for (int i = 0; i < 2; i++) {
+        lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, 16, 16);
+        for (uint32_t j = 0; j < 256; j++) {
+            const float texels[2][4] = {{0.25f, 0.5f, 0.9375f, 1}, {0.5f, 0.625f, 1, 1}};
+            memcpy((float *)image.texels + (size_t)4 * j, texels[j % 3 == 0], sizeof texels[0]);
+        }
+        lobe_image halves = half_map(&image);
+        lobe_scene *scene = scene_begin();
+        lobe_material material = materials[i];
+        material.normal_map = scene_add_map(scene, half_map(&image));
+        moment_partition partition =
+            partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false);
+        assert_sound(&partition);
+        assert_int_equal(partition.bins, 1);
+        lobe_frame exact = draw_normals(*state, &materials[i], image);
+        lobe_frame frame = draw_normals(*state, &materials[i], halves);
+        assert_true(largest_value(&exact.radiance) > 0.05);
+        double error = relative_l2(&frame.radiance, &exact.radiance);
+        print_message("# in half floats: %.3g off\n", error);
+        assert_true(error < 0.1);
+        lobe_frame_free(&exact);
+        lobe_frame_free(&frame);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(directions_are_told_apart), cmocka_unit_test(widths_are_told_apart),
+        cmocka_unit_test(as_many_bins_as_pay),       cmocka_unit_test(what_was_asked_for),
+        cmocka_unit_test(ranges_hold_all_lobes),     cmocka_unit_test(the_same_every_time),
+        cmocka_unit_test(any_map_has_a_partition),   cmocka_unit_test(unreadable_maps_are_drawn),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}

@@ -1,0 +1,185 @@
+// The map of slope moments against means in double precision, and what is left of a variance where
+// second moments and squared means cancel.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/image/half.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/slope_moments.h"
+#include "shaders/interface/slope_moments.h"
+#include "tests/passes/support/mixture_reference.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/reference/map/box_reduction.h"
+
+/// The map of a scene's material, read back: layers within levels. The scene is destroyed after.
+typedef void (*map_check)(const float *texels, const reduced_map *map,
+                          const reference_layers *exact, double tolerance);
+
+/// To free by the caller.
+static float *read_map(fixture *f, const reduced_map *map, bool halves) {
+    size_t size = 0;
+    const void *data = lobe_graph_data(f->graph, map->resource, &size);
+    size_t count = size / (halves ? sizeof(uint16_t) : sizeof(float));
+    float *texels = malloc(count * sizeof *texels);
+    assert_non_null(texels);
+    for (size_t i = 0; i < count; i++)
+        texels[i] =
+            halves ? engine_half_to_float(((const uint16_t *)data)[i]) : ((const float *)data)[i];
+    return texels;
+}
+
+static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
+                     const char *storage, double tolerance, map_check check) {
+    scene_add_square(scene, material, 1, NULL);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    const lobe_filter *filter = filter_named("lean");
+    lobe_settings settings = settings_of(filter, (const char *[]){storage, NULL});
+    device_scene *uploaded;
+    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    filter_context context = {.graph = f->graph,
+                              .settings = &settings,
+                              .filter = filter,
+                              .scene = uploaded,
+                              .camera = &scene->camera,
+                              .log = &f->log};
+    lobe_graph_begin(f->graph);
+    reduced_map map = slope_moments(&context, 0);
+    lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
+    if (lobe_graph_execute(f->graph) != LOBE_OK)
+        fail_msg("%s", f->error);
+    reference_layers texels = slope_moments_of_texels(scene, material);
+    float *found = read_map(f, &map, filtered_map_format(&context) == LOBE_FORMAT_RGBA16_FLOAT);
+    check(found, &map, &texels, tolerance);
+    free(found);
+    reference_layers_free(&texels);
+    lobe_graph_begin(f->graph);
+    device_scene_destroy(&uploaded);
+    lobe_scene_destroy(&scene);
+}
+
+/// Every level and layer.
+static void check_all(const float *texel, const reduced_map *map, const reference_layers *texels,
+                      double tolerance) {
+    assert_int_equal(map->layers, SLOPE_LAYERS);
+    check_reduced_levels(map, texel, texels, tolerance, 0);
+}
+
+static void odd_sizes_are_averaged_exactly(void **state) {
+    static const uint32_t sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {2, 2}, {16, 8}, {67, 45}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
+        material.normal_map =
+            scene_add_map(scene, random_normal_map(sizes[i][0], sizes[i][1], 1.2, 241 + i));
+        with_map(*state, scene, &material, "storage=float32", 4e-6, check_all);
+    }
+}
+
+/// Maps of different sizes, every distribution, and normals spread inside a texel.
+static void widths_are_averaged_as_variances(void **state) {
+    for (int distribution = 0; distribution < 4; distribution++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material;
+        lobe_material_default(&material);
+        material.distribution = (lobe_distribution)distribution;
+        material.normal_concentration = 200;
+        material.normal_scale = 0.7f;
+        material.normal_map = scene_add_map(scene, random_normal_map(24, 6, 0.8, 251));
+        material.metallic_roughness_map = scene_add_map(scene, random_map(9, 12, 0.1, 1, 252));
+        with_map(*state, scene, &material, "storage=float32", 1e-5, check_all);
+    }
+}
+
+/// Base lobes that lean away from the normal give their own slopes, the darker the fewer; those
+/// under the horizon count as steep as can be, and a uniform lobe as kappa = 1.
+static void tilted_lobes_give_their_own_slopes(void **state) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 30);
+    material.lobe_count = 3;
+    material.lobes[0] = (lobe_base_lobe){{0.6f, 0, 0.8f}, 40, {0.5f, 0.25f, 0.125f}};
+    material.lobes[1] = (lobe_base_lobe){{0, -0.28f, 0.96f}, 0, {0.1f, 0.2f, 0.3f}};
+    material.lobes[2] = (lobe_base_lobe){{0.8f, 0, -0.6f}, 15, {0.1f, 0.1f, 0.1f}};
+    material.normal_map = scene_add_map(scene, random_normal_map(10, 10, 1.2, 253));
+    material.width_map = scene_add_map(scene, random_map(20, 5, 0.5, 4, 254));
+    with_map(*state, scene, &material, "storage=float32", 1e-5, check_all);
+}
+
+/// Texels on the horizon and below it.
+static void steep_normals_stay_finite(void **state) {
+    static const float normals[4][3] = {
+        {1, 0.5f, 0.5f}, {0.5f, 0, 0.25f}, {0.5f, 0.5f, 0}, {0.5f, 1, 0.501f}};
+    for (int i = 0; i < 4; i++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
+        material.normal_map =
+            scene_add_map(scene, constant_map(4, 4, normals[i][0], normals[i][1], normals[i][2]));
+        with_map(*state, scene, &material, "storage=float32", 4e-6, check_all);
+        scene = scene_begin();
+        material.normal_map =
+            scene_add_map(scene, constant_map(4, 4, normals[i][0], normals[i][1], normals[i][2]));
+        with_map(*state, scene, &material, "storage=float16", 1e-3, check_all);
+    }
+}
+
+/// Variance of slopes that the coarsest level leaves, against the exact one, as a part of the
+/// variance of base lobes of kappa = 1e4 that it is added to.
+static void check_variance(const float *texel, const reduced_map *map,
+                           const reference_layers *texels, double tolerance) {
+    const float *last = texel;
+    uint32_t width = map->width, height = map->height;
+    for (uint32_t level = 1; level < map->levels; level++) {
+        last += (size_t)4 * width * height * SLOPE_LAYERS;
+        width = half_extent(width);
+        height = half_extent(height);
+    }
+    double exact[4 * SLOPE_LAYERS];
+    reference_mean(texels, exact);
+    for (int i = 0; i < 3; i++) {
+        int a = i == 1, b = i != 0;
+        double found = (double)last[4 + i] - (double)last[a] * (double)last[b];
+        double expected = exact[4 + i] - exact[a] * exact[b];
+        if (!(fabs(found - expected) <= tolerance * 1e-4))
+            fail_msg("moment %d: %.6g instead of %.6g", i, found, expected);
+    }
+    assert_true(fabs((double)last[3] - exact[3]) <= 1e-3 * exact[3]);
+}
+
+/// A tilted plane with little on it, under lobes of kappa = 1e4. In float32 slopes of 1 keep their
+/// variance to a fiftieth of the lobes' own. float16 rounds squares of slopes to 5e-4: slopes of
+/// 0.1 are good to a tenth.
+static void sharp_lobes_survive_cancellation(void **state) {
+    static const struct {
+        const char *storage;
+        double slope, tolerance;
+    } cases[] = {{"storage=float32", 1, 0.02}, {"storage=float16", 0.1, 0.1}};
+    for (int i = 0; i < 2; i++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1e4f);
+        lobe_image image = random_normal_map(64, 64, 0.02, 255);
+        float *texel = image.texels;
+        for (int j = 0; j < 64 * 64; j++, texel += 4) {
+            double x = 2 * (double)texel[0] - 1, z = 2 * (double)texel[2] - 1;
+            double angle = atan(cases[i].slope);
+            texel[0] = (float)(0.5 + 0.5 * (x * cos(angle) + z * sin(angle)));
+            texel[2] = (float)(0.5 + 0.5 * (z * cos(angle) - x * sin(angle)));
+        }
+        material.normal_map = scene_add_map(scene, image);
+        with_map(*state, scene, &material, cases[i].storage, cases[i].tolerance, check_variance);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(odd_sizes_are_averaged_exactly),
+        cmocka_unit_test(widths_are_averaged_as_variances),
+        cmocka_unit_test(tilted_lobes_give_their_own_slopes),
+        cmocka_unit_test(steep_normals_stay_finite),
+        cmocka_unit_test(sharp_lobes_survive_cancellation),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""What a scene does not need is not in the compiled shader.
+
+Compiles the shading pass of each filter as the build does, sets its specialisation constants, lets
+spirv-opt remove what they make unreachable, as a driver would, and counts what is left.
+
+usage: specialised_shaders.py SHADERS GLSLANG SPIRV_OPT SPIRV_DIS
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+shaders = glslang = spirv_opt = spirv_dis = None
+
+FILTERS = ("direct", "mipmap", "toksvig", "lobes")
+
+
+def identifiers():
+    """Constant ids by name, as the shaders see them."""
+    found = {}
+    for header in ("specialisation.h", "mixture.h"):
+        text = (shaders / "interface" / header).read_text()
+        for name, value in re.findall(r"#define SPECIALISE_(\w+)\s+\(?([\w +]+?)\)?\s*(?://|\n)",
+                                      text):
+            value = value.replace("SPECIALISE_FILTER", str(found.get("FILTER", 0)))
+            found[name] = sum(int(part) for part in value.split("+"))
+    return found
+
+
+def run(*command):
+    done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stdout)
+    return done.stdout
+
+
+def compile_shading(folder, name, outputs):
+    module = folder / f"{name}{'_aov' if outputs else ''}.spv"
+    if not module.exists():
+        (folder / "filter.glsl").write_text(f'#include "filters/{name}.glsl"\n')
+        definitions = ["-DAOV"] if outputs else []
+        run(glslang, "-V", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", f"-I{shaders}",
+            *definitions, "-o", module, shaders / "shading/shading.frag")
+    return module
+
+
+def disassembly(folder, name, constants, outputs=False):
+    """The instructions that are left of a filter's shading pass."""
+    module = compile_shading(folder, name, outputs)
+    ids = identifiers()
+    values = " ".join(f"{ids[key]}:{value}" for key, value in constants.items())
+    optimised = folder / "optimised.spv"
+    run(spirv_opt, f"--set-spec-const-default-value={values}", "--freeze-spec-const",
+        "--fold-spec-const-op-composite", "-O", "--loop-unroll", "-O", "-O", module, "-o",
+        optimised)
+    return run(spirv_dis, "--raw-id", "--no-color", optimised)
+
+
+def count(text, pattern):
+    return len(re.findall(pattern, text))
+
+
+def storage_accesses(text):
+    """Reads of the one storage block, which holds the lights."""
+    pointers = re.findall(r"(%\d+) = OpTypePointer StorageBuffer ", text)
+    return sum(count(text, rf"OpAccessChain {pointer} ") for pointer in pointers)
+
+
+# A lobe without maps under one directional light; everything else is off.
+BARE = {"MODEL": 1, "DISTRIBUTION": 3, "LOBE_COUNT": 1, "MAPS": 0, "DIFFUSE": "false",
+        "ALPHA_MASK": "false", "EMISSION": "false", "VERTEX_COLOUR": "false",
+        "NORMAL_CONCENTRATION": "false", "DIRECTIONAL_LIGHTS": "true", "POINT_LIGHTS": "false",
+        "SPOT_LIGHTS": "false", "LIGHTS_AT_ONCE": 1, "MIXTURE": "false"}
+
+
+class SpecialisedShaders(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = Path(self.scratch.name)
+
+    def size_of(self, name, outputs=False, **changes):
+        return count(disassembly(self.folder, name, {**BARE, **changes}, outputs), r"\n")
+
+    def test_a_material_without_maps_samples_none(self):
+        for name in FILTERS:
+            text = disassembly(self.folder, name, BARE)
+            self.assertEqual(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
+            # With a normal map there is something to count.
+            text = disassembly(self.folder, name, {**BARE, "MAPS": 2, "MIXTURE": "true"})
+            self.assertGreater(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
+
+    def test_what_is_absent_costs_instructions_only_where_present(self):
+        for name in FILTERS:
+            bare = self.size_of(name)
+            for key in ("POINT_LIGHTS", "SPOT_LIGHTS", "DIFFUSE", "ALPHA_MASK", "EMISSION",
+                        "NORMAL_CONCENTRATION"):
+                self.assertGreater(self.size_of(name, **{key: "true"}), bare, f"{name}, {key}")
+
+    def test_without_light_no_light_is_read(self):
+        for name in FILTERS:
+            text = disassembly(self.folder, name, {**BARE, "DIRECTIONAL_LIGHTS": "false"})
+            self.assertEqual(storage_accesses(text), 0, name)
+            self.assertGreater(storage_accesses(disassembly(self.folder, name, BARE)), 0, name)
+            self.assertLess(count(text, r"\n"), self.size_of(name))
+
+    def test_outputs_cost_where_they_are_wanted(self):
+        for name in FILTERS:
+            self.assertGreater(self.size_of(name, outputs=True), self.size_of(name))
+
+    def test_fewer_clusters_are_less_code(self):
+        mixed = {"MAPS": 2, "MIXTURE": "true"}
+        one = self.size_of("lobes", **mixed, SUBDIVISION=0)
+        eight = self.size_of("lobes", **mixed, SUBDIVISION=2)
+        self.assertLess(one, eight)
+        self.assertLess(self.size_of("lobes"), one)
+
+
+if __name__ == "__main__":
+    shaders, glslang, spirv_opt, spirv_dis = (Path(argument) for argument in sys.argv[1:5])
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,153 @@
+// The same pixels, bit by bit, in every run and for any number of threads of the driver. Each run
+// is a process of its own, since lavapipe reads LP_NUM_THREADS when it makes a device: this
+// program started with the argument "pixels" draws and prints hashes of what it drew.
+
+#include "tests/passes/support/fixture.h"
+
+#include <inttypes.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { WIDTH = 96, HEIGHT = 54, TEXT = 16384 };
+
+// ---------------------------------------------------------------------------------------------
+// The run
+
+static void print_hashes(fixture *f, const char *scene, const picture_request *request) {
+    lobe_frame frame = draw(f, request);
+    printf("%s %s %s %016" PRIx64 " %016" PRIx64 " %016" PRIx64 "\n", scene, request->filter,
+           request->settings[0] ? request->settings[0] : "-", image_hash(&frame.radiance),
+           image_hash(&frame.normal_depth), image_hash(&frame.lobes_level));
+    lobe_frame_free(&frame);
+}
+
+static void print_scene(fixture *f, const lobe_scene *scene, const char *const (*requests)[2],
+                        size_t count) {
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (size_t i = 0; i < count; i++) {
+        picture_request request = {.filter = requests[i][0],
+                                   .settings = {requests[i][1], NULL},
+                                   .width = WIDTH,
+                                   .height = HEIGHT,
+                                   .samples = 9,
+                                   .outputs = true};
+        print_hashes(f, scene->name, &request);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+}
+
+static size_t count_scenes(void) {
+    size_t count = 0;
+    for (size_t i = 0; i < lobe_builtin_scene_count(); i++)
+        count += !lobe_builtin_scene_get(i)->needs_assets;
+    return count;
+}
+
+/// By every filter.
+static void print_builtin_scenes(fixture *f) {
+    for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
+        lobe_scene *scene;
+        if (lobe_builtin_scene_get(i)->needs_assets)
+            continue;
+        assert_int_equal(lobe_scene_open(lobe_builtin_scene_get(i)->name, NULL, &scene), LOBE_OK);
+        for (size_t j = 0; j < lobe_filter_count(); j++) {
+            const char *const request[][2] = {{lobe_filter_name(lobe_filter_get(j)), NULL}};
+            print_scene(f, scene, request, 1);
+        }
+        lobe_scene_destroy(&scene);
+    }
+}
+
+/// Maps over an atlas, drawn by several triangles that meet.
+static void print_atlas_scene(fixture *f) {
+    static const char *const requests[][2] = {{"lobes", "space=object"},
+                                              {"lobes", "space=camera"},
+                                              {"lobes", "storage=float16"},
+                                              {"mipmap", "probes=3"}};
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
+    material.normal_map = scene_add_map(scene, random_normal_map(171, 57, 0.5, 91));
+    scene_add_square(scene, &material, 1, NULL);
+    scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+    scene_look_from(scene, (double[]){0.4, 1, 0.9}, 3);
+    scene_end(scene);
+    print_scene(f, scene, requests, 4);
+    lobe_scene_destroy(&scene);
+}
+
+static void draw_all(void **state) {
+    print_builtin_scenes(*state);
+    print_atlas_scene(*state);
+}
+
+static int draw_and_print(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(draw_all)};
+    cmocka_set_message_output(CM_OUTPUT_SUBUNIT);
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The comparison
+
+/// Lines with hashes that a run prints, with LP_NUM_THREADS as given.
+static void run(const char *threads, char text[TEXT]) {
+    char program[PATH_MAX], command[PATH_MAX + 32], line[256];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    assert_true(length > 0);
+    program[length] = '\0';
+    snprintf(command, sizeof command, "'%s' pixels", program);
+    assert_int_equal(setenv("LP_NUM_THREADS", threads, 1), 0);
+    FILE *output = popen(command, "r");
+    assert_non_null(output);
+    text[0] = '\0';
+    while (fgets(line, sizeof line, output)) {
+        if (strchr(line, ' ') && strlen(line) > 48 && strlen(text) + strlen(line) < TEXT)
+            strcat(text, line);
+    }
+    int status = pclose(output);
+    assert_int_equal(status, 0);
+    size_t lines = 0;
+    for (const char *c = text; *c; c++)
+        lines += *c == '\n';
+    assert_int_equal(lines, lobe_filter_count() * count_scenes() + 4);
+}
+
+static void pixels_do_not_depend_on_run_or_threads(void **state) {
+    (void)state;
+    static const char *const threads[] = {"2", "2", "1"};
+    static char first[TEXT], other[TEXT];
+    run(threads[0], first);
+    for (int i = 1; i < 3; i++) {
+        run(threads[i], other);
+        if (strcmp(first, other) != 0)
+            fail_msg("LP_NUM_THREADS=%s:\n%snot as with %s:\n%s", threads[i], other, threads[0],
+                     first);
+    }
+}
+
+/// Nor does a hash stay the same whatever is drawn.
+static void hashes_tell_pictures_apart(void **state) {
+    (void)state;
+    float texels[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 2, 1, texels};
+    uint64_t before = image_hash(&image);
+    texels[7] = nextafterf(7, 8);
+    assert_true(image_hash(&image) != before);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1 && strcmp(argv[1], "pixels") == 0)
+        return draw_and_print();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hashes_tell_pictures_apart),
+        cmocka_unit_test(pixels_do_not_depend_on_run_or_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,265 @@
+// Energy and reciprocity of the microfacet frame, through the whole renderer: a plane under light
+// from everywhere, and a plane whose light and viewer change places.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/passes/support/shading_reference.h"
+#include "tests/reference/vector.h"
+
+static const char *const distribution_names[] = {"GGX", "Beckmann", "Blinn-Phong", "vMF"};
+
+/// From the tangent frame of scene_add_square to the world.
+static void to_world(const double tangent[3], double world[3]) {
+    world[0] = tangent[0];
+    world[1] = tangent[2];
+    world[2] = -tangent[1];
+}
+
+static void direction_at(double degrees, double azimuth, double direction[3]) {
+    double angle = degrees * M_PI / 180;
+    direction[0] = sin(angle) * cos(azimuth);
+    direction[1] = sin(angle) * sin(azimuth);
+    direction[2] = cos(angle);
+}
+
+static void add_sun_from(lobe_scene *scene, const double tangent[3], double intensity) {
+    double world[3];
+    to_world(tangent, world);
+    scene_add_sun(scene, world, intensity);
+}
+
+static lobe_scene *mapped_scene(const lobe_material *material, lobe_image normals,
+                                const double outgoing[3]) {
+    lobe_scene *scene = scene_begin();
+    lobe_material mapped = *material;
+    mapped.normal_map = scene_add_map(scene, normals);
+    scene_add_square(scene, &mapped, 40, NULL);
+    double world[3];
+    to_world(outgoing, world);
+    scene_look_from(scene, world, 0.1);
+    return scene;
+}
+
+/// A square of a material with a normal map of 8x8 equal texels, flat or tilted, which filters see
+/// at level 4: nothing but their filtered maps.
+static lobe_scene *plane_scene(const lobe_material *material, const float texel[3],
+                               const double outgoing[3]) {
+    return mapped_scene(material, constant_map(8, 8, texel[0], texel[1], texel[2]), outgoing);
+}
+
+static double draw_one_pixel(fixture *f, lobe_scene *scene, const char *filter) {
+    scene_end(scene);
+    picture_request request = {
+        .filter = filter, .settings = {NULL}, .width = 1, .height = 1, .samples = 1};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    double value = (double)pixel_at(&frame.radiance, 0, 0)[1];
+    lobe_frame_free(&frame);
+    return value;
+}
+
+static lobe_material microfacets(lobe_distribution distribution, double roughness,
+                                 double metallic) {
+    lobe_material material;
+    lobe_material_default(&material);
+    material.distribution = distribution;
+    material.roughness = (float)roughness;
+    material.metallic = (float)metallic;
+    return material;
+}
+
+// ---------------------------------------------------------------------------------------------
+// White furnace
+
+enum { ROWS = 32, COLUMNS = 31 };
+
+/// Light from everywhere with radiance one, as suns that stand for equal parts of the visible
+/// normals' distribution: half vectors are those of GGX with the material's alpha (Walter et al.
+/// 2007, Eq. 35), a part of d(omega_i) = 4 <o, h> d(omega_h) each. Returns the plane's reflected
+/// radiance in double precision.
+static double add_furnace(lobe_scene *scene, const lobe_material *material,
+                          const double outgoing[3]) {
+    double alpha = fmax(pow((double)material->roughness, 2), 0.02), sum = 0;
+    for (int i = 0; i < ROWS * COLUMNS; i++) {
+        double u = (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS + 0.5) / COLUMNS;
+        double tangent = alpha * sqrt(u / (1 - u)), cosine = 1 / sqrt(1 + tangent * tangent);
+        const double half_vector[3] = {tangent * cosine * cos(azimuth),
+                                       tangent * cosine * sin(azimuth), cosine};
+        double product = reference_dot(outgoing, half_vector), incoming[3], radiance[3];
+        for (int j = 0; j < 3; j++)
+            incoming[j] = 2 * product * half_vector[j] - outgoing[j];
+        if (product <= 0 || incoming[2] <= 1e-4)
+            continue;
+        double slope = tangent / alpha, density = cosine / (M_PI * alpha * alpha);
+        density /= pow(cosine, 4) * pow(1 + slope * slope, 2);
+        double part = 4 * product / (density * ROWS * COLUMNS);
+        add_sun_from(scene, incoming, part);
+        shade_base_material(material, (double[]){0, 0, 1}, outgoing, incoming, radiance);
+        sum += part * radiance[1];
+    }
+    return sum;
+}
+
+/// GGX and Beckmann are masked by their own shadowing function, which loses energy only. The others
+/// are masked as Beckmann (Walter et al. 2007, section 5.2), which is no longer theirs where they
+/// are broad: as much as is written here comes out too much at grazing angles.
+static double most_reflected(const lobe_material *material) {
+    bool own = material->distribution == LOBE_DISTRIBUTION_GGX ||
+               material->distribution == LOBE_DISTRIBUTION_BECKMANN;
+    return own || material->roughness < 0.5f ? 1.003 : 1.15;
+}
+
+static void check_furnace(fixture *f, const lobe_material *material, double degrees) {
+    double outgoing[3];
+    direction_at(degrees, 0.3, outgoing);
+    lobe_scene *scene = plane_scene(material, (float[]){0.5f, 0.5f, 1}, outgoing);
+    double expected = add_furnace(scene, material, outgoing);
+    double found = draw_one_pixel(f, scene, "direct");
+    char what[96];
+    snprintf(what, sizeof what, "%s, roughness %g, %g degrees",
+             distribution_names[material->distribution], (double)material->roughness, degrees);
+    if (!(fabs(found - expected) <= 1e-3 * expected))
+        fail_msg("%s: %.6g instead of %.6g", what, found, expected);
+    if (!(found <= most_reflected(material)))
+        fail_msg("%s: reflects %g of the light", what, found);
+    // Little is lost between smooth facets; what rough ones lose, they lose to each other.
+    double least = material->roughness < 0.5f && degrees < 60 ? 0.96 : 0.3;
+    if (!(found >= least))
+        fail_msg("%s: only %g of the light is left", what, found);
+    // A filter that turns base lobes into its own kind keeps their projected area. A Beckmann lobe
+    // as broad as Blinn-Phong's of exponent 0 reflects a third more of itself into the ground.
+    bool at_limits = fabs((double)material->roughness - 0.6) > 0.1 && fabs(degrees - 50) > 1;
+    for (size_t i = 0; at_limits && i < lobe_filter_count(); i++) {
+        const char *filter = lobe_filter_name(lobe_filter_get(i));
+        double filtered = draw_one_pixel(f, scene, filter);
+        if (!(filtered >= 0.75 * least && filtered <= most_reflected(material) + 0.02))
+            fail_msg("%s: %s reflects %g of the light", what, filter, filtered);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+static void a_white_plane_reflects_no_more_than_it_gets(void **state) {
+    static const double angles[] = {0, 50, 80}, roughnesses[] = {0.3, 0.6, 1};
+    for (int distribution = 0; distribution < 4; distribution++) {
+        for (int i = 0; i < 9; i++) {
+            lobe_material material =
+                microfacets((lobe_distribution)distribution, roughnesses[i % 3], 1);
+            check_furnace(*state, &material, angles[i / 3]);
+        }
+    }
+}
+
+/// Specular and diffuse share what arrives: a white dielectric reflects at most all of it.
+static void a_white_dielectric_reflects_no_more_than_it_gets(void **state) {
+    static const double angles[] = {0, 50, 80};
+    for (int i = 0; i < 3; i++) {
+        lobe_material material = microfacets(LOBE_DISTRIBUTION_GGX, 1, 0);
+        check_furnace(*state, &material, angles[i]);
+    }
+}
+
+/// Normals up to `tilt` radians from the pole.
+static void check_rough_surface(fixture *f, const lobe_material *material, double tilt,
+                                double degrees) {
+    double outgoing[3];
+    direction_at(degrees, 0.3, outgoing);
+    lobe_scene *scene = mapped_scene(material, random_normal_map(8, 8, tilt, 201), outgoing);
+    // Suns where the normals together reflect.
+    lobe_material broad = *material;
+    broad.roughness = (float)fmax((double)material->roughness, sqrt(tilt));
+    add_furnace(scene, &broad, outgoing);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const char *filter = lobe_filter_name(lobe_filter_get(i));
+        double found = draw_one_pixel(f, scene, filter);
+        // One sample's narrow lobe is missed by suns for broad ones, or faces away at grazing
+        // angles.
+        if (!(found >= (degrees < 60 ? 0.5 : 0) && found <= 1.03))
+            fail_msg("%s, tilt %g, %g degrees: %s reflects %g of the light",
+                     distribution_names[material->distribution], tilt, degrees, filter, found);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// Nor does one of normals that point all ways, which filters make a distribution of their own of.
+static void a_rough_surface_reflects_no_more_than_it_gets(void **state) {
+    static const double angles[] = {0, 50, 80}, tilts[] = {0.2, 0.7};
+    for (int distribution = 0; distribution < 4; distribution++) {
+        for (int i = 0; i < 6; i++) {
+            lobe_material material = microfacets((lobe_distribution)distribution, 0.3, 1);
+            check_rough_surface(*state, &material, tilts[i / 3], angles[i % 3]);
+        }
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Reciprocity
+
+/// Reflectance of one light: the pixel without the incident cosine to `normal`.
+static double reflectance(fixture *f, const lobe_material *material, const char *filter,
+                          const double normal[3], const double outgoing[3],
+                          const double incoming[3], bool cosine) {
+    float texel[3];
+    for (int i = 0; i < 3; i++)
+        texel[i] = (float)(0.5 + 0.5 * normal[i]);
+    lobe_scene *scene = plane_scene(material, texel, outgoing);
+    add_sun_from(scene, incoming, 1);
+    double value = draw_one_pixel(f, scene, filter);
+    lobe_scene_destroy(&scene);
+    return cosine ? value / reference_dot(normal, incoming) : value;
+}
+
+static void check_reciprocity(fixture *f, const lobe_material *material, const char *filter,
+                              const double normal[3]) {
+    static const double angles[][2] = {{0, 60}, {20, 40}, {35, 80}, {85, 10}};
+    for (int i = 0; i < 4; i++) {
+        double a[3], b[3];
+        direction_at(angles[i][0], 0.2, a);
+        direction_at(angles[i][1], 2.9, b);
+        if (reference_dot(normal, a) < 0.02 || reference_dot(normal, b) < 0.02)
+            continue;
+        bool cosine = material->model == LOBE_MATERIAL_MICROFACET;
+        double there = reflectance(f, material, filter, normal, a, b, cosine);
+        double back = reflectance(f, material, filter, normal, b, a, cosine);
+        assert_true(there > 0);
+        if (!(fabs(there - back) <= 2e-3 * there))
+            fail_msg("%s, %s, %g and %g degrees: %.6g there, %.6g back", filter,
+                     distribution_names[material->distribution], angles[i][0], angles[i][1], there,
+                     back);
+    }
+}
+
+static void light_and_viewer_may_change_places(void **state) {
+    static const double flat[3] = {0, 0, 1}, tilted[3] = {0.28, 0, 0.96};
+    for (int distribution = 0; distribution < 4; distribution++) {
+        for (size_t i = 0; i < lobe_filter_count(); i++) {
+            const char *filter = lobe_filter_name(lobe_filter_get(i));
+            lobe_material material = microfacets((lobe_distribution)distribution, 0.5, 0.5);
+            check_reciprocity(*state, &material, filter, flat);
+            check_reciprocity(*state, &material, filter, tilted);
+        }
+    }
+}
+
+/// Lobes of the half vector have their cosine inside: they are symmetric themselves.
+static void half_vector_lobes_are_symmetric(void **state) {
+    static const double tilted[3] = {0.28, 0, 0.96};
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 15);
+        check_reciprocity(*state, &material, lobe_filter_name(lobe_filter_get(i)), tilted);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_white_plane_reflects_no_more_than_it_gets),
+        cmocka_unit_test(a_white_dielectric_reflects_no_more_than_it_gets),
+        cmocka_unit_test(a_rough_surface_reflects_no_more_than_it_gets),
+        cmocka_unit_test(light_and_viewer_may_change_places),
+        cmocka_unit_test(half_vector_lobes_are_symmetric),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}

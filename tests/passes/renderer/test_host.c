@@ -1,0 +1,487 @@
+// Pictures drawn into the images of a host with Vulkan of its own: the same bits as those that are
+// delivered, however they get there, and over what the host drew.
+
+#include "tests/passes/support/fixture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <lobe/colour.h>
+
+#include "tests/engine/support/host_device.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { SIZE = 16 };
+
+typedef struct host_fixture {
+    fixture passes;
+    host_device host;
+    lobe_scene *scene;
+    host_image colour, depth;
+} host_fixture;
+
+static const VkImageUsageFlags colour_usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                              VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+static const VkImageUsageFlags depth_usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                             VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
+/// A square with the background all around it.
+static lobe_scene *small_scene(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
+    material.base_colour[1] = 0.5f;
+    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.4, 131));
+    scene_add_square(scene, &material, 1, NULL);
+    scene_add_sun(scene, (double[]){0.2, 1, 0.1}, 2);
+    scene_look_down(scene, 3);
+    scene->background[2] = 0.75f;
+    scene_end(scene);
+    return scene;
+}
+
+static int open_host(void **state) {
+    host_fixture *f = calloc(1, sizeof *f);
+    *state = f;
+    host_device_open(&f->host);
+    f->passes.device = host_device_import(&f->host);
+    f->scene = small_scene();
+    f->colour =
+        host_image_create(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, SIZE, SIZE, colour_usage);
+    f->depth = host_image_create(&f->host, VK_FORMAT_D32_SFLOAT, SIZE, SIZE, depth_usage);
+    return lobe_renderer_create(f->passes.device, &f->host.recorder.log, &f->passes.renderer) !=
+               LOBE_OK ||
+           lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
+}
+
+static int close_host(void **state) {
+    host_fixture *f = *state;
+    lobe_renderer_destroy(&f->passes.renderer);
+    lobe_device_destroy(&f->passes.device);
+    host_image_destroy(&f->host, &f->colour);
+    host_image_destroy(&f->host, &f->depth);
+    host_device_close(&f->host);
+    lobe_scene_destroy(&f->scene);
+    free(f);
+    return 0;
+}
+
+static lobe_vulkan_image lend(const host_image *image, VkImageUsageFlags usage,
+                              VkImageLayout layout) {
+    return (lobe_vulkan_image){.image = image->image,
+                               .format = image->format,
+                               .width = image->width,
+                               .height = image->height,
+                               .usage = usage,
+                               .layout = layout,
+                               .final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+}
+
+static lobe_frame render(host_fixture *f, const lobe_render_parameters *parameters) {
+    lobe_frame frame;
+    if (lobe_renderer_render(f->passes.renderer, parameters, &frame) != LOBE_OK)
+        fail_msg("%s", f->host.recorder.last_error);
+    return frame;
+}
+
+/// What the renderer delivers by itself.
+static lobe_frame delivered(host_fixture *f, const lobe_camera *camera) {
+    return render(f, &(lobe_render_parameters){.camera = camera, .width = SIZE, .height = SIZE});
+}
+
+static lobe_image host_texels(const host_fixture *f, const host_image *image) {
+    lobe_image texels;
+    assert_int_equal(
+        lobe_image_allocate(&texels, lobe_vulkan_format(image->format), SIZE, SIZE, NULL), LOBE_OK);
+    host_read(&f->host, image, texels.texels,
+              (size_t)SIZE * SIZE * lobe_format_size(texels.format));
+    return texels;
+}
+
+static void assert_same_bits(const lobe_image *a, const lobe_image *b) {
+    assert_int_equal(a->format, b->format);
+    assert_memory_equal(a->texels, b->texels, (size_t)SIZE * SIZE * lobe_format_size(a->format));
+}
+
+static void fill(host_fixture *f, const float colour[4], float depth) {
+    const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+    const VkClearDepthStencilValue value = {.depth = depth};
+    VkCommandBuffer commands = host_begin(&f->host);
+    host_barrier(commands, &f->colour, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    host_clear(commands, &f->colour, colour);
+    host_barrier(commands, &f->depth, VK_IMAGE_LAYOUT_UNDEFINED,
+                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdClearDepthStencilImage(commands, f->depth.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                &value, 1, &range);
+    host_finish(&f->host, commands);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Targets
+
+static void the_hosts_image_gets_the_same_bits(void **state) {
+    host_fixture *f = *state;
+    lobe_frame expected = delivered(f, NULL);
+    for (int given = 0; given < 2; given++) {
+        lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        const lobe_render_target target = {.radiance = &colour, .depth = given ? &depth : NULL};
+        lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+        assert_null(frame.radiance.texels);
+        assert_int_equal(frame.pass_count, 1); // maps are found ready
+        lobe_image image = host_texels(f, &f->colour);
+        assert_same_bits(&image, &expected.radiance);
+        lobe_image_free(&image);
+        lobe_frame_free(&frame);
+    }
+    lobe_frame_free(&expected);
+}
+
+static void other_outputs_are_still_delivered(void **state) {
+    host_fixture *f = *state;
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    const lobe_render_target target = {.radiance = &colour};
+    lobe_frame frame =
+        render(f, &(lobe_render_parameters){.target = &target, .arbitrary_output_variables = true});
+    assert_null(frame.radiance.texels);
+    assert_true(pixel_at(&frame.normal_depth, SIZE / 2, SIZE / 2)[1] > 0.5f);
+    lobe_frame_free(&frame);
+}
+
+/// Where nothing is hit the host's colour stays; where its depth is nearer, too.
+static void lobe_draws_over_what_the_host_drew(void **state) {
+    static const float green[4] = {0, 0.5f, 0, 1};
+    host_fixture *f = *state;
+    lobe_frame expected = delivered(f, NULL);
+    for (int nearer = 0; nearer < 2; nearer++) {
+        fill(f, green, nearer ? 1 : 0);
+        lobe_vulkan_image colour =
+            lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        lobe_vulkan_image depth =
+            lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        const lobe_render_target target = {.radiance = &colour, .depth = &depth, .keep = true};
+        lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+        lobe_image image = host_texels(f, &f->colour);
+        unsigned covered = 0;
+        for (uint32_t n = 0; n < SIZE * SIZE; n++) {
+            const float *own = pixel_at(&expected.radiance, n % SIZE, n / SIZE);
+            bool visible = own[3] > 0 && !nearer;
+            covered += visible;
+            assert_memory_equal(pixel_at(&image, n % SIZE, n / SIZE), visible ? own : green, 16);
+        }
+        assert_true(nearer ? covered == 0 : covered > 50 && covered < 200);
+        lobe_image_free(&image);
+        lobe_frame_free(&frame);
+    }
+    lobe_frame_free(&expected);
+}
+
+/// A visible environment is a background like any other.
+static void the_environment_stays_behind_the_hosts_background(void **state) {
+    static const float green[4] = {0, 0.5f, 0, 1};
+    static const char *const quick[] = {"env=mip", "env_size=16", NULL};
+    host_fixture *f = *state;
+    const lobe_settings settings = settings_of(filter_named("lobes"), quick);
+    scene_set_environment(f->scene, constant_map(8, 4, 0.25f, 0.25f, 0.25f));
+    f->scene->environment_visible = true;
+    const lobe_scene_changes changes = {.environment = true};
+    assert_int_equal(lobe_renderer_update_scene(f->passes.renderer, &changes), LOBE_OK);
+    lobe_render_parameters parameters = {.settings = &settings, .width = SIZE, .height = SIZE};
+    lobe_frame expected = render(f, &parameters);
+    assert_float_equal(pixel_at(&expected.radiance, 0, 0)[1], 0.25f, 1e-3);
+    fill(f, green, 0);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const lobe_render_target target = {.radiance = &colour, .keep = true};
+    parameters.target = &target;
+    lobe_frame frame = render(f, &parameters);
+    lobe_image image = host_texels(f, &f->colour);
+    const uint32_t middle = SIZE / 2;
+    assert_memory_equal(pixel_at(&image, 0, 0), green, 16);
+    assert_memory_equal(pixel_at(&image, middle, middle),
+                        pixel_at(&expected.radiance, middle, middle), 16);
+    lobe_scene_set_environment(f->scene, NULL);
+    assert_int_equal(lobe_renderer_update_scene(f->passes.renderer, &changes), LOBE_OK);
+    lobe_image_free(&image);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+}
+
+/// An image as displays want it: encoded, to the nearest of 256 steps.
+static void formats_of_displays_are_encoded(void **state) {
+    host_fixture *f = *state;
+    host_image image =
+        host_image_create(&f->host, VK_FORMAT_B8G8R8A8_SRGB, SIZE, SIZE, colour_usage);
+    lobe_frame expected = delivered(f, NULL);
+    lobe_vulkan_image colour = lend(&image, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    const lobe_render_target target = {.radiance = &colour};
+    lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+    lobe_image texels = host_texels(f, &image);
+    for (uint32_t n = 0; n < SIZE * SIZE; n++)
+        for (int channel = 0; channel < 3; channel++) {
+            float linear = pixel_at(&expected.radiance, n % SIZE, n / SIZE)[channel];
+            int stored = ((const uint8_t *)texels.texels)[4 * n + 2 - (uint32_t)channel];
+            assert_float_equal(stored, 255 * lobe_srgb_encode(linear), 1);
+        }
+    lobe_image_free(&texels);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+    host_image_destroy(&f->host, &image);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Submission
+
+/// A camera that moves a little with each frame.
+static lobe_camera camera_of(const host_fixture *f, int number) {
+    lobe_camera camera = f->scene->camera;
+    camera.orthographic_height *= 1 + 0.1f * (float)number;
+    return camera;
+}
+
+static void frames_in_flight_are_those_delivered(void **state) {
+    enum { FRAMES = 6 };
+    host_fixture *f = *state;
+    host_image images[FRAMES];
+    VkSemaphore timeline = host_semaphore(&f->host, true);
+    for (int n = 0; n < FRAMES; n++) {
+        images[n] =
+            host_image_create(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, SIZE, SIZE, colour_usage);
+        lobe_camera camera = camera_of(f, n);
+        lobe_vulkan_image colour = lend(&images[n], colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        const lobe_render_target target = {.radiance = &colour};
+        const lobe_vulkan_semaphore wait = {.semaphore = timeline, .value = (uint64_t)n};
+        const lobe_vulkan_semaphore signal = {.semaphore = timeline, .value = (uint64_t)n + 1};
+        const lobe_vulkan_submission submission = {
+            .waits = &wait, .wait_count = 1, .signals = &signal, .signal_count = 1};
+        lobe_frame frame = render(f, &(lobe_render_parameters){.camera = &camera,
+                                                               .target = &target,
+                                                               .submission = &submission,
+                                                               .frames_in_flight = 2});
+        assert_int_equal(frame.pass_count, 0);
+        lobe_frame_free(&frame);
+    }
+    assert_int_equal(lobe_graph_wait(lobe_renderer_graph(f->passes.renderer)), LOBE_OK);
+    for (int n = 0; n < FRAMES; n++) {
+        lobe_camera camera = camera_of(f, n);
+        lobe_frame expected = delivered(f, &camera);
+        lobe_image image = host_texels(f, &images[n]);
+        assert_same_bits(&image, &expected.radiance);
+        lobe_image_free(&image);
+        lobe_frame_free(&expected);
+        host_image_destroy(&f->host, &images[n]);
+    }
+    vkDestroySemaphore(f->host.vulkan.device, timeline, NULL);
+}
+
+/// The first picture's maps are built in the same command buffer, the second's are found ready.
+static void pictures_are_recorded_into_the_hosts_commands(void **state) {
+    host_fixture *f = *state;
+    lobe_image images[2];
+    for (int n = 0; n < 2; n++) {
+        VkCommandBuffer commands = host_begin(&f->host);
+        lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        const lobe_render_target target = {.radiance = &colour};
+        const lobe_vulkan_submission submission = {.commands = commands};
+        lobe_frame frame =
+            render(f, &(lobe_render_parameters){.target = &target, .submission = &submission});
+        host_finish(&f->host, commands);
+        lobe_frame_free(&frame);
+        images[n] = host_texels(f, &f->colour);
+    }
+    assert_true(count_passes(lobe_renderer_graph(f->passes.renderer), NULL, LOBE_PASS_SKIPPED) > 0);
+    lobe_frame expected = delivered(f, NULL);
+    for (int n = 0; n < 2; n++) {
+        assert_same_bits(&images[n], &expected.radiance);
+        lobe_image_free(&images[n]);
+    }
+    lobe_frame_free(&expected);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Passes of the host
+
+typedef struct added {
+    unsigned calls[2];
+    bool replace; ///< the picture by a constant one
+    bool shrink;  ///< by one of another extent
+} added;
+
+static void add_passes(void *user, lobe_graph *graph, lobe_render_stage stage,
+                       lobe_render_resources *resources) {
+    added *what = user;
+    what->calls[stage]++;
+    assert_int_equal(resources->width, SIZE);
+    assert_int_equal(resources->height, SIZE);
+    lobe_resource *radiance = &resources->radiance;
+    if (stage == LOBE_RENDER_AFTER_SHADING && !what->replace)
+        return;
+    if (stage == LOBE_RENDER_AFTER_SHADING)
+        *radiance = lobe_graph_image(
+            graph, &(lobe_image_description){.name = "mine",
+                                             .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                             .width = what->shrink ? SIZE / 2 : SIZE,
+                                             .height = SIZE});
+    float value = stage == LOBE_RENDER_BEFORE_SHADING ? 0.25f : 8;
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "mine");
+    *radiance =
+        lobe_pass_fill(pass, *radiance, (lobe_range){0}, (float[4]){value, value, value, value});
+}
+
+static void hosts_add_passes_before_and_after(void **state) {
+    host_fixture *f = *state;
+    lobe_frame expected = delivered(f, NULL);
+    added what = {0};
+    lobe_render_parameters parameters = {
+        .width = SIZE, .height = SIZE, .add_passes = add_passes, .user = &what};
+    lobe_frame frame = render(f, &parameters);
+    assert_int_equal(what.calls[LOBE_RENDER_BEFORE_SHADING], 1);
+    assert_int_equal(what.calls[LOBE_RENDER_AFTER_SHADING], 1);
+    static const float quarter[4] = {0.25f, 0.25f, 0.25f, 0.25f};
+    const uint32_t middle = SIZE / 2;
+    assert_memory_equal(pixel_at(&frame.radiance, 0, 0), quarter, 16);
+    assert_memory_equal(pixel_at(&frame.radiance, middle, middle),
+                        pixel_at(&expected.radiance, middle, middle), 16);
+    lobe_frame_free(&frame);
+    what.replace = true;
+    frame = render(f, &parameters);
+    assert_float_equal(pixel_at(&frame.radiance, 5, 5)[0], 8, 0);
+    lobe_frame_free(&frame);
+    what.shrink = true;
+    assert_int_equal(lobe_renderer_render(f->passes.renderer, &parameters, &frame),
+                     LOBE_ERROR_INVALID_ARGUMENT);
+    assert_null(frame.radiance.texels);
+    assert_int_equal(f->host.recorder.errors, 1);
+    lobe_frame_free(&expected);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The reference
+
+enum { SAMPLES = 12 };
+
+static lobe_render_parameters reference_parameters(const lobe_render_target *target) {
+    return (lobe_render_parameters){.filter = filter_named("reference"),
+                                    .width = SIZE,
+                                    .height = SIZE,
+                                    .samples = SAMPLES,
+                                    .target = target};
+}
+
+/// Waited for by lobe, by the host, or in its commands.
+static void the_reference_gets_into_the_hosts_image(void **state) {
+    host_fixture *f = *state;
+    lobe_render_parameters parameters = reference_parameters(NULL);
+    lobe_frame expected = render(f, &parameters);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    const lobe_render_target target = {.radiance = &colour};
+    for (int way = 0; way < 3; way++) {
+        lobe_vulkan_submission submission = {.commands = way == 2 ? host_begin(&f->host) : NULL};
+        parameters = reference_parameters(&target);
+        parameters.submission = way > 0 ? &submission : NULL;
+        lobe_frame frame = render(f, &parameters);
+        assert_null(frame.radiance.texels);
+        assert_int_equal(lobe_graph_wait(lobe_renderer_graph(f->passes.renderer)), LOBE_OK);
+        if (submission.commands)
+            host_finish(&f->host, submission.commands);
+        lobe_image image = host_texels(f, &f->colour);
+        assert_same_bits(&image, &expected.radiance);
+        lobe_image_free(&image);
+        lobe_frame_free(&frame);
+        fill(f, (float[4]){0}, 0);
+    }
+    lobe_frame_free(&expected);
+}
+
+/// Where half of a pixel is covered, half of what the host drew is seen.
+static void the_reference_is_laid_over_what_the_host_drew(void **state) {
+    host_fixture *f = *state;
+    const float drawn[4] = {0.25f, 1, 0.5f, 1};
+    lobe_render_parameters parameters = reference_parameters(NULL);
+    lobe_frame expected = render(f, &parameters);
+    fill(f, drawn, 0);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const lobe_render_target target = {.radiance = &colour, .keep = true};
+    parameters = reference_parameters(&target);
+    lobe_frame frame = render(f, &parameters);
+    lobe_image image = host_texels(f, &f->colour);
+    int partly = 0;
+    for (uint32_t n = 0; n < SIZE * SIZE; n++) {
+        const float *over = pixel_at(&image, n % SIZE, n / SIZE);
+        const float *alone = pixel_at(&expected.radiance, n % SIZE, n / SIZE);
+        partly += alone[3] > 0 && alone[3] < 1;
+        for (int i = 0; i < 3; i++)
+            assert_float_equal(over[i] - (1 - alone[3]) * drawn[i],
+                               alone[i] - (1 - alone[3]) * f->scene->background[i], 1e-5f);
+        assert_float_equal(over[3], 1, 1e-6f);
+    }
+    assert_true(partly > 4);
+    lobe_image_free(&image);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Mistakes
+
+static void assert_refused(host_fixture *f, const lobe_render_parameters *parameters,
+                           lobe_result expected, const char *words) {
+    lobe_frame frame;
+    log_recorder_start(&f->host.recorder);
+    assert_int_equal(lobe_renderer_render(f->passes.renderer, parameters, &frame), expected);
+    assert_int_equal(f->host.recorder.errors, 1);
+    if (!strstr(f->host.recorder.last_error, words))
+        fail_msg("%s", f->host.recorder.last_error);
+}
+
+static void mistakes_are_refused(void **state) {
+    host_fixture *f = *state;
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    lobe_render_target target = {.radiance = &colour};
+    assert_refused(f, &(lobe_render_parameters){.target = &target, .width = 2 * SIZE},
+                   LOBE_ERROR_INVALID_ARGUMENT, "32x16 pixels for a target of 16x16");
+    lobe_render_parameters reference = {.filter = filter_named("reference"), .samples = 2};
+    const lobe_vulkan_submission submission = {0};
+    reference.submission = &submission;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "reference");
+    reference.target = &target;
+    reference.width = 2 * SIZE;
+    assert_refused(f, &reference, LOBE_ERROR_INVALID_ARGUMENT,
+                   "32x16 pixels for a target of 16x16");
+    lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    target.depth = &depth;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "no depth");
+    target.depth = NULL;
+    colour.format = VK_FORMAT_UNDEFINED;
+    reference.width = 0;
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "host image");
+    colour.format = f->colour.format;
+    target.keep = true;
+    assert_refused(f, &(lobe_render_parameters){.target = &target}, LOBE_ERROR_GRAPH, "host image");
+    target.radiance = NULL;
+    assert_refused(f, &(lobe_render_parameters){.target = &target}, LOBE_ERROR_INVALID_ARGUMENT,
+                   "without radiance");
+    lobe_frame frame = delivered(f, NULL);
+    assert_true(largest_value(&frame.radiance) > 0);
+    lobe_frame_free(&frame);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_hosts_image_gets_the_same_bits),
+        cmocka_unit_test(other_outputs_are_still_delivered),
+        cmocka_unit_test(lobe_draws_over_what_the_host_drew),
+        cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
+        cmocka_unit_test(formats_of_displays_are_encoded),
+        cmocka_unit_test(frames_in_flight_are_those_delivered),
+        cmocka_unit_test_setup_teardown(pictures_are_recorded_into_the_hosts_commands, open_host,
+                                        close_host),
+        cmocka_unit_test(hosts_add_passes_before_and_after),
+        cmocka_unit_test(the_reference_gets_into_the_hosts_image),
+        cmocka_unit_test(the_reference_is_laid_over_what_the_host_drew),
+        cmocka_unit_test(mistakes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, open_host, close_host);
+}

@@ -1,0 +1,116 @@
+// Every knob of every filter, at both ends of its range or with each of its choices, draws a
+// finite picture that is not empty.
+
+#include "tests/passes/support/fixture.h"
+
+#include <stdio.h>
+
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+/// A square of each model of material, near and far at once.
+static lobe_scene *both_models(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 40);
+    material.base_colour[0] = 0.5f;
+    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.5, 111));
+    material.width_map = scene_add_map(scene, random_map(32, 32, 0.5, 2, 112));
+    scene_add_square(scene, &material, 1, NULL);
+    lobe_material_default(&material);
+    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.5, 113));
+    material.metallic_roughness_map = scene_add_map(scene, random_map(16, 16, 0.1, 1, 114));
+    float beside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.5f, 0.2f, 0, 1};
+    scene_add_square(scene, &material, 1, beside);
+    scene_look_along(scene);
+    scene_end(scene);
+    return scene;
+}
+
+static void draw_with(fixture *f, const char *filter, const char *assignment) {
+    picture_request request = {.filter = filter,
+                               .settings = {assignment, NULL},
+                               .width = 24,
+                               .height = 16,
+                               .samples = 2,
+                               .outputs = true};
+    lobe_frame frame = draw(f, &request);
+    bool view = assignment[0] == 'v';
+    if (!all_finite(&frame.radiance) || !all_finite(&frame.normal_depth) ||
+        !all_finite(&frame.lobes_level))
+        fail_msg("%s, %s: not finite", filter, assignment);
+    if (!view && !(largest_value(&frame.radiance) > 0.01))
+        fail_msg("%s, %s: black", filter, assignment);
+    lobe_frame_free(&frame);
+}
+
+static void draw_knob(fixture *f, const char *filter, const lobe_knob *knob) {
+    char assignment[128];
+    for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
+        snprintf(assignment, sizeof assignment, "%s=%s", knob->name, knob->choices[i]);
+        draw_with(f, filter, assignment);
+    }
+    for (int i = 0; !knob->choices && i < 2; i++) {
+        snprintf(assignment, sizeof assignment, "%s=%g", knob->name,
+                 i ? knob->maximum : knob->minimum);
+        draw_with(f, filter, assignment);
+    }
+}
+
+static void every_knob_draws_at_both_ends(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = both_models();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const lobe_filter *filter = lobe_filter_get(i);
+        for (size_t j = 0; j < lobe_filter_knob_count(filter); j++)
+            draw_knob(f, lobe_filter_name(filter), lobe_filter_knob(filter, j));
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+    assert_int_equal(f->errors, 0);
+}
+
+/// Views show numbers that are possible: whole lobes, levels that the maps have.
+static void views_show_what_they_say(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = both_models();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const char *filter = lobe_filter_name(lobe_filter_get(i));
+        picture_request request = {.filter = filter,
+                                   .settings = {"view=radiance", NULL},
+                                   .width = 24,
+                                   .height = 16,
+                                   .samples = 1,
+                                   .outputs = true};
+        lobe_frame outputs = draw(f, &request);
+        request.settings[0] = "view=lobes";
+        lobe_frame lobes = draw(f, &request);
+        request.settings[0] = "view=level";
+        lobe_frame levels = draw(f, &request);
+        for (uint32_t j = 0; j < 24 * 16; j++) {
+            const float *both = pixel_at(&outputs.lobes_level, j % 24, j / 24);
+            const float *lobe = pixel_at(&lobes.radiance, j % 24, j / 24);
+            const float *level = pixel_at(&levels.radiance, j % 24, j / 24);
+            if (lobe[3] == 0)
+                continue;
+            assert_true(lobe[0] == both[0] && lobe[1] == both[0] && lobe[2] == both[0]);
+            assert_true(level[0] == both[1]);
+            assert_true(lobe[0] >= 1 && lobe[0] <= 15 && lobe[0] == (float)(int)lobe[0]);
+            assert_true(level[0] >= 0 && level[0] < 10);
+        }
+        lobe_frame_free(&outputs);
+        lobe_frame_free(&lobes);
+        lobe_frame_free(&levels);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_knob_draws_at_both_ends),
+        cmocka_unit_test(views_show_what_they_say),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}

@@ -1,0 +1,43 @@
+#ifndef TESTS_PASSES_SUPPORT_FIXTURE_H
+#define TESTS_PASSES_SUPPORT_FIXTURE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <lobe/device.h>
+#include <lobe/graph.h>
+#include <lobe/renderer.h>
+
+/// What tests of passes share: a device, and a log that remembers.
+typedef struct fixture {
+    lobe_device *device;
+    lobe_graph *graph;       ///< for tests that declare passes themselves
+    lobe_renderer *renderer; ///< for tests that draw pictures
+    lobe_log log;
+    unsigned errors, warnings; ///< lines so far
+    char error[1024];          ///< the last error line
+} fixture;
+
+/// Group set-up and tear-down. Without a Vulkan device the tests fail.
+int fixture_create(void **state);
+int fixture_destroy(void **state);
+/// The same under the Khronos validation layer.
+int fixture_create_validated(void **state);
+
+/// A device of its own with the fixture's log; asserts that it is made.
+lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters);
+
+void fixture_forget_messages(fixture *f);
+
+/// Asserts a failure with exactly this code, told in exactly one line that contains `words`.
+void assert_failure(const fixture *f, lobe_result result, lobe_result expected, const char *words);
+
+/// Passes of the last frame of a graph with a name (NULL: any) and state.
+size_t count_passes(const lobe_graph *graph, const char *name, lobe_pass_state state);
+
+#endif

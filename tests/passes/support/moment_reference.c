@@ -1,0 +1,308 @@
+#include "tests/passes/support/moment_reference.h"
+
+#include <math.h>
+
+#include "tests/passes/support/mixture_reference.h"
+#include "tests/passes/support/shading_reference.h"
+#include "tests/reference/lobe/base_lobe.h"
+#include "tests/reference/lobe/half_vector_lobe.h"
+#include "tests/reference/lobe/lambert_plane.h"
+#include "tests/reference/lobe/plane_lobe.h"
+#include "tests/reference/microfacet/microfacet.h"
+#include "tests/reference/vector.h"
+
+reference_moment_bins moment_bins_of(const moment_partition *partition, bool colour,
+                                     double colour_scale) {
+    const moment_range *range = &partition->constants.range;
+    return (reference_moment_bins){
+        .kind = partition->kind,
+        .bins = partition->bins,
+        .colour = colour,
+        .origin = {(double)range->place[0], (double)range->place[1]},
+        .range = (double)range->place[2],
+        .mass_scale = (double)range->largest[0],
+        .sharp_scale = (double)range->largest[1],
+        .colour_scale = colour_scale,
+        .constants = partition->constants,
+    };
+}
+
+// ---------------------------------------------------------------------------------------------
+// Moments
+
+static void read_colour(const lobe_scene *scene, const lobe_texture_use *use,
+                        const reference_layers *size, uint32_t x, uint32_t y, double texel[4]) {
+    const lobe_image *image = image_of_map(scene, use);
+    for (int i = 0; i < 4; i++)
+        texel[i] = 1;
+    if (image)
+        nearest_texel(image, size, x, y, texel);
+}
+
+/// Of one texel: F0 of microfacets or the factor of the lobes' colours; and what is not metal.
+static void read_colours(const lobe_scene *scene, const lobe_material *material,
+                         const reference_layers *size, uint32_t x, uint32_t y,
+                         const double width[4], double specular[4], double diffuse[4]) {
+    read_colour(scene, &material->base_colour_map, size, x, y, diffuse);
+    read_colour(scene, &material->specular_map, size, x, y, specular);
+    for (int i = 0; i < 3; i++) {
+        double metallic = (double)material->metallic * width[2];
+        diffuse[i] *= (double)material->base_colour[i];
+        if (material->model == LOBE_MATERIAL_MICROFACET) {
+            specular[i] = 0.04 * (1 - metallic) + diffuse[i] * metallic;
+            diffuse[i] *= 1 - metallic;
+        }
+    }
+}
+
+static reference_plane_lobe lobe_of_texel(const lobe_material *material, uint32_t i,
+                                          const double normal[3], const double width[4],
+                                          const double specular[3], bool as_lobe) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    lobe_distribution distribution = as_lobe ? LOBE_DISTRIBUTION_VMF : material->distribution;
+    double parameter = as_lobe ? base_lobe_concentration(material, i, width)
+                               : base_lobe_parameter(material, i, width);
+    double local[3] = {0, 0, 1}, axis[3], share = base_lobe_share(material, i);
+    reference_plane_lobe lobe;
+    for (int j = 0; j < 3; j++) {
+        if (!microfacet)
+            local[j] = (double)material->lobes[i].direction[j];
+        lobe.colour[j] =
+            specular[j] * (microfacet ? 1 : (double)material->lobes[i].colour[j] / share);
+    }
+    reference_rotate_from_pole(normal, local, axis);
+    reference_plane_from_direction(axis, lobe.place);
+    lobe.variance = reference_plane_variance(distribution, parameter);
+    lobe.mass = share * reference_plane_mass(material->model, distribution, parameter);
+    return lobe;
+}
+
+reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material *material,
+                                   const reference_moment_bins *partition, bool as_lobe) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    uint32_t last = reference_moment_layers(partition) - 1;
+    reference_layers layers = allocate_lobe_texels(scene, material, last + 1);
+    for (uint32_t at = 0; at < layers.width * layers.height; at++) {
+        uint32_t x = at % layers.width, y = at / layers.width;
+        double normal[3], width[4], specular[4], diffuse[4];
+        read_lobe_texel(scene, material, &layers, x, y, normal, width);
+        read_colours(scene, material, &layers, x, y, width, specular, diffuse);
+        for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
+            reference_plane_lobe lobe =
+                lobe_of_texel(material, i, normal, width, specular, as_lobe);
+            reference_add_plane_lobe(partition, &lobe, &layers, x, y);
+        }
+        for (int j = 0; partition->colour && j < 3; j++)
+            reference_texel(&layers, x, y, last)[j] = diffuse[j] / partition->colour_scale;
+    }
+    return layers;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Shading
+
+/// A bin under the pixel.
+typedef struct bin {
+    double mass, mean[2], covariance[3]; ///< of the lobes' places
+    double sharpness, variance;          ///< of the base lobes
+    double base[3];                      ///< their covariance at the mean place
+    double colour[3];
+} bin;
+
+static bin read_bin(const reference_moment_bins *partition, const double *moments, uint32_t i) {
+    const double *place = moments + 4 * i * (partition->colour ? 3 : 2), *spread = place + 4;
+    bin result = {.mass = place[0] * partition->mass_scale};
+    double square = partition->range * partition->range;
+    for (int j = 0; j < 3; j++) {
+        int a = j == 1, b = j != 0;
+        result.covariance[j] =
+            square * (spread[j] / place[0] - place[1 + a] * place[1 + b] / (place[0] * place[0]));
+        if (partition->colour)
+            result.colour[j] = place[8 + j] / place[0] * partition->colour_scale;
+    }
+    for (int j = 0; j < 2; j++)
+        result.mean[j] = place[1 + j] / place[0] * partition->range + partition->origin[j];
+    result.sharpness = place[3] / place[0] * partition->sharp_scale;
+    result.variance = 1 / (result.sharpness * result.sharpness);
+    reference_plane_distortion(result.mean, result.base);
+    for (int j = 0; j < 3; j++)
+        result.base[j] *= result.variance;
+    return result;
+}
+
+/// Solves C x = d for a covariance (xx, yy, xy); returns the determinant.
+static double solve(const double c[3], const double d[2], double x[2]) {
+    double determinant = c[0] * c[1] - c[2] * c[2];
+    x[0] = (c[1] * d[0] - c[2] * d[1]) / determinant;
+    x[1] = (c[0] * d[1] - c[2] * d[0]) / determinant;
+    return determinant;
+}
+
+/// A Gaussian of the places' covariance and `scale` times the base lobes'.
+static double bell(const bin *b, double scale, const double d[2]) {
+    double covariance[3], x[2];
+    for (int i = 0; i < 3; i++)
+        covariance[i] = b->covariance[i] + scale * b->base[i];
+    double determinant = solve(covariance, d, x);
+    return b->mass / (2 * M_PI * sqrt(determinant)) * exp(-0.5 * (d[0] * x[0] + d[1] * x[1]));
+}
+
+/// Of GGX, Student's tail by three Gaussians (shaders/lib/lobe/plane_lobe.glsl).
+static double bells(const bin *b, lobe_distribution distribution, const double d[2]) {
+    static const double weights[] = {0.3115, 0.4593, 0.2037}, spreads[] = {0.4592, 1.7128, 8.7987};
+    if (distribution != LOBE_DISTRIBUTION_GGX)
+        return bell(b, 1, d);
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        sum += weights[i] * bell(b, spreads[i], d);
+    return sum;
+}
+
+static double half_trace(const bin *b) {
+    return 0.5 * (b->covariance[0] + b->covariance[1]);
+}
+
+/// The bin's value at a half vector: that of its Gaussians, or the more its base lobes' own shape,
+/// as broad as both together, the less the places are spread.
+static double evaluate_bin(const lobe_material *material, const bin *b, const double half_vector[3],
+                           const double d[2]) {
+    lobe_distribution distribution = material->distribution;
+    double variance = b->variance + half_trace(b), own = pow(b->variance / variance, 8);
+    double parameter = reference_parameter_of_plane_variance(distribution, variance), axis[3];
+    reference_direction_from_plane(b->mean, axis);
+    double shape = material->model == LOBE_MATERIAL_MICROFACET
+                       ? reference_normal_distribution(distribution, axis, half_vector, parameter)
+                       : reference_half_vector_lobe(distribution, half_vector, axis, parameter);
+    shape *= b->mass / reference_plane_mass(material->model, distribution, parameter);
+    return own * shape + (1 - own) * bells(b, distribution, d);
+}
+
+/// Mean place of the texels that reflect: with places and base lobes both Gaussian,
+/// mean + C (C + B)^-1 d.
+static void reflecting_normal(const bin *b, const double d[2], double normal[3]) {
+    double both[3], x[2];
+    for (int i = 0; i < 3; i++)
+        both[i] = b->covariance[i] + b->base[i];
+    solve(both, d, x);
+    const double *c = b->covariance;
+    const double place[2] = {b->mean[0] + c[0] * x[0] + c[2] * x[1],
+                             b->mean[1] + c[2] * x[0] + c[1] * x[1]};
+    reference_direction_from_plane(place, normal);
+}
+
+/// What all bins come to.
+typedef struct bin_total {
+    double distribution;
+    double normal[3], sharpness, colour[3]; ///< weighted by what each bin reflects
+    double mass, axis[3];                   ///< sum of the lobes' directions
+} bin_total;
+
+static void add_bin(const lobe_material *material, const bin *b, const double half_vector[3],
+                    bin_total *total) {
+    double place[2], normal[3], axis[3];
+    reference_plane_from_direction(half_vector, place);
+    const double d[2] = {place[0] - b->mean[0], place[1] - b->mean[1]};
+    double value = evaluate_bin(material, b, half_vector, d);
+    reflecting_normal(b, d, normal);
+    reference_direction_from_plane(b->mean, axis);
+    axis[2] -= half_trace(b);
+    total->distribution += value;
+    total->sharpness += value * b->sharpness;
+    total->mass += b->mass;
+    for (int i = 0; i < 3; i++) {
+        total->normal[i] += value * normal[i];
+        total->colour[i] += value * b->colour[i];
+        total->axis[i] += b->mass * axis[i];
+    }
+}
+
+/// The mean of normals from that of lobes which turn with them: l the base lobes' mean direction,
+/// axis_z = n_z l_z - <n_xy, l_xy>, axis_xy = l_xy + n_xy l_z.
+static void mean_normal_of(const lobe_material *material, const bin_total *total,
+                           double normal[3]) {
+    double local[3] = {0};
+    for (int i = 0; i < 3; i++)
+        normal[i] = total->axis[i] / total->mass;
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        return;
+    for (uint32_t i = 0; i < material->lobe_count; i++)
+        for (int j = 0; j < 3; j++)
+            local[j] += base_lobe_share(material, i) * (double)material->lobes[i].direction[j];
+    for (int i = 0; i < 2; i++)
+        normal[i] = (normal[i] - local[i]) / local[2];
+    normal[2] = (normal[2] + normal[0] * local[0] + normal[1] * local[1]) / local[2];
+}
+
+/// Constant colours, where the footprint has its means from no bin.
+static void constant_colours(const lobe_material *material, double specular[3], double diffuse[3]) {
+    double metallic = (double)material->metallic;
+    for (int i = 0; i < 3; i++) {
+        double base = (double)material->base_colour[i];
+        specular[i] = 0.04 * (1 - metallic) + base * metallic;
+        diffuse[i] = base * (1 - metallic);
+        if (material->model == LOBE_MATERIAL_MICROFACET)
+            continue;
+        diffuse[i] = base;
+        specular[i] = 0;
+        for (uint32_t j = 0; j < material->lobe_count; j++)
+            specular[i] += (double)material->lobes[j].colour[i];
+    }
+}
+
+static void shade_lobes(const bin_total *total, const double specular[3], const double diffuse[3],
+                        const double mean[3], const double incoming[3], double radiance[3]) {
+    for (int i = 0; i < 3; i++)
+        radiance[i] = total->distribution * specular[i] +
+                      reference_microfacet_diffuse(diffuse[i], 0, reference_dot(mean, incoming));
+}
+
+static void shade_microfacets(const lobe_material *material, bin_total *total,
+                              const double specular[3], const double diffuse[3],
+                              const double mean[3], const double half_vector[3],
+                              const double outgoing[3], const double incoming[3],
+                              double radiance[3]) {
+    reference_normalise(total->normal);
+    double in = reference_dot(total->normal, incoming);
+    double out = reference_dot(total->normal, outgoing);
+    if (in <= 0 || out <= 0)
+        return;
+    double sharpness = total->sharpness / total->distribution;
+    double width =
+        reference_parameter_of_plane_variance(material->distribution, 1 / (sharpness * sharpness));
+    double shadowing = reference_masking_shadowing(material->distribution, in, out, width);
+    for (int i = 0; i < 3; i++) {
+        double fresnel = reference_fresnel(specular[i], 1, reference_dot(incoming, half_vector));
+        radiance[i] =
+            reference_microfacet_specular(fresnel, total->distribution, shadowing, out) +
+            reference_microfacet_diffuse(diffuse[i], fresnel, reference_dot(mean, incoming));
+    }
+}
+
+void shade_moments(const lobe_material *material, const reference_moment_bins *partition,
+                   const double *moments, const double outgoing[3], const double incoming[3],
+                   double radiance[3]) {
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    if (incoming[2] <= 0)
+        return;
+    double half_vector[3], mean[3], specular[3], diffuse[3];
+    half_between(incoming, outgoing, half_vector);
+    bin_total total = {0};
+    for (uint32_t i = 0; i < partition->bins; i++) {
+        bin b = read_bin(partition, moments, i);
+        // As many as the knob least_share leaves.
+        if (b.mass > 1e-3)
+            add_bin(material, &b, half_vector, &total);
+    }
+    mean_normal_of(material, &total, mean);
+    constant_colours(material, specular, diffuse);
+    for (int i = 0; partition->colour && i < 3; i++) {
+        specular[i] = total.colour[i] / total.distribution;
+        diffuse[i] = moments[4 * (reference_moment_layers(partition) - 1) + (uint32_t)i] *
+                     partition->colour_scale;
+    }
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        shade_microfacets(material, &total, specular, diffuse, mean, half_vector, outgoing,
+                          incoming, radiance);
+    else
+        shade_lobes(&total, specular, diffuse, mean, incoming, radiance);
+}

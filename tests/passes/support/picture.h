@@ -1,0 +1,43 @@
+#ifndef TESTS_PASSES_SUPPORT_PICTURE_H
+#define TESTS_PASSES_SUPPORT_PICTURE_H
+
+#include "tests/passes/support/fixture.h"
+
+/// Pictures that tests draw and compare. All images are of floats.
+
+/// Settings of a filter from assignments, ended by NULL; asserts that they are accepted.
+lobe_settings settings_of(const lobe_filter *filter, const char *const *assignments);
+
+/// A filter by name; asserts that there is one.
+const lobe_filter *filter_named(const char *name);
+
+/// What most tests say about a picture.
+typedef struct picture_request {
+    const char *filter;
+    const char *settings[8]; ///< assignments, ended by NULL
+    uint32_t width, height;
+    uint32_t samples;
+    bool outputs; ///< arbitrary output variables too
+} picture_request;
+
+/// Draws the renderer's scene; asserts that it works. To free with lobe_frame_free.
+lobe_frame draw(fixture *f, const picture_request *request);
+/// The same for a scene of its own, which the renderer forgets again.
+lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request);
+
+/// The channels of a pixel.
+const float *pixel_at(const lobe_image *image, uint32_t x, uint32_t y);
+
+bool all_finite(const lobe_image *image);
+
+/// Over red, green and blue: |a - b| / |b|.
+double relative_l2(const lobe_image *a, const lobe_image *b);
+/// Largest |a - b| of any channel.
+double largest_difference(const lobe_image *a, const lobe_image *b);
+/// Largest |b| of red, green and blue.
+double largest_value(const lobe_image *b);
+
+/// FNV-1a over all bytes.
+uint64_t image_hash(const lobe_image *image);
+
+#endif

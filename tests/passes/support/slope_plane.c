@@ -1,0 +1,91 @@
+#include "tests/passes/support/slope_plane.h"
+
+#include <math.h>
+#include <string.h>
+
+lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
+                                      double metallic) {
+    lobe_material material;
+    lobe_material_default(&material);
+    material.distribution = distribution;
+    material.roughness = (float)roughness;
+    material.metallic = (float)metallic;
+    return material;
+}
+
+lobe_image slope_plane_leaning_map(uint64_t seed) {
+    lobe_image image = random_normal_map(8, 8, 0.4, seed);
+    float *texel = image.texels;
+    for (int i = 0; i < 8 * 8; i++, texel += 4) {
+        float x = 2 * texel[0] - 1, z = 2 * texel[2] - 1;
+        texel[0] = 0.5f + 0.5f * (0.8f * x + 0.6f * z);
+        texel[2] = 0.5f + 0.5f * (0.8f * z - 0.6f * x);
+    }
+    return image;
+}
+
+void slope_plane_direction(double degrees, double azimuth, double direction[3]) {
+    double angle = degrees * M_PI / 180;
+    direction[0] = sin(angle) * cos(azimuth);
+    direction[1] = sin(angle) * sin(azimuth);
+    direction[2] = cos(angle);
+}
+
+/// From the tangent frame of scene_add_square to the world.
+static void to_world(const double tangent[3], double world[3]) {
+    world[0] = tangent[0];
+    world[1] = tangent[2];
+    world[2] = -tangent[1];
+}
+
+lobe_scene *slope_plane(const lobe_material *material, const lobe_image *normals,
+                        const double outgoing[3], lobe_material *mapped) {
+    lobe_scene *scene = scene_begin();
+    lobe_image image = map_image(normals->format, normals->width, normals->height);
+    memcpy(image.texels, normals->texels,
+           (size_t)image.width * image.height * lobe_format_size(image.format));
+    *mapped = *material;
+    mapped->normal_map = scene_add_map(scene, image);
+    scene_add_square(scene, mapped, 40, NULL);
+    double world[3];
+    to_world(outgoing, world);
+    scene_look_from(scene, world, 0.2);
+    return scene;
+}
+
+void slope_plane_add_sun(lobe_scene *scene, const double incoming[3], double intensity) {
+    double world[3];
+    to_world(incoming, world);
+    scene_add_sun(scene, world, intensity);
+}
+
+void slope_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
+                      float colour[3]) {
+    scene_end(scene);
+    picture_request request = {
+        .filter = filter, .settings = {setting}, .width = 1, .height = 1, .samples = 256};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    memcpy(colour, pixel_at(&frame.radiance, 0, 0), 3 * sizeof *colour);
+    lobe_frame_free(&frame);
+}
+
+enum { ROWS = 40, COLUMNS = 60 };
+
+/// Suns on a grid of equal solid angles.
+double slope_plane_furnace(fixture *f, const lobe_material *material, const lobe_image *normals,
+                           const char *filter, const char *setting, double degrees) {
+    double outgoing[3];
+    slope_plane_direction(degrees, 0.3, outgoing);
+    lobe_material mapped;
+    lobe_scene *scene = slope_plane(material, normals, outgoing, &mapped);
+    for (int i = 0; i < ROWS * COLUMNS; i++) {
+        double height = (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS) / COLUMNS;
+        double radius = sqrt(1 - height * height);
+        slope_plane_add_sun(scene, (double[]){radius * cos(azimuth), radius * sin(azimuth), height},
+                            2 * M_PI / (ROWS * COLUMNS));
+    }
+    float colour[3];
+    slope_plane_draw(f, scene, filter, setting, colour);
+    lobe_scene_destroy(&scene);
+    return (double)colour[1];
+}

@@ -1,0 +1,33 @@
+#ifndef TESTS_PASSES_SUPPORT_SLOPE_PLANE_H
+#define TESTS_PASSES_SUPPORT_SLOPE_PLANE_H
+
+#include "tests/passes/support/fixture.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+/// A plane of which one pixel sees all texels of a normal map, many times: what a filter makes of
+/// the means of the whole map, from any side and under any light. Directions are in the tangent
+/// frame.
+
+lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
+                                      double metallic);
+/// Normals about one that leans, in a map of 8 x 8 texels.
+lobe_image slope_plane_leaning_map(uint64_t seed);
+
+void slope_plane_direction(double degrees, double azimuth, double direction[3]);
+
+/// The plane of a material with a copy of `normals`, seen from `outgoing`, without a light.
+/// `mapped` receives the material with its map.
+lobe_scene *slope_plane(const lobe_material *material, const lobe_image *normals,
+                        const double outgoing[3], lobe_material *mapped);
+void slope_plane_add_sun(lobe_scene *scene, const double incoming[3], double intensity);
+
+/// Draws the pixel with one more assignment, or NULL.
+void slope_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
+                      float colour[3]);
+
+/// The part of light from everywhere that comes back towards the viewer, `degrees` from upright.
+double slope_plane_furnace(fixture *f, const lobe_material *material, const lobe_image *normals,
+                           const char *filter, const char *setting, double degrees);
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef TESTS_PASSES_SUPPORT_SLOPE_SHADING_REFERENCE_H
+#define TESTS_PASSES_SUPPORT_SLOPE_SHADING_REFERENCE_H
+
+#include <lobe/scene.h>
+
+/// What the filters that shade from slope moments compute for one light, in double precision.
+/// Directions are of unit length, in the tangent frame; results are radiance for an irradiance of
+/// one perpendicular to the light. `moments`: a texel of the map, layer after layer
+/// (shaders/interface/slope_moments.h). The material is one without colour or width maps.
+
+void shade_lean(const lobe_material *material, const double moments[8], const double outgoing[3],
+                const double incoming[3], double radiance[3]);
+
+/// Knobs of LEADR.
+typedef struct leadr_knobs {
+    int grid;      ///< slopes each way
+    double reach;  ///< of the grid, standard deviations
+    double height; ///< factor of all slopes
+} leadr_knobs;
+
+void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
+                 const double outgoing[3], const double incoming[3], double radiance[3]);
+
+#endif

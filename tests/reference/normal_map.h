@@ -1,8 +1,0 @@
-#ifndef TESTS_REFERENCE_NORMAL_MAP_H
-#define TESTS_REFERENCE_NORMAL_MAP_H
-
-/// Unit normal of a normal map's texel (n + 1)/2 in double precision, x and y multiplied by
-/// `scale`; (0, 0, 1) where it is not finite or of no length. See shaders/lib/normal_map.glsl.
-void reference_decode_normal(const double texel[3], double scale, double normal[3]);
-
-#endif

@@ -1,0 +1,35 @@
+#ifndef TESTS_SCENES_SCENE_SCENE_CHECK_H
+#define TESTS_SCENES_SCENE_SCENE_CHECK_H
+
+#include <stdint.h>
+
+#include <lobe/scene.h>
+
+/// What must hold for every scene made by code. Each asserts.
+
+/// Finite, unit normals, orthonormal tangents, indices in range, every triangle with an area and
+/// its front on the side of its normals, texture coordinates and tangents that agree: the tangent
+/// along increasing u, the bitangent against increasing v.
+void scene_check_mesh(const lobe_mesh *mesh);
+
+/// The meshes, indices of instances, materials and images, lights, a camera, the bounds.
+void scene_check(const lobe_scene *scene);
+
+/// Every texel of an RGBA8_UNORM normal map is of unit length within what eight bits allow, and
+/// points above the surface. Returns the mean normal, and the mean and greatest tilt in degrees.
+typedef struct normal_statistics {
+    double mean[3], mean_tilt, greatest_tilt;
+} normal_statistics;
+normal_statistics scene_check_normal_map(const lobe_image *image);
+
+/// FNV-1a over bytes, going on from `hash`; start with SCENE_CHECK_HASH.
+#define SCENE_CHECK_HASH 14695981039346656037u
+uint64_t scene_check_hash_bytes(uint64_t hash, const void *bytes, size_t size);
+
+/// Over images and the positions, coordinates and triangles of meshes.
+uint64_t scene_check_hash(const lobe_scene *scene);
+
+/// Every byte of the images, vertices and indices, lights and the camera of two scenes is equal.
+void scene_check_equal(const lobe_scene *a, const lobe_scene *b);
+
+#endif

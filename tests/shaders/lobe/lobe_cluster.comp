@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "support/harness.glsl"
+#include "lib/lobe/lobe_cluster.glsl"
+
+vec4 evaluate(vec4 a, vec4 b, vec4 c) {
+    return vec4(cluster_of(a.xyz), sector_of(a.xyz), CLUSTER_COUNT, SECTOR_COUNT);
+}

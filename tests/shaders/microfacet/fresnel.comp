@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "support/harness.glsl"
+#include "lib/microfacet/fresnel.glsl"
+
+vec4 evaluate(vec4 a, vec4 b, vec4 c) {
+    return vec4(fresnel_schlick(a.xyz, b.xyz, c.x), 0.0);
+}

@@ -1,0 +1,208 @@
+#include "tools/bench/bench.h"
+
+#include <lobe/renderer.h>
+
+#include "tools/bench/timing.h"
+
+/// A supersampled frame costs as much as dozens of others, and varies less.
+#define SUPERSAMPLED_FRAMES 2
+
+/// What is kept for one scene. Each filter has a renderer of its own: they take turns, and maps
+/// must be retained from turn to turn.
+typedef struct bench_run {
+    const bench_job *job;
+    const lobe_scene *scene;
+    const char *name;
+    lobe_renderer *renderers[BENCH_MAXIMUM_FILTERS];
+    lobe_image truth, truth_lobe_base;
+} bench_run;
+
+uint32_t bench_frames(const bench_job *job, const bench_filter *filter) {
+    bool few = lobe_filter_supersamples(filter->filter) && job->frames > SUPERSAMPLED_FRAMES;
+    return few ? SUPERSAMPLED_FRAMES : job->frames;
+}
+
+void bench_result_free(bench_result *result) {
+    for (int kind = 0; kind < 2; ++kind)
+        lobe_profile_destroy(&result->profiles[kind]);
+}
+
+static lobe_render_parameters parameters_of(const bench_job *job, const bench_filter *filter) {
+    return (lobe_render_parameters){
+        .filter = filter->filter,
+        .settings = &filter->settings,
+        .width = job->size[0],
+        .height = job->size[1],
+        .samples = BENCH_TIMED_SAMPLES,
+        .progress = progress_part,
+        .user = job->progress,
+    };
+}
+
+static lobe_result open_renderer(const bench_run *run, lobe_renderer **renderer) {
+    lobe_result result = lobe_renderer_create(run->job->device, run->job->log, renderer);
+    return result == LOBE_OK ? lobe_renderer_set_scene(*renderer, run->scene) : result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Truth
+
+static lobe_result render_truth(const bench_run *run, lobe_renderer *renderer,
+                                const lobe_settings *settings, const char *kind,
+                                lobe_image *image) {
+    bench_filter reference = {.settings = *settings};
+    lobe_result result = lobe_filter_find("reference", run->job->log, &reference.filter);
+    if (result != LOBE_OK)
+        return result;
+    progress_step(run->job->progress, "%s: %s, samples a pixel: %u", run->name, kind,
+                  run->job->samples);
+    lobe_render_parameters parameters = parameters_of(run->job, &reference);
+    parameters.samples = run->job->samples;
+    lobe_frame frame;
+    result = lobe_renderer_render(renderer, &parameters, &frame);
+    *image = frame.radiance;
+    frame.radiance = (lobe_image){0};
+    lobe_frame_free(&frame);
+    return result;
+}
+
+static lobe_result render_truths(bench_run *run) {
+    lobe_renderer *renderer;
+    lobe_result result = open_renderer(run, &renderer);
+    if (result == LOBE_OK)
+        result = render_truth(run, renderer, &run->job->truth, "reference", &run->truth);
+    if (result == LOBE_OK)
+        result = render_truth(run, renderer, &run->job->truth_lobe_base,
+                              "reference with base lobes converted", &run->truth_lobe_base);
+    lobe_renderer_destroy(&renderer);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Memory and error
+
+static lobe_result measure_memory(bench_run *run, size_t index, bench_result *result) {
+    lobe_device_memory before, after;
+    lobe_device_memory_reset_peak(run->job->device);
+    lobe_device_memory_query(run->job->device, &before);
+    lobe_result status = open_renderer(run, &run->renderers[index]);
+    lobe_render_parameters parameters = parameters_of(run->job, result->filter);
+    parameters.discard = true;
+    parameters.samples = 1; // the memory does not depend on them
+    lobe_frame frame = {0};
+    if (status == LOBE_OK)
+        status = lobe_renderer_render(run->renderers[index], &parameters, &frame);
+    lobe_device_memory_query(run->job->device, &after);
+    result->memory_bytes = after.peak_used_bytes - before.used_bytes;
+    if (frame.base_texels > 0)
+        result->bytes_per_texel = (double)frame.filtered_bytes / (double)frame.base_texels;
+    lobe_frame_free(&frame);
+    return status;
+}
+
+static lobe_result compare(const bench_run *run, const lobe_image *image, const lobe_image *truth,
+                           const bench_result *result, error_metrics *error) {
+    return error_metrics_measure(
+        image, truth,
+        &(error_metrics_parameters){.test_name = lobe_filter_name(result->filter->filter),
+                                    .reference_name = run->name,
+                                    .high_dynamic_range = true},
+        run->job->log, error, NULL);
+}
+
+static lobe_result measure_error(const bench_run *run, size_t index, bench_result *result) {
+    progress_step(run->job->progress, "%s: %s, error", run->name,
+                  lobe_filter_name(result->filter->filter));
+    lobe_render_parameters parameters = parameters_of(run->job, result->filter);
+    lobe_frame frame;
+    lobe_result status = lobe_renderer_render(run->renderers[index], &parameters, &frame);
+    if (status == LOBE_OK)
+        status = compare(run, &frame.radiance, &run->truth, result, &result->error);
+    if (status == LOBE_OK)
+        status =
+            compare(run, &frame.radiance, &run->truth_lobe_base, result, &result->error_lobe_base);
+    lobe_frame_free(&frame);
+    return status;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Time
+
+static lobe_result time_frame(const bench_run *run, size_t index, const bench_filter *filter,
+                              bool rebuild, lobe_profile *profile) {
+    lobe_render_parameters parameters = parameters_of(run->job, filter);
+    parameters.rebuild = rebuild;
+    parameters.discard = true;
+    parameters.progress = NULL;
+    lobe_frame frame;
+    lobe_result result = lobe_renderer_render(run->renderers[index], &parameters, &frame);
+    if (result == LOBE_OK && profile)
+        result = timing_add(profile, &frame, run->job->log);
+    lobe_frame_free(&frame);
+    return result;
+}
+
+/// One frame of each filter with maps built again, then one with maps as they are. The first
+/// round (`keep` false) only warms up; supersampling filters need none.
+static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
+                              bench_result *results) {
+    lobe_result status = LOBE_OK;
+    for (size_t i = 0; status == LOBE_OK && i < run->job->filter_count; ++i) {
+        const bench_filter *filter = &run->job->filters[i];
+        bool left_out = keep ? round >= bench_frames(run->job, filter)
+                             : lobe_filter_supersamples(filter->filter);
+        if (left_out)
+            continue;
+        status = time_frame(run, i, filter, true, keep ? results[i].profiles[0] : NULL);
+        if (status == LOBE_OK)
+            status = time_frame(run, i, filter, false, keep ? results[i].profiles[1] : NULL);
+    }
+    return status;
+}
+
+static lobe_result open_profiles(const bench_run *run, bench_result *result) {
+    lobe_result status = lobe_profile_create(run->job->log, &result->profiles[0]);
+    return status == LOBE_OK ? lobe_profile_create(run->job->log, &result->profiles[1]) : status;
+}
+
+static lobe_result summarise(bench_result *result) {
+    lobe_result status = lobe_profile_statistics(result->profiles[0], &result->rebuilt);
+    return status == LOBE_OK ? lobe_profile_statistics(result->profiles[1], &result->retained)
+                             : status;
+}
+
+static lobe_result measure_times(const bench_run *run, bench_result *results) {
+    progress_step(run->job->progress, "%s: times of %u frames", run->name, run->job->frames);
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+        result = open_profiles(run, &results[i]);
+    if (result == LOBE_OK)
+        result = time_round(run, 0, false, results);
+    for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; ++round) {
+        result = time_round(run, round, true, results);
+        progress_part(run->job->progress, (round + 1.0) / run->job->frames);
+    }
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+        result = summarise(&results[i]);
+    return result;
+}
+
+lobe_result bench_measure(const bench_job *job, const lobe_scene *scene, const char *name,
+                          bench_result *results) {
+    bench_run run = {.job = job, .scene = scene, .name = name};
+    lobe_result result = render_truths(&run);
+    for (size_t i = 0; result == LOBE_OK && i < job->filter_count; ++i) {
+        results[i].scene = name;
+        results[i].filter = &job->filters[i];
+        result = measure_memory(&run, i, &results[i]);
+        if (result == LOBE_OK)
+            result = measure_error(&run, i, &results[i]);
+    }
+    if (result == LOBE_OK)
+        result = measure_times(&run, results);
+    for (size_t i = 0; i < job->filter_count; ++i)
+        lobe_renderer_destroy(&run.renderers[i]);
+    lobe_image_free(&run.truth);
+    lobe_image_free(&run.truth_lobe_base);
+    return result;
+}

@@ -1,0 +1,12 @@
+#ifndef TOOLS_CLI_CONSOLE_H
+#define TOOLS_CLI_CONSOLE_H
+
+#include <stdbool.h>
+
+#include <lobe/log.h>
+
+/// The log of a program at a terminal: errors, warnings and notices go to standard error, one
+/// line each ("lobe: error: ..."); debug lines only where `verbose`.
+lobe_log console_log(bool verbose);
+
+#endif

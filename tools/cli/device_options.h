@@ -1,0 +1,34 @@
+#ifndef TOOLS_CLI_DEVICE_OPTIONS_H
+#define TOOLS_CLI_DEVICE_OPTIONS_H
+
+#include <stdbool.h>
+
+#include <lobe/device.h>
+
+#include "tools/cli/options.h"
+
+/// The options of every subcommand that needs a device.
+typedef struct device_options {
+    const char *select; ///< NULL: the environment variable LOBE_DEVICE, or else the best suited
+    bool validation;
+} device_options;
+
+/// Entries for an option table.
+option device_option_select(device_options *options);
+option device_option_validation(device_options *options);
+
+/// What lobe_device_parameters.select is to be; NULL: the best suited.
+const char *device_options_selection(const device_options *options);
+/// The file that keeps compiled pipelines, written to `path` of CACHE_FOLDER_SIZE bytes (see
+/// tools/cli/cache_folder.h); NULL where there is no place for it.
+const char *device_options_pipeline_cache(char *path);
+
+/// Opens the device, with a pipeline cache in the user's cache folder ($XDG_CACHE_HOME/lobe or
+/// ~/.cache/lobe) where there is one.
+lobe_result device_options_open(const device_options *options, const lobe_log *log,
+                                lobe_device **device);
+
+/// LOBE_ERROR_UNSUPPORTED with a line where the validation layer found fault, else LOBE_OK.
+lobe_result device_options_check(const lobe_device *device, const lobe_log *log);
+
+#endif

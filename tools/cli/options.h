@@ -1,0 +1,111 @@
+#ifndef TOOLS_CLI_OPTIONS_H
+#define TOOLS_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/// Command lines in the GNU manner: `--name VALUE`, `--name=VALUE`, `-o VALUE`, `-oVALUE`, options
+/// and operands in any order, `--` ends the options. One table describes a subcommand's options;
+/// parsing, checking, defaults and `--help` all come from it, so they cannot disagree.
+
+/// What an option takes, and what its `target` points to.
+typedef enum option_kind {
+    OPTION_FLAG,    ///< no value; bool, set to true
+    OPTION_TEXT,    ///< const char *, into argv or the table
+    OPTION_INTEGER, ///< uint32_t
+    OPTION_NUMBER,  ///< double, finite
+    OPTION_SIZE,    ///< "WxH"; uint32_t[2], each in the range
+    OPTION_VECTOR,  ///< "x,y,z"; float[3], finite, each in the range
+    OPTION_CHOICE,  ///< one of `choices`; uint32_t, its index
+    OPTION_LIST,    ///< may be repeated; option_list of texts
+} option_kind;
+
+/// What may stand as a value or an operand: shells offer it to who types.
+typedef enum option_values {
+    /// What the rest of the entry says: the choices; files where `argument` begins with FILE,
+    /// folders where it begins with DIR; else nothing.
+    OPTION_VALUES_PLAIN,
+    OPTION_VALUES_NONE,
+    OPTION_VALUES_CHOICE,
+    OPTION_VALUES_FILE,
+    OPTION_VALUES_FOLDER,
+    OPTION_VALUES_SCENE,       ///< built-in scenes, files and folders
+    OPTION_VALUES_FILTER,      ///< filters
+    OPTION_VALUES_FILTER_LIST, ///< filters with commas between
+    OPTION_VALUES_KNOB,        ///< KNOB=VALUE
+    OPTION_VALUES_SUBCOMMAND,
+} option_values;
+
+/// Texts in the order given. Zero it before parsing; free it with option_list_free.
+typedef struct option_list {
+    const char **values; ///< the texts belong to argv or to the table
+    size_t count;
+} option_list;
+
+typedef struct option {
+    const char *name; ///< without the dashes; the table adds "help" itself
+    char letter;      ///< short form; 0: none
+    option_kind kind;
+    const char *argument; ///< how help calls the value, "FILE"; NULL for a flag
+    const char *summary;  ///< one phrase; help adds range, choices and default
+    void *target;         ///< see option_kind
+    /// Read as if it had been given, when it was not; shown by help. NULL: the target is left as
+    /// it is. For a list: a single value.
+    const char *fallback;
+    double minimum, maximum;    ///< both included; no limit where they are equal
+    const char *const *choices; ///< ends with NULL
+    option_values values;
+    bool *given; ///< told whether the command line had it; NULL: nobody asks
+} option;
+
+typedef struct option_table {
+    const char *program;  ///< "lobe compare"
+    const char *operands; ///< how help calls the operands, "TEST REFERENCE"; NULL: there are none
+    const char *summary;  ///< what the subcommand does; may have several lines
+    const option *options;
+    size_t option_count;
+    size_t minimum_operands, maximum_operands;
+    option_values operand_values;
+    /// Writes what the manual page has beyond this table, in roff (tools/manual/roff.h). NULL:
+    /// nothing.
+    void (*manual)(FILE *stream);
+} option_table;
+
+/// Reads argv[1] to argv[argc - 1] into the targets. `operands` may be NULL where the table allows
+/// none. Returns true to go on. Returns false when the subcommand is to return `*status` at once:
+/// 0 after `--help` (printed on standard output), 2 after a mistake (one line on
+/// standard error), 1 when out of memory. Call options_free in all cases. `--help=FORM` prints the
+/// table in another form (tools/manual/option_form.h); the subcommands `manual` and `completion`
+/// use it.
+bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
+                   int *status);
+
+/// Frees the lists the table's options point to, and the operands (may be NULL).
+void options_free(const option_table *table, option_list *operands);
+
+/// Writes what `--help` shows.
+void options_print_help(const option_table *table, FILE *stream);
+
+/// The option that every table has without listing it.
+extern const option option_help;
+
+/// Range, choices, repetition and default, as they stand behind an option's summary: " [1, 9]
+/// (default 3)", or "". Cut where `size` is too small.
+void option_print_limits(const option *option, char *text, size_t size);
+
+/// For mistakes that only the subcommand can see: prints "PROGRAM: MESSAGE (see ...)" on
+/// standard error, returns 2.
+int options_usage_error(const option_table *table, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/// Frees the list (not the texts) and zeroes it.
+void option_list_free(option_list *list);
+
+/// A finite decimal number that takes up the whole text.
+bool option_parse_number(const char *text, double *value);
+/// `count` numbers with one comma between each.
+bool option_parse_numbers(const char *text, size_t count, double *values);
+
+#endif

@@ -1,0 +1,155 @@
+#include "tools/cli/scene_options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+option scene_option_assets(scene_options *options) {
+    return (option){
+        .name = "assets",
+        .kind = OPTION_TEXT,
+        .argument = "DIR",
+        .summary = "the folder that holds models/, which some built-in scenes need (default: "
+                   "environment variable LOBE_ASSETS)",
+        .target = &options->assets,
+    };
+}
+
+option scene_option_environment(scene_options *options) {
+    return (option){
+        .name = "environment",
+        .kind = OPTION_TEXT,
+        .argument = "FILE",
+        .summary = "light from all around, instead of the scene's own: an .exr or .hdr file, 'sky' "
+                   "or 'none'",
+        .target = &options->environment,
+    };
+}
+
+option scene_option_rotation(scene_options *options) {
+    return (option){
+        .name = "environment-rotation",
+        .kind = OPTION_NUMBER,
+        .argument = "DEGREES",
+        .summary = "turns the environment about +Y, counter-clockwise as seen from above",
+        .target = &options->rotation,
+        .fallback = "0",
+        .minimum = -36000,
+        .maximum = 36000,
+        .given = &options->has_rotation,
+    };
+}
+
+option scene_option_intensity(scene_options *options) {
+    return (option){
+        .name = "environment-intensity",
+        .kind = OPTION_NUMBER,
+        .argument = "FACTOR",
+        .summary = "multiplies the environment's radiance",
+        .target = &options->intensity,
+        .fallback = "1",
+        .minimum = 0,
+        .maximum = 1e6,
+        .given = &options->has_intensity,
+    };
+}
+
+option scene_option_background(scene_options *options) {
+    return (option){
+        .name = "background",
+        .kind = OPTION_FLAG,
+        .summary = "shows the environment behind the scene",
+        .target = &options->background,
+    };
+}
+
+option scene_option_no_lights(scene_options *options) {
+    return (option){
+        .name = "no-lights",
+        .kind = OPTION_FLAG,
+        .summary = "leaves out the scene's lights: what is left is its environment",
+        .target = &options->no_lights,
+    };
+}
+
+static void remove_lights(lobe_scene *scene) {
+    lobe_release(scene->lights);
+    scene->lights = NULL;
+    scene->light_count = 0;
+}
+
+static lobe_result replace_environment(const scene_options *options, const lobe_log *log,
+                                       lobe_scene *scene) {
+    lobe_environment *environment = NULL;
+    lobe_result result = LOBE_OK;
+    if (strcmp(options->environment, "none") != 0)
+        result = lobe_environment_open(options->environment, log, &environment);
+    if (result == LOBE_OK)
+        lobe_scene_set_environment(scene, environment);
+    return result;
+}
+
+static const char *first_ignored(const scene_options *options) {
+    return options->has_rotation    ? "--environment-rotation"
+           : options->has_intensity ? "--environment-intensity"
+           : options->background    ? "--background"
+                                    : NULL;
+}
+
+void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]) {
+    char turned[48] = "", intensity[48] = "";
+    if (options->rotation != 0)
+        snprintf(turned, sizeof turned, ", turned by %g", options->rotation);
+    if (options->intensity != 1)
+        snprintf(intensity, sizeof intensity, ", intensity %g", options->intensity);
+    char all[SCENE_OPTIONS_DESCRIPTION + 2];
+    snprintf(all, sizeof all, "%s%s%s%s", options->no_lights ? ", no lights" : "", turned,
+             intensity, options->background ? ", background" : "");
+    snprintf(text, SCENE_OPTIONS_DESCRIPTION, "%s", all[0] ? all + 2 : "");
+}
+
+lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
+                                lobe_scene *scene) {
+    lobe_result result = LOBE_OK;
+    if (options->environment)
+        result = replace_environment(options, log, scene);
+    lobe_environment *environment = scene->environment;
+    if (result != LOBE_OK)
+        return result;
+    if (options->no_lights)
+        remove_lights(scene);
+    if (environment) {
+        lobe_environment_turn(environment, options->rotation);
+        environment->intensity *= (float)options->intensity;
+        scene->environment_visible |= options->background;
+    } else if (first_ignored(options)) {
+        lobe_log_print(log, LOBE_LOG_WARNING, "%s: has no environment; %s is ignored", scene->name,
+                       first_ignored(options));
+    }
+    return LOBE_OK;
+}
+
+lobe_result scene_options_open(const scene_options *options, const char *scene,
+                               const uint32_t size[2], const lobe_log *log, lobe_scene **result) {
+    const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
+    if (assets && assets[0] == '\0')
+        assets = NULL;
+    lobe_result status = lobe_scene_open_with(
+        &(lobe_scene_open_parameters){.scene = scene, .assets = assets}, log, result);
+    if (status == LOBE_OK && !(*result)->has_camera)
+        lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
+    if (status == LOBE_OK)
+        status = scene_options_light(options, log, *result);
+    if (status != LOBE_OK)
+        lobe_scene_destroy(result);
+    return status;
+}
+
+bool scene_options_lack_assets(const char *scene, lobe_result result) {
+    for (size_t i = 0; result == LOBE_ERROR_NOT_FOUND && i < lobe_builtin_scene_count(); ++i) {
+        const lobe_builtin_scene *builtin = lobe_builtin_scene_get(i);
+        if (strcmp(builtin->name, scene) == 0)
+            return builtin->needs_assets;
+    }
+    return false;
+}

@@ -1,0 +1,47 @@
+#ifndef TOOLS_CLI_SCENE_OPTIONS_H
+#define TOOLS_CLI_SCENE_OPTIONS_H
+
+#include <lobe/scene.h>
+
+#include "tools/cli/options.h"
+
+/// The options of every subcommand that takes a SCENE.
+typedef struct scene_options {
+    const char *assets;      ///< NULL: the environment variable LOBE_ASSETS, or else none
+    const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
+    double rotation;         ///< of the environment, degrees about +Y
+    double intensity;        ///< factor
+    bool background;         ///< the environment is seen behind the scene
+    bool no_lights;          ///< the scene's lights are left out, the environment stays
+    bool has_rotation, has_intensity;
+} scene_options;
+
+/// Entries for an option table.
+option scene_option_assets(scene_options *options);
+option scene_option_environment(scene_options *options);
+option scene_option_rotation(scene_options *options);
+option scene_option_intensity(scene_options *options);
+option scene_option_background(scene_options *options);
+option scene_option_no_lights(scene_options *options);
+
+/// Longest text that scene_options_describe writes, with its end.
+#define SCENE_OPTIONS_DESCRIPTION 128
+
+/// How the options change a scene's light beside choosing its environment: "no lights, turned by
+/// 30, intensity 2, background"; "" where they do not.
+void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]);
+
+/// Lights an opened scene as the options ask.
+lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
+                                lobe_scene *scene);
+
+/// Opens a scene and lights it, with the camera that fits a picture of this size where it brings
+/// none.
+lobe_result scene_options_open(const scene_options *options, const char *scene,
+                               const uint32_t size[2], const lobe_log *log, lobe_scene **result);
+
+/// Whether `result`, of opening `scene`, only says that there are no assets for it: then others can
+/// still be measured.
+bool scene_options_lack_assets(const char *scene, lobe_result result);
+
+#endif

@@ -1,0 +1,25 @@
+#include "tools/cli/subcommand.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const subcommand *const subcommands[] = {
+    &render_subcommand,  &view_subcommand,        &bench_subcommand,      &report_subcommand,
+    &compare_subcommand, &environment_subcommand, &scenes_subcommand,     &filters_subcommand,
+    &info_subcommand,    &manual_subcommand,      &completion_subcommand, NULL,
+};
+
+const subcommand *subcommand_find(const char *name) {
+    for (size_t index = 0; subcommands[index] != NULL; index++) {
+        if (strcmp(subcommands[index]->name, name) == 0)
+            return subcommands[index];
+    }
+    return NULL;
+}
+
+int subcommand_print(const subcommand *subcommand, const char *form) {
+    char name[32], option[32];
+    snprintf(name, sizeof name, "%s", subcommand->name);
+    snprintf(option, sizeof option, "--help=%s", form);
+    return subcommand->run(2, (char *[]){name, option, NULL});
+}

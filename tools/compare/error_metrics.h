@@ -1,0 +1,44 @@
+#ifndef TOOLS_COMPARE_ERROR_METRICS_H
+#define TOOLS_COMPARE_ERROR_METRICS_H
+
+#include <stdbool.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// How far an image is from a reference.
+
+/// Sums run over the texels' R, G and B (alpha is ignored): a the test's, b the reference's
+/// values, linear radiance for high dynamic range, sRGB-encoded [0, 1] otherwise.
+typedef struct error_metrics {
+    double rmse;         ///< sqrt(mean((a - b)^2))
+    double relative_mse; ///< mean((a - b)^2 / (b^2 + 0.01)); the 0.01 keeps black finite
+    double relative_l2;  ///< sqrt(sum((a - b)^2) / sum(b^2)); infinite against a black reference
+    double relative_l1;  ///< sum|a - b| / sum|b|; infinite likewise
+    double psnr;         ///< 10 log10(peak^2 / mean((a - b)^2)) decibels; infinite where equal.
+                         ///< Peak: largest value of the reference for high dynamic range, else 1
+    double flip;         ///< mean FLIP error [0, 1], see tools/compare/flip.h
+} error_metrics;
+
+typedef struct error_metrics_parameters {
+    const char *test_name, *reference_name; ///< for messages
+    bool high_dynamic_range;
+    double pixels_per_degree; ///< 0: FLIP_PIXELS_PER_DEGREE
+} error_metrics_parameters;
+
+/// Compares linear RGBA32_FLOAT images. `flip_errors` (R32_FLOAT, each texel's FLIP error) may be
+/// NULL; else it is overwritten; free it with lobe_image_free.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format, differing extents, values that are not
+/// finite: the line names image, count and first place), LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *reference,
+                                  const error_metrics_parameters *parameters, const lobe_log *log,
+                                  error_metrics *metrics, lobe_image *flip_errors);
+
+/// The metrics in the order they are shown.
+#define ERROR_METRICS_COUNT 6
+/// "rmse" and so on; `index` below ERROR_METRICS_COUNT.
+const char *error_metrics_name(int index);
+double error_metrics_value(const error_metrics *metrics, int index);
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef TOOLS_COMPARE_IMAGE_INPUT_H
+#define TOOLS_COMPARE_IMAGE_INPUT_H
+
+#include <stdbool.h>
+
+#include <lobe/image.h>
+#include <lobe/log.h>
+#include <lobe/result.h>
+
+/// An image from a file, as linear RGBA32_FLOAT.
+typedef struct image_input {
+    lobe_image image;
+    bool high_dynamic_range; ///< OpenEXR; false: PNG, decoded from sRGB
+} image_input;
+
+/// Reads an OpenEXR (its main layer) or PNG file, told apart by its first bytes. Free the image
+/// with lobe_image_free. Errors: those of lobe_exr_read and lobe_png_read.
+lobe_result image_input_read(const char *path, const lobe_log *log, image_input *input);
+
+#endif

@@ -1,0 +1,36 @@
+#include <stdio.h>
+
+#include <lobe/scene.h>
+
+#include "tools/cli/options.h"
+#include "tools/cli/subcommand.h"
+#include "tools/manual/roff.h"
+
+static void print_manual(FILE *stream) {
+    roff_section(stream, "SCENES");
+    for (size_t i = 0; i < lobe_builtin_scene_count(); ++i) {
+        const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
+        roff_item(stream, scene->name, NULL, scene->summary);
+    }
+}
+
+static int run(int argc, char **argv) {
+    const option_table table = {
+        .program = "lobe scenes",
+        .summary =
+            "Lists the built-in scenes. Wherever a scene is asked for, the path of a .gltf or\n"
+            ".glb file will do as well, or a folder of PBR maps, which are put on a cloth. Assets\n"
+            "are found in the folder that --assets DIR or LOBE_ASSETS says.",
+        .manual = print_manual,
+    };
+    int status;
+    if (!options_parse(&table, argc, argv, NULL, &status))
+        return status;
+    for (size_t i = 0; i < lobe_builtin_scene_count(); ++i) {
+        const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
+        printf("%-14s %s\n", scene->name, scene->summary);
+    }
+    return 0;
+}
+
+const subcommand scenes_subcommand = {"scenes", "list the built-in scenes", run};

@@ -1,0 +1,28 @@
+#ifndef TOOLS_MANUAL_COMPLETION_H
+#define TOOLS_MANUAL_COMPLETION_H
+
+#include <stdio.h>
+
+#include <lobe/filter.h>
+
+/// A shell's script is a beginning with the names there are, one part a subcommand (the form of
+/// that shell, tools/manual/option_form.h), and an end.
+typedef struct completion_shell {
+    const char *name; ///< of the form, too
+    void (*begin)(FILE *stream);
+    void (*end)(FILE *stream);
+} completion_shell;
+
+extern const completion_shell completion_bash;
+extern const completion_shell completion_zsh;
+extern const completion_shell completion_fish;
+
+/// Calls `visit` for the knobs of all filters, once for each name, with the choices that any filter
+/// has of it.
+void completion_visit_knobs(void (*visit)(FILE *stream, const lobe_knob *knob), FILE *stream);
+
+/// Text that stands between single quotes, as bash and zsh have them. Each of the characters
+/// `special`, and the backslash, gets a backslash before it.
+void completion_quote(FILE *stream, const char *text, const char *special);
+
+#endif

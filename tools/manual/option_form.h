@@ -1,0 +1,23 @@
+#ifndef TOOLS_MANUAL_OPTION_FORM_H
+#define TOOLS_MANUAL_OPTION_FORM_H
+
+#include "tools/cli/options.h"
+
+/// Writes a table down in one of the forms it is needed in.
+typedef void option_form(const option_table *table, FILE *stream);
+
+/// The form that `--help=NAME` asks for: "man" is the manual page; "bash", "zsh" and "fish" are the
+/// subcommand's part of that shell's completion. NULL for any other name.
+option_form *option_form_find(const char *name);
+
+option_form manual_page_print;
+option_form completion_bash_print;
+option_form completion_zsh_print;
+option_form completion_fish_print;
+
+/// What an option takes as value; never OPTION_VALUES_PLAIN.
+option_values option_form_values(const option *option);
+/// The last word of the program's name in usage: "render" of "lobe render".
+const char *option_form_subcommand(const option_table *table);
+
+#endif

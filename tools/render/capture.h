@@ -1,0 +1,32 @@
+#ifndef TOOLS_RENDER_CAPTURE_H
+#define TOOLS_RENDER_CAPTURE_H
+
+#include <lobe/device.h>
+#include <lobe/exr.h>
+#include <lobe/filter.h>
+#include <lobe/profile.h>
+#include <lobe/renderer.h>
+
+/// A rendered frame with all there is to know about it.
+typedef struct capture {
+    const lobe_frame *frame;
+    const char *scene;
+    const char *environment; ///< its name; NULL: none
+    const lobe_filter *filter;
+    const lobe_settings *settings;
+    uint32_t samples; ///< a pixel
+    const lobe_device_information *device;
+    const lobe_profile_summary *times;
+    lobe_exr_depth depth; ///< of the radiance; other layers are float
+    double exposure;      ///< stops, PNG only
+} capture;
+
+/// Writes linear radiance as OpenEXR: layers for what else the frame has (normal, depth, lobes,
+/// level), all else as attributes of the header.
+lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_log *log);
+
+/// Writes a picture for looking at: tone-mapped, or as a heat map where the knob "view" asks for
+/// something other than radiance.
+lobe_result capture_write_png(const char *path, const capture *capture, const lobe_log *log);
+
+#endif

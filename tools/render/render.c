@@ -1,0 +1,473 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <lobe/lobe.h>
+
+#include "tools/bench/timing.h"
+#include "tools/choice/budget.h"
+#include "tools/cli/cache_options.h"
+#include "tools/cli/console.h"
+#include "tools/cli/device_options.h"
+#include "tools/cli/output_file.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/scene_options.h"
+#include "tools/cli/subcommand.h"
+#include "tools/cli/view_options.h"
+#include "tools/render/capture.h"
+
+/// What the command line asks for.
+typedef struct render_request {
+    const char *scene;   ///< NULL where a material folder is given
+    option_list outputs; ///< names that end in .exr or .png
+    const char *material;
+    uint32_t carrier;
+    const char *filter_name;
+    option_list assignments; ///< "KNOB=VALUE"
+    budget_options budget;   ///< instead of both
+    uint32_t size[2];
+    uint32_t samples, frames;
+    const char *graph;
+    uint32_t depth;
+    bool layers; ///< of arbitrary output variables
+    double exposure;
+    bool has_filter, has_carrier, has_samples, has_depth, has_exposure;
+    scene_options opening;
+    view_options view;
+    lobe_light *lights;
+    cache_options cache;
+    device_options device;
+
+    const lobe_filter *filter; ///< NULL until it is picked by the budget
+    lobe_settings settings;
+} render_request;
+
+/// What is made on the way.
+typedef struct render_state {
+    lobe_log log;
+    lobe_scene *scene;
+    sweep_results figures; ///< that filter and knobs are picked by
+    lobe_device *device;
+    lobe_renderer *renderer;
+    lobe_frame frame;
+    lobe_profile *profile;
+    lobe_profile_summary times;
+    progress progress;
+    const char *cache; ///< where filtered environments are kept; NULL: nowhere
+    char cache_folder[CACHE_FOLDER_SIZE];
+} render_state;
+
+// ---------------------------------------------------------------------------------------------
+// Usage
+
+static bool is_png(const char *path) {
+    return output_file_has_ending(path, ".png");
+}
+
+/// Whether an output is a picture (`png`), or holds radiance.
+static bool writes(const render_request *request, bool png) {
+    for (size_t i = 0; i < request->outputs.count; ++i) {
+        if (is_png(request->outputs.values[i]) == png)
+            return true;
+    }
+    return false;
+}
+
+static int check_outputs(const option_table *table, const render_request *request) {
+    if (request->outputs.count == 0)
+        return options_usage_error(table, "no output: give -o FILE.exr or -o FILE.png");
+    for (size_t i = 0; i < request->outputs.count; ++i) {
+        const char *path = request->outputs.values[i];
+        if (!is_png(path) && !output_file_has_ending(path, ".exr"))
+            return options_usage_error(table, "output '%s' ends neither in .exr nor in .png", path);
+    }
+    return 0;
+}
+
+static int check_budget(const option_table *table, const render_request *request) {
+    if (request->budget.sweep && request->material)
+        return options_usage_error(table, "--sweep and --material exclude each other: sweeps "
+                                          "measure scenes");
+    const char *fixed = request->has_filter              ? "--filter"
+                        : request->assignments.count > 0 ? "--set"
+                                                         : NULL;
+    return budget_options_check(table, &request->budget, fixed);
+}
+
+static int check_usage(const option_table *table, const render_request *request) {
+    if (!request->scene && !request->material)
+        return options_usage_error(table, "no SCENE, and no --material either");
+    if (request->scene && request->material)
+        return options_usage_error(table, "SCENE '%s' and --material exclude each other",
+                                   request->scene);
+    if (request->has_carrier && !request->material)
+        return options_usage_error(table, "--carrier goes with --material");
+    if (request->size[0] == 0 || request->size[1] == 0)
+        return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
+                                   request->size[1]);
+    int status = check_budget(table, request);
+    if (status == 0)
+        status = cache_options_check(table, &request->cache);
+    return status == 0 ? check_outputs(table, request) : status;
+}
+
+static int choose_filter(render_request *request, const lobe_log *log) {
+    if (budget_options_limit(&request->budget))
+        return 0; // it is picked when scene and device are known
+    if (lobe_filter_find(request->filter_name, log, &request->filter) != LOBE_OK)
+        return 2;
+    lobe_settings_default(request->filter, &request->settings);
+    for (size_t i = 0; i < request->assignments.count; ++i) {
+        if (lobe_settings_set(request->filter, &request->settings, request->assignments.values[i],
+                              log) != LOBE_OK)
+            return 2;
+    }
+    return 0;
+}
+
+static void warn_of_what_is_ignored(const render_request *request, const lobe_log *log) {
+    if (!writes(request, false) && request->has_depth)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--depth is for .exr outputs; ignored");
+    if (!writes(request, false) && request->layers)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
+    if (!writes(request, true) && request->has_exposure)
+        lobe_log_print(log, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
+    if (request->has_samples && !(request->filter && lobe_filter_supersamples(request->filter)))
+        lobe_log_print(log, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
+}
+
+// ---------------------------------------------------------------------------------------------
+// Work
+
+static lobe_result open_scene(const render_request *request, render_state *state) {
+    if (request->material) {
+        lobe_result result = lobe_scene_open_material(
+            request->material, (lobe_carrier)request->carrier, &state->log, &state->scene);
+        return result == LOBE_OK ? scene_options_light(&request->opening, &state->log, state->scene)
+                                 : result;
+    }
+    return scene_options_open(&request->opening, request->scene, request->size, &state->log,
+                              &state->scene);
+}
+
+static bool has_own_view(const render_request *request) {
+    const view_options *view = &request->view;
+    return !view->has_eye && !view->has_target && !view->has_field_of_view && view->path == 0 &&
+           view->lights.count == 0;
+}
+
+static lobe_result pick_filter(render_request *request, render_state *state) {
+    if (!budget_options_limit(&request->budget))
+        return LOBE_OK;
+    char lighting[SCENE_OPTIONS_DESCRIPTION];
+    scene_options_describe(&request->opening, lighting);
+    const budget_picture picture = {
+        .name = request->scene,
+        .scene = state->scene,
+        .lighting = lighting,
+        .own_view = has_own_view(request),
+        .device = state->device,
+        .size = {request->size[0], request->size[1]},
+    };
+    return budget_pick(&request->budget, &picture, &state->log, &state->figures, &request->filter,
+                       &request->settings);
+}
+
+static lobe_result open_renderer(render_request *request, render_state *state) {
+    lobe_result result = device_options_open(&request->device, &state->log, &state->device);
+    if (result == LOBE_OK)
+        result = pick_filter(request, state);
+    if (result == LOBE_OK)
+        result = lobe_renderer_create(state->device, &state->log, &state->renderer);
+    if (state->scene->environment)
+        state->cache = cache_options_find(&request->cache, state->cache_folder);
+    if (result == LOBE_OK)
+        result = lobe_renderer_set_scene(state->renderer, state->scene);
+    return result;
+}
+
+static uint32_t samples_of(const render_request *request) {
+    return lobe_filter_supersamples(request->filter) ? request->samples : 1;
+}
+
+static lobe_result render_frame(const render_request *request, render_state *state) {
+    lobe_frame_free(&state->frame);
+    lobe_result result = lobe_renderer_render(
+        state->renderer,
+        &(lobe_render_parameters){
+            .filter = request->filter,
+            .settings = &request->settings,
+            .width = request->size[0],
+            .height = request->size[1],
+            .samples = request->samples,
+            .environment_cache = state->cache,
+            .arbitrary_output_variables = request->layers && writes(request, false),
+            .progress = progress_part,
+            .user = &state->progress,
+        },
+        &state->frame);
+    return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->log) : result;
+}
+
+/// The first frame builds the maps, later ones find them ready.
+static lobe_result render_frames(const render_request *request, render_state *state) {
+    lobe_result result = lobe_profile_create(&state->log, &state->profile);
+    for (uint32_t i = 0; result == LOBE_OK && i < request->frames; ++i) {
+        progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
+                      request->frames);
+        result = render_frame(request, state);
+    }
+    progress_end(&state->progress);
+    if (result == LOBE_OK)
+        result = lobe_profile_statistics(state->profile, &state->times);
+    return result == LOBE_OK ? device_options_check(state->device, &state->log) : result;
+}
+
+static lobe_result write_graph(const render_request *request, render_state *state) {
+    if (!request->graph)
+        return LOBE_OK;
+    lobe_graph *graph = lobe_renderer_graph(state->renderer);
+    char *text = output_file_has_ending(request->graph, ".txt") ? lobe_graph_dump_text(graph)
+                                                                : lobe_graph_dump_graphviz(graph);
+    lobe_result result = LOBE_ERROR_OUT_OF_MEMORY;
+    if (text)
+        result = output_file_write(request->graph, text, &state->log);
+    else
+        lobe_log_print(&state->log, LOBE_LOG_ERROR, "%s: out of memory", request->graph);
+    lobe_release(text);
+    return result;
+}
+
+static lobe_result write_images(const render_request *request, render_state *state) {
+    const capture capture = {
+        .frame = &state->frame,
+        .scene = state->scene->name,
+        .environment = state->scene->environment ? state->scene->environment->name : NULL,
+        .filter = request->filter,
+        .settings = &request->settings,
+        .samples = samples_of(request),
+        .device = lobe_device_describe(state->device),
+        .times = &state->times,
+        .depth = (lobe_exr_depth)request->depth,
+        .exposure = request->exposure,
+    };
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i) {
+        const char *path = request->outputs.values[i];
+        result = is_png(path) ? capture_write_png(path, &capture, &state->log)
+                              : capture_write_exr(path, &capture, &state->log);
+    }
+    return result;
+}
+
+static void print_times(const render_request *request, const render_state *state) {
+    const lobe_device_information *device = lobe_device_describe(state->device);
+    const lobe_profile_summary *times = &state->times;
+    printf("%s, filter %s, %ux%u, %u sample%s a pixel, on %s%s\n", state->scene->name,
+           lobe_filter_name(request->filter), request->size[0], request->size[1],
+           samples_of(request), samples_of(request) == 1 ? "" : "s", device->name,
+           device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
+                                           : "");
+    printf("  %-36s %8s %12s\n", "pass", "frames", "median ms");
+    for (size_t i = 0; i < times->pass_count; ++i)
+        printf("  %-36s %8u %12.3f\n", times->passes[i].name, times->passes[i].runs,
+               times->passes[i].median_milliseconds);
+    printf("  %-36s %8u %12.3f\n", "whole frame", times->frame.runs,
+           times->frame.median_milliseconds);
+}
+
+/// Nobody should wait minutes to learn of a misspelt folder.
+static lobe_result check_files(const render_request *request, const lobe_log *log) {
+    lobe_result result = output_file_check(request->graph, log);
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i)
+        result = output_file_check(request->outputs.values[i], log);
+    return result;
+}
+
+static lobe_result render(render_request *request, render_state *state) {
+    lobe_result result = check_files(request, &state->log);
+    if (result == LOBE_OK)
+        result = budget_read(&request->budget, request->scene, &state->log, &state->figures);
+    if (result == LOBE_OK)
+        result = open_scene(request, state);
+    if (result != LOBE_OK)
+        return result;
+    if (!view_options_apply(&request->view, request->lights, state->scene)) {
+        lobe_log_print(&state->log, LOBE_LOG_ERROR,
+                       "camera: eye and target are the same point, it looks nowhere");
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    request->lights = NULL; // the scene's now
+    result = open_renderer(request, state);
+    if (result == LOBE_OK)
+        result = render_frames(request, state);
+    if (result == LOBE_OK)
+        result = write_graph(request, state);
+    if (result == LOBE_OK)
+        result = write_images(request, state);
+    if (result == LOBE_OK)
+        print_times(request, state);
+    return result;
+}
+
+static void free_state(render_state *state) {
+    lobe_profile_destroy(&state->profile);
+    lobe_frame_free(&state->frame);
+    lobe_renderer_destroy(&state->renderer);
+    lobe_device_destroy(&state->device);
+    sweep_results_free(&state->figures);
+    lobe_scene_destroy(&state->scene);
+}
+
+static int run_request(const option_table *table, render_request *request) {
+    render_state state = {.log = console_log(false), .progress = progress_begin(false)};
+    int status = check_usage(table, request);
+    if (status == 0)
+        status = choose_filter(request, &state.log);
+    if (status == 0)
+        status = view_options_parse_lights(table, &request->view, &request->lights);
+    if (status != 0)
+        return status;
+    warn_of_what_is_ignored(request, &state.log);
+    lobe_result result = render(request, &state);
+    free_state(&state);
+    lobe_release(request->lights);
+    return result == LOBE_OK ? 0 : 1;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Options
+
+static const char *const carriers[] = {"plane", "sphere", "cloth", NULL};
+static const char *const depths[] = {"half", "float", NULL};
+
+static int run(int argc, char **argv) {
+    render_request request = {0};
+    option_list operands = {0};
+    const option options[] = {
+        {.name = "output",
+         .letter = 'o',
+         .kind = OPTION_LIST,
+         .argument = "FILE",
+         .summary = "what to write: FILE.exr holds linear radiance and all there is to know about "
+                    "the rendering, FILE.png is tone-mapped for looking at",
+         .target = &request.outputs},
+        {.name = "filter",
+         .kind = OPTION_TEXT,
+         .argument = "NAME",
+         .summary = "how appearance is filtered, see 'lobe filters'",
+         .target = &request.filter_name,
+         .fallback = "lobes",
+         .values = OPTION_VALUES_FILTER,
+         .given = &request.has_filter},
+        {.name = "set",
+         .kind = OPTION_LIST,
+         .argument = "KNOB=VALUE",
+         .summary = "sets a knob of the filter, see 'lobe filters'",
+         .target = &request.assignments,
+         .values = OPTION_VALUES_KNOB},
+        budget_option_milliseconds(&request.budget),
+        budget_option_error(&request.budget),
+        budget_option_sweep(&request.budget),
+        budget_option_maps(&request.budget),
+        {.name = "size",
+         .kind = OPTION_SIZE,
+         .argument = "WxH",
+         .summary = "pixels; the device sets the limit",
+         .target = request.size,
+         .fallback = "1280x720"},
+        {.name = "samples",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "samples a pixel, of the filter reference alone",
+         .target = &request.samples,
+         .fallback = "64",
+         .minimum = 1,
+         .maximum = LOBE_MAXIMUM_SAMPLES,
+         .given = &request.has_samples},
+        view_option_eye(&request.view),
+        view_option_target(&request.view),
+        view_option_field_of_view(&request.view),
+        view_option_path(&request.view),
+        view_option_light(&request.view),
+        {.name = "frames",
+         .kind = OPTION_INTEGER,
+         .argument = "N",
+         .summary = "renders the still scene so many times and writes the last: the first frame "
+                    "builds the maps, later ones find them ready",
+         .target = &request.frames,
+         .fallback = "1",
+         .minimum = 1,
+         .maximum = 100000},
+        {.name = "material",
+         .kind = OPTION_TEXT,
+         .argument = "DIR",
+         .summary = "instead of SCENE: a folder of PBR maps, put on a carrier",
+         .target = &request.material},
+        {.name = "carrier",
+         .kind = OPTION_CHOICE,
+         .argument = "SHAPE",
+         .summary = "what carries the material",
+         .target = &request.carrier,
+         .fallback = "plane",
+         .choices = carriers,
+         .given = &request.has_carrier},
+        scene_option_assets(&request.opening),
+        scene_option_environment(&request.opening),
+        scene_option_rotation(&request.opening),
+        scene_option_intensity(&request.opening),
+        scene_option_background(&request.opening),
+        scene_option_no_lights(&request.opening),
+        cache_option_folder(&request.cache),
+        cache_option_off(&request.cache),
+        {.name = "depth",
+         .kind = OPTION_CHOICE,
+         .argument = "DEPTH",
+         .summary = "numbers in which the .exr keeps radiance",
+         .target = &request.depth,
+         .fallback = "half",
+         .choices = depths,
+         .given = &request.has_depth},
+        {.name = "aov",
+         .kind = OPTION_FLAG,
+         .summary = "adds layers to the .exr: normal, depth, lobes (their count), level; in float",
+         .target = &request.layers},
+        {.name = "exposure",
+         .kind = OPTION_NUMBER,
+         .argument = "STOPS",
+         .summary = "brightens the .png",
+         .target = &request.exposure,
+         .fallback = "0",
+         .minimum = -100,
+         .maximum = 100,
+         .given = &request.has_exposure},
+        {.name = "graph",
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "writes the compiled render graph of the last frame: as text where the name "
+                    "ends in .txt, else as Graphviz",
+         .target = &request.graph},
+        device_option_select(&request.device),
+        device_option_validation(&request.device),
+    };
+    const option_table table = {
+        .program = "lobe render",
+        .operands = "SCENE -o FILE",
+        .summary =
+            "Renders a picture of SCENE, which is the name of a built-in scene (see 'lobe\n"
+            "scenes'), the path of a .gltf or .glb file, or a folder of PBR maps to put on a\n"
+            "cloth; and prints the time of each pass.",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .maximum_operands = 1,
+        .operand_values = OPTION_VALUES_SCENE,
+    };
+    int status;
+    if (options_parse(&table, argc, argv, &operands, &status)) {
+        request.scene = operands.count > 0 ? operands.values[0] : NULL;
+        status = run_request(&table, &request);
+    }
+    options_free(&table, &operands);
+    return status;
+}
+
+const subcommand render_subcommand = {"render", "render a scene to an OpenEXR or PNG file", run};

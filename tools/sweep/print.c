@@ -1,0 +1,73 @@
+#include "tools/sweep/sweep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void describe_settings(const sweep_row *row, char *text, size_t size) {
+    const char *value = sweep_row_value(row, row->varied);
+    snprintf(text, size, "%s%s%s", value ? row->varied : "", value ? "=" : "", value ? value : "");
+}
+
+static void print_row(const sweep_row *row) {
+    char settings[72], flicker[16] = "-";
+    describe_settings(row, settings, sizeof settings);
+    if (row->flicker >= 0)
+        snprintf(flicker, sizeof flicker, "%.4f", row->flicker);
+    printf("  %-10s %-20s %10.2f %10.2f %10.2f %8.1f %8.1f %9.4f %9.4f %9.4f %9s\n", row->filter,
+           settings, row->building_ms, row->shading_ms, row->retained_ms,
+           (double)row->memory_bytes / (1 << 20), row->bytes_per_texel, row->error.relative_l2,
+           row->error.relative_l1, row->error.flip, flicker);
+}
+
+static double gigabytes_a_second(double bytes, double milliseconds) {
+    return milliseconds > 0 ? bytes / milliseconds * 1e-6 : 0;
+}
+
+static void print_passes(const sweep_row *row) {
+    for (size_t i = 0; i < row->pass_count; ++i) {
+        const sweep_pass *pass = &row->passes[i];
+        if (pass->building)
+            printf("  %-10s %-36s %10.2f %10.2f %10.2f %10.2f\n", row->filter, pass->name,
+                   pass->milliseconds, pass->bytes / (1 << 20),
+                   gigabytes_a_second(pass->bytes, pass->milliseconds),
+                   gigabytes_a_second(pass->bytes, pass->copy_milliseconds));
+    }
+}
+
+static bool is_of(const sweep_row *row, const sweep_scene *scene) {
+    return strcmp(row->scene, scene->name) == 0;
+}
+
+static void print_scene(const sweep_results *results, const sweep_scene *scene) {
+    printf("\n%s, %ux%u\n", scene->name, results->size[0], results->size[1]);
+    if (scene->skipped) {
+        printf("  skipped: %s\n", scene->skipped);
+        return;
+    }
+    printf("  %-10s %-20s %10s %10s %10s %8s %8s %9s %9s %9s %9s\n", "filter", "setting",
+           "building", "shading", "retained", "MiB", "bytes a", "rel. L2", "rel. L1", "FLIP",
+           "flicker");
+    printf("  %-10s %-20s %10s %10s %10s %8s %8s\n", "", "", "ms", "ms", "ms", "", "texel");
+    for (size_t i = 0; i < results->row_count; ++i) {
+        if (is_of(&results->rows[i], scene))
+            print_row(&results->rows[i]);
+    }
+    printf("  %-47s %10s %10s %10s %10s\n", "passes that build, at the defaults", "ms", "MiB",
+           "GB/s", "copy GB/s");
+    for (size_t i = 0; i < results->row_count; ++i) {
+        if (is_of(&results->rows[i], scene) && results->rows[i].varied[0] == '\0')
+            print_passes(&results->rows[i]);
+    }
+}
+
+void sweep_print(const sweep_results *results) {
+    const bool software = strcmp(results->device_type, "CPU") == 0;
+    printf("lobe %s on %s, %s (%s%s)\n", results->version, results->device, results->driver,
+           results->device_type, software ? ": times are those of a software renderer" : "");
+    printf("Errors are against %u samples a pixel, flicker against twice %u; the filter reference "
+           "takes "
+           "%d.\n",
+           results->reference_samples, results->path_samples, BENCH_TIMED_SAMPLES);
+    for (size_t i = 0; i < results->scene_count; ++i)
+        print_scene(results, &results->scenes[i]);
+}

@@ -1,0 +1,36 @@
+#ifndef TOOLS_VIEWER_GRAPHICS_DEVICE_H
+#define TOOLS_VIEWER_GRAPHICS_DEVICE_H
+
+#include <stdatomic.h>
+
+#include <lobe/vulkan.h>
+
+#include "engine/device/instance.h"
+#include "tools/cli/device_options.h"
+
+struct GLFWwindow;
+
+/// Vulkan of the viewer's own, on which lobe is a guest: an instance that knows windows, a surface,
+/// a device that presents on it. All zero: none.
+typedef struct viewer_device {
+    engine_validation validation;
+    _Atomic uint64_t fault_count; ///< messages of the validation layer
+    lobe_log log;
+    engine_instance instance;
+    VkSurfaceKHR surface;
+    lobe_vulkan_device vulkan;
+    lobe_device *lobe;
+} viewer_device;
+
+/// The structure must stay where it is until it is closed. On failure it is closed.
+/// Errors: LOBE_ERROR_NO_DEVICE, LOBE_ERROR_UNSUPPORTED (the device cannot present here),
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+lobe_result viewer_device_open(const device_options *options, struct GLFWwindow *window,
+                               const lobe_log *log, viewer_device *device);
+/// Waits for what is under way. All zero is fine.
+void viewer_device_close(viewer_device *device);
+
+/// Gives the window a new surface in the place of one that was lost.
+lobe_result viewer_device_renew_surface(viewer_device *device, struct GLFWwindow *window);
+
+#endif

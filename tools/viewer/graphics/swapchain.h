@@ -1,0 +1,46 @@
+#ifndef TOOLS_VIEWER_GRAPHICS_SWAPCHAIN_H
+#define TOOLS_VIEWER_GRAPHICS_SWAPCHAIN_H
+
+#include <stdbool.h>
+
+#include "tools/viewer/graphics/device.h"
+
+#define VIEWER_MAXIMUM_IMAGES 16
+
+/// The images that a window shows in turn. One frame is under way at a time. All zero: none.
+typedef struct viewer_swapchain {
+    VkSwapchainKHR swapchain;
+    VkFormat format;
+    uint32_t width, height; ///< pixels
+    uint32_t count;
+    VkImage images[VIEWER_MAXIMUM_IMAGES];
+    VkSemaphore drawn[VIEWER_MAXIMUM_IMAGES]; ///< of each: it may be shown
+    VkSemaphore acquired;                     ///< the one acquired last may be drawn into
+    uint32_t current;                         ///< that one
+    bool fits;                                ///< an image was shown as the surface likes it best
+    bool fits_badly; ///< it would like the one acquired last to be other than it is
+} viewer_swapchain;
+
+/// How showing, or getting ready for it, went.
+typedef enum viewer_shown {
+    VIEWER_SHOWN,
+    VIEWER_BUSY,         ///< the window takes no picture now: it may be covered
+    VIEWER_OUT_OF_DATE,  ///< the window is not what it was: the swapchain must be made anew
+    VIEWER_SURFACE_LOST, ///< the surface, too
+    VIEWER_FAILED,       ///< a line says why
+} viewer_shown;
+
+/// Makes one of about this size in the place of the one before, whose images nobody may still use.
+/// Where the window has no size now (it is minimised) there is none, and `count` is 0.
+viewer_shown viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
+                                    viewer_swapchain *swapchain, lobe_result *result);
+void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swapchain);
+
+/// Takes the next image, for which it waits a moment.
+viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapchain *swapchain,
+                                      lobe_result *result);
+/// Shows it, once its semaphore `drawn` is signalled.
+viewer_shown viewer_swapchain_present(const viewer_device *device, viewer_swapchain *swapchain,
+                                      lobe_result *result);
+
+#endif

@@ -1,0 +1,21 @@
+#ifndef TOOLS_VIEWER_GRAPHICS_TARGET_H
+#define TOOLS_VIEWER_GRAPHICS_TARGET_H
+
+#include "tools/viewer/graphics/device.h"
+
+/// An image of linear radiance that lobe draws into and the viewer's own shader reads. All zero:
+/// none.
+typedef struct viewer_target {
+    lobe_vulkan_image image; ///< as it is when a frame starts
+    VkDeviceMemory memory;
+} viewer_target;
+
+/// In the place of the one before, which nobody may still use.
+lobe_result viewer_target_renew(const viewer_device *device, uint32_t width, uint32_t height,
+                                viewer_target *target);
+void viewer_target_destroy(const viewer_device *device, viewer_target *target);
+
+/// It holds a picture from now on: of this frame's further commands, too.
+void viewer_target_is_drawn(viewer_target *target);
+
+#endif
