@@ -16,7 +16,7 @@ typedef struct gzip_job {
     const char *cause;
 } gzip_job;
 
-bool gzip_recognise(const void *bytes, size_t size) {
+bool third_party_gzip_recognise(const void *bytes, size_t size) {
     const uint8_t *first = bytes;
     return size >= 2 && first[0] == 0x1f && first[1] == 0x8b;
 }
@@ -84,8 +84,9 @@ static bool unpack(gzip_job *job) {
     return true;
 }
 
-bool gzip_unpack(const void *bytes, size_t size, size_t maximum, library_memory *memory,
-                 uint8_t **unpacked, size_t *unpacked_size, char message[GZIP_MESSAGE_SIZE]) {
+bool third_party_gzip_unpack(const void *bytes, size_t size, size_t maximum, library_memory *memory,
+                             uint8_t **unpacked, size_t *unpacked_size,
+                             char message[GZIP_MESSAGE_SIZE]) {
     gzip_job job = {.maximum = maximum, .left = size, .memory = memory};
     job.stream.next_in = (Bytef *)bytes; // read only
     job.stream.zalloc = allocate;

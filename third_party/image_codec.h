@@ -20,18 +20,18 @@ typedef struct image_codec_extent {
 } image_codec_extent;
 
 /// Reads the header alone. False: `message` says why.
-bool png_measure(const void *bytes, size_t size, library_memory *memory, image_codec_extent *extent,
-                 char message[IMAGE_CODEC_MESSAGE_SIZE]);
-bool jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,
-                  char message[IMAGE_CODEC_MESSAGE_SIZE]);
+bool third_party_png_measure(const void *bytes, size_t size, library_memory *memory,
+                             image_codec_extent *extent, char message[IMAGE_CODEC_MESSAGE_SIZE]);
+bool third_party_jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,
+                              char message[IMAGE_CODEC_MESSAGE_SIZE]);
 
 /// Decodes to `rgba`: rows from the top, packed, 4 channels of 8 bits, or of 16 bits in the
 /// machine's order where `sixteen_bits` is asked for and the image has them. `extent` is what was
 /// measured. A file that ends early fails.
-bool png_decode(const void *bytes, size_t size, library_memory *memory,
-                const image_codec_extent *extent, bool sixteen_bits, void *rgba,
-                char message[IMAGE_CODEC_MESSAGE_SIZE]);
-bool jpeg_decode(const void *bytes, size_t size, const image_codec_extent *extent, void *rgba,
-                 char message[IMAGE_CODEC_MESSAGE_SIZE]);
+bool third_party_png_decode(const void *bytes, size_t size, library_memory *memory,
+                            const image_codec_extent *extent, bool sixteen_bits, void *rgba,
+                            char message[IMAGE_CODEC_MESSAGE_SIZE]);
+bool third_party_jpeg_decode(const void *bytes, size_t size, const image_codec_extent *extent,
+                             void *rgba, char message[IMAGE_CODEC_MESSAGE_SIZE]);
 
 #endif

@@ -93,8 +93,8 @@ static bool run(jpeg_job *job, void (*step)(jpeg_job *job)) {
     return true;
 }
 
-bool jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,
-                  char message[IMAGE_CODEC_MESSAGE_SIZE]) {
+bool third_party_jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,
+                              char message[IMAGE_CODEC_MESSAGE_SIZE]) {
     jpeg_job job = {.bytes = bytes, .size = size, .message = message};
     open_job(&job);
     bool done = run(&job, read_header);
@@ -103,8 +103,8 @@ bool jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,
     return done;
 }
 
-bool jpeg_decode(const void *bytes, size_t size, const image_codec_extent *extent, void *rgba,
-                 char message[IMAGE_CODEC_MESSAGE_SIZE]) {
+bool third_party_jpeg_decode(const void *bytes, size_t size, const image_codec_extent *extent,
+                             void *rgba, char message[IMAGE_CODEC_MESSAGE_SIZE]) {
     jpeg_job job = {.bytes = bytes, .size = size, .message = message, .rgba = rgba};
     job.extent = *extent;
     open_job(&job);

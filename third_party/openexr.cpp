@@ -80,7 +80,8 @@ void copy_message(const char *from, char message[OPENEXR_MESSAGE_SIZE]) {
 
 } // namespace
 
-extern "C" bool openexr_read(const openexr_source *source, char message[OPENEXR_MESSAGE_SIZE]) {
+extern "C" bool third_party_openexr_read(const openexr_source *source,
+                                         char message[OPENEXR_MESSAGE_SIZE]) {
     const char *cause = "unknown";
     try {
         read_rows(*source);

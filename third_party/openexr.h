@@ -27,7 +27,7 @@ typedef struct openexr_source {
 
 /// False: `message` says why (damaged, no memory), in printable ASCII; rows may have been placed
 /// before.
-bool openexr_read(const openexr_source *source, char message[OPENEXR_MESSAGE_SIZE]);
+bool third_party_openexr_read(const openexr_source *source, char message[OPENEXR_MESSAGE_SIZE]);
 
 #ifdef __cplusplus
 }

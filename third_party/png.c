@@ -105,8 +105,8 @@ static void read_texels(png_job *job) {
     png_read_end(job->png, NULL);
 }
 
-bool png_measure(const void *bytes, size_t size, library_memory *memory, image_codec_extent *extent,
-                 char message[IMAGE_CODEC_MESSAGE_SIZE]) {
+bool third_party_png_measure(const void *bytes, size_t size, library_memory *memory,
+                             image_codec_extent *extent, char message[IMAGE_CODEC_MESSAGE_SIZE]) {
     png_job job = {.memory = memory, .bytes = bytes, .size = size, .message = message};
     bool done = open_job(&job) && run(&job, read_header);
     *extent = job.extent;
@@ -114,9 +114,9 @@ bool png_measure(const void *bytes, size_t size, library_memory *memory, image_c
     return done;
 }
 
-bool png_decode(const void *bytes, size_t size, library_memory *memory,
-                const image_codec_extent *extent, bool sixteen_bits, void *rgba,
-                char message[IMAGE_CODEC_MESSAGE_SIZE]) {
+bool third_party_png_decode(const void *bytes, size_t size, library_memory *memory,
+                            const image_codec_extent *extent, bool sixteen_bits, void *rgba,
+                            char message[IMAGE_CODEC_MESSAGE_SIZE]) {
     png_job job = {
         .memory = memory, .bytes = bytes, .size = size, .message = message, .rgba = rgba};
     job.sixteen_bits = sixteen_bits && extent->sixteen_bits;

@@ -370,8 +370,8 @@ bool parse(const gltf_source &source, tinygltf::Model &model, std::string &error
 
 } // namespace
 
-extern "C" const gltf_document *gltf_document_parse(const gltf_source *source, char *message,
-                                                    size_t message_size) {
+extern "C" const gltf_document *
+third_party_gltf_document_parse(const gltf_source *source, char *message, size_t message_size) {
     message[0] = 0;
     try {
         std::unique_ptr<Handle> handle(new Handle());
@@ -396,6 +396,6 @@ extern "C" const gltf_document *gltf_document_parse(const gltf_source *source, c
     }
 }
 
-extern "C" void gltf_document_free(const gltf_document *document) {
+extern "C" void third_party_gltf_document_free(const gltf_document *document) {
     delete static_cast<const Handle *>(document);
 }

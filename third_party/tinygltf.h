@@ -201,15 +201,15 @@ typedef struct gltf_source {
     void *user;
 } gltf_source;
 
-/// Parses a document that json_check (scenes/gltf/json.h) has accepted: tinygltf itself ignores
-/// values of a wrong type, and recurses without limit. Images with a file of their own are left to
-/// the caller. Returns NULL on failure, `message` (of `message_size` bytes) says why; it is empty
-/// where memory ran out. Free with gltf_document_free.
-const gltf_document *gltf_document_parse(const gltf_source *source, char *message,
-                                         size_t message_size);
+/// Parses a document that scenes_json_check (scenes/gltf/json.h) has accepted: tinygltf itself
+/// ignores values of a wrong type, and recurses without limit. Images with a file of their own are
+/// left to the caller. Returns NULL on failure, `message` (of `message_size` bytes) says why; it is
+/// empty where memory ran out. Free with third_party_gltf_document_free.
+const gltf_document *third_party_gltf_document_parse(const gltf_source *source, char *message,
+                                                     size_t message_size);
 
 /// NULL is fine.
-void gltf_document_free(const gltf_document *document);
+void third_party_gltf_document_free(const gltf_document *document);
 
 #ifdef __cplusplus
 }

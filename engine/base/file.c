@@ -15,7 +15,7 @@
 
 typedef struct file_reader {
     const char *path, *owner;
-    const lobe_log *log;
+    const lobe_host *host;
     int file;
     uint8_t *data;
     size_t size, capacity; ///< bytes
@@ -23,8 +23,8 @@ typedef struct file_reader {
 
 static lobe_result fail_reading(const file_reader *reader, lobe_result result, const char *cause) {
     const char *owner = reader->owner ? reader->owner : "";
-    return lobe_log_fail(reader->log, result, "%s%s%s: %s", owner, *owner ? ": " : "", reader->path,
-                         cause);
+    return lobe_host_fail(reader->host, result, "%s%s%s: %s", owner, *owner ? ": " : "",
+                          reader->path, cause);
 }
 
 static lobe_result fail_too_large(const file_reader *reader) {
@@ -54,7 +54,7 @@ static lobe_result open_regular_file(file_reader *reader) {
 /// Room for the capacity, and for the zero byte behind it.
 static lobe_result reserve(file_reader *reader) {
     uint8_t *larger =
-        lobe_reallocate(lobe_log_allocator(reader->log), reader->data, reader->capacity + 1, 1);
+        lobe_reallocate(lobe_host_allocator(reader->host), reader->data, reader->capacity + 1, 1);
     if (!larger)
         return fail_reading(reader, LOBE_ERROR_OUT_OF_MEMORY, "out of memory");
     reader->data = larger;
@@ -83,11 +83,11 @@ static lobe_result read_to_end(file_reader *reader) {
     return result;
 }
 
-lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *log, uint8_t **data,
-                           size_t *size) {
+lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
+                           uint8_t **data, size_t *size) {
     *data = NULL;
     *size = 0;
-    file_reader reader = {.path = path, .owner = owner, .log = log};
+    file_reader reader = {.path = path, .owner = owner, .host = host};
     lobe_result result = open_regular_file(&reader);
     if (result == LOBE_OK)
         result = read_to_end(&reader);
@@ -105,8 +105,9 @@ lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-static lobe_result fail_writing(const char *path, const lobe_log *log) {
-    return lobe_log_fail(log, LOBE_ERROR_WRITE, "%s: cannot be written: %s", path, strerror(errno));
+static lobe_result fail_writing(const char *path, const lobe_host *host) {
+    return lobe_host_fail(host, LOBE_ERROR_WRITE, "%s: cannot be written: %s", path,
+                          strerror(errno));
 }
 
 /// Closes the file in all cases. Returns 0, or -1 with errno set.
@@ -129,10 +130,10 @@ static int write_all(int file, const uint8_t *data, size_t size) {
 }
 
 static lobe_result write_directly(const char *path, const void *data, size_t size,
-                                  const lobe_log *log) {
+                                  const lobe_host *host) {
     int file = open(path, O_WRONLY | O_CLOEXEC);
     if (file < 0 || write_all(file, data, size) != 0)
-        return fail_writing(path, log);
+        return fail_writing(path, host);
     return LOBE_OK;
 }
 
@@ -152,33 +153,34 @@ static int create_temporary(const char *path, char *name, size_t name_size) {
 }
 
 static lobe_result write_and_rename(const char *path, const void *data, size_t size,
-                                    const lobe_log *log) {
+                                    const lobe_host *host) {
     size_t name_size = strlen(path) + 64;
-    char *name = lobe_allocate(lobe_log_allocator(log), name_size, 1);
+    char *name = lobe_allocate(lobe_host_allocator(host), name_size, 1);
     if (name == NULL)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be written: out of memory",
-                             path);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "%s: cannot be written: out of memory", path);
     lobe_result result = LOBE_OK;
     int file = create_temporary(path, name, name_size);
     if (file < 0) {
-        result = fail_writing(path, log);
+        result = fail_writing(path, host);
     } else if (write_all(file, data, size) != 0 || rename(name, path) != 0) {
-        result = fail_writing(path, log);
+        result = fail_writing(path, host);
         unlink(name);
     }
     lobe_release(name);
     return result;
 }
 
-lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_log *log) {
+lobe_result lobe_file_write(const char *path, const void *data, size_t size,
+                            const lobe_host *host) {
     struct stat status;
     if (stat(path, &status) != 0)
-        return write_and_rename(path, data, size, log);
+        return write_and_rename(path, data, size, host);
     if (!S_ISREG(status.st_mode))
-        return write_directly(path, data, size, log);
+        return write_directly(path, data, size, host);
     // Through a symbolic link the file it points to is replaced, not the link.
     char target[PATH_MAX];
     if (realpath(path, target) == NULL)
-        return fail_writing(path, log);
-    return write_and_rename(target, data, size, log);
+        return fail_writing(path, host);
+    return write_and_rename(target, data, size, host);
 }

@@ -13,8 +13,8 @@
 // The steps of creation, in order
 
 static lobe_result open_instance(lobe_device *device, bool validation) {
-    device->validation = (engine_validation){&device->log, &device->validation_count};
-    return engine_instance_create(&device->log, validation ? &device->validation : NULL,
+    device->validation = (engine_validation){&device->host, &device->validation_count};
+    return engine_instance_create(&device->host, validation ? &device->validation : NULL,
                                   &device->instance);
 }
 
@@ -22,9 +22,9 @@ static lobe_result select_physical(lobe_device *device, const char *select) {
     engine_candidate *candidates = NULL;
     size_t count = 0, selected = 0;
     lobe_result result =
-        engine_candidates_list(device->instance.vulkan, &device->log, &candidates, &count);
+        engine_candidates_list(device->instance.vulkan, &device->host, &candidates, &count);
     if (result == LOBE_OK)
-        result = engine_candidates_select(candidates, count, select, &device->log, &selected);
+        result = engine_candidates_select(candidates, count, select, &device->host, &selected);
     if (result == LOBE_OK) {
         engine_candidate *candidate = &candidates[selected];
         device->physical = candidate->physical;
@@ -41,7 +41,7 @@ static lobe_result open_device(lobe_device *device) {
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
     uint32_t extension_count;
     lobe_result result =
-        engine_extensions_fill(device->physical, &device->log, extensions, &extension_count);
+        engine_extensions_fill(device->physical, &device->host, extensions, &extension_count);
     if (result != LOBE_OK)
         return result;
     for (uint32_t i = 0; i < extension_count; i++)
@@ -62,9 +62,9 @@ static lobe_result open_device(lobe_device *device) {
         .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
-    result =
-        VULKAN_CHECK(&device->log, vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
-                     "device '%s'", device->information.name);
+    result = VULKAN_CHECK(&device->host,
+                          vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
+                          "device '%s'", device->information.name);
     if (result == LOBE_OK)
         vkGetDeviceQueue(device->vulkan, device->queue_family, 0, &device->queue);
     return result;
@@ -86,7 +86,7 @@ static lobe_result create_timeline(lobe_device *device) {
         .pNext = &type,
     };
     return VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreateSemaphore(device->vulkan, &create, device->callbacks, &device->timeline),
         "device '%s'", device->information.name);
 }
@@ -98,7 +98,7 @@ static lobe_result create_command_pool(lobe_device *device) {
         .queueFamilyIndex = device->queue_family,
     };
     return VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreateCommandPool(device->vulkan, &create, device->callbacks, &device->commands),
         "device '%s'", device->information.name);
 }
@@ -110,7 +110,7 @@ static lobe_result create_memory(lobe_device *device, uint64_t limit) {
         .callbacks = device->callbacks,
         .limit = limit,
         .budget = device->memory_budget,
-        .log = &device->log,
+        .host = &device->host,
     };
     return engine_memory_create(&parameters, &device->memory);
 }
@@ -139,12 +139,12 @@ static void destroy_mutexes(lobe_device *device) {
 }
 
 lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device) {
-    *device = lobe_allocate(lobe_log_allocator(parameters->log), 1, sizeof **device);
+    *device = lobe_allocate(lobe_host_allocator(parameters->host), 1, sizeof **device);
     if (!*device)
-        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
+        return lobe_host_fail(parameters->host, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
     create_mutexes(*device);
-    if (parameters->log)
-        (*device)->log = *parameters->log;
+    if (parameters->host)
+        (*device)->host = *parameters->host;
     return LOBE_OK;
 }
 
@@ -210,7 +210,7 @@ void lobe_device_destroy(lobe_device **device) {
 }
 
 const lobe_allocator *lobe_device_allocator(const lobe_device *device) {
-    return device->log.allocator;
+    return device->host.allocator;
 }
 
 const lobe_device_information *lobe_device_describe(const lobe_device *device) {
@@ -218,20 +218,20 @@ const lobe_device_information *lobe_device_describe(const lobe_device *device) {
 }
 
 lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
-                             const lobe_log *log) {
+                             const lobe_host *host) {
     *devices = NULL;
     *count = 0;
     engine_instance instance = {0};
     engine_candidate *candidates = NULL;
-    lobe_result result = engine_instance_create(log, NULL, &instance);
+    lobe_result result = engine_instance_create(host, NULL, &instance);
     if (result != LOBE_OK)
         return result;
-    result = engine_candidates_list(instance.vulkan, log, &candidates, count);
+    result = engine_candidates_list(instance.vulkan, host, &candidates, count);
     if (result != LOBE_OK)
         goto cleanup;
-    *devices = lobe_allocate(lobe_log_allocator(log), *count, sizeof **devices);
+    *devices = lobe_allocate(lobe_host_allocator(host), *count, sizeof **devices);
     if (!*devices) {
-        result = lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
+        result = lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
         goto cleanup;
     }
     for (size_t i = 0; i < *count; i++) {

@@ -15,15 +15,15 @@
 #include "engine/resource/memory.h"
 
 struct lobe_device {
-    lobe_log log; ///< always valid; `write` may be NULL
+    lobe_host host; ///< always valid; `write` may be NULL
     engine_validation validation;
     engine_instance instance;
     VkPhysicalDevice physical;
     VkDevice vulkan;
     VkQueue queue; ///< graphics, compute and transfer; used between lock and unlock alone
     pthread_mutex_t queue_mutex;
-    bool imported;           ///< instance, device and queue are the host's
-    lobe_vulkan_device host; ///< where imported: the callbacks; what it points to may be gone
+    bool imported;             ///< instance, device and queue are the host's
+    lobe_vulkan_device import; ///< where imported: the callbacks; what it points to may be gone
     /// The host's, for Vulkan's own memory; NULL: none. Points to the copy behind it.
     const VkAllocationCallbacks *callbacks;
     VkAllocationCallbacks kept_callbacks;

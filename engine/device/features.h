@@ -27,7 +27,7 @@ void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_CO
                             lobe_vulkan_features *enable);
 
 /// As lobe_vulkan_extensions_fill; LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *log,
+lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_host *host,
                                    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
                                    uint32_t *filled);
 

@@ -6,23 +6,23 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
-static lobe_result fail_memory(const lobe_log *log) {
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan: no host memory to look around");
+static lobe_result fail_memory(const lobe_host *host) {
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan: no host memory to look around");
 }
 
 /// Whether `name` is an extension of the loader and drivers.
-static lobe_result find_extension(const lobe_log *log, const char *name, bool *found) {
+static lobe_result find_extension(const lobe_host *host, const char *name, bool *found) {
     uint32_t count = 0;
     *found = false;
-    lobe_result result =
-        VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
+    lobe_result result = VULKAN_CHECK(
+        host, vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
     if (result != LOBE_OK || count == 0)
         return result;
     VkExtensionProperties *extensions =
-        lobe_allocate(lobe_log_allocator(log), count, sizeof *extensions);
+        lobe_allocate(lobe_host_allocator(host), count, sizeof *extensions);
     if (!extensions)
-        return fail_memory(log);
-    result = VULKAN_CHECK(log, vkEnumerateInstanceExtensionProperties(NULL, &count, extensions),
+        return fail_memory(host);
+    result = VULKAN_CHECK(host, vkEnumerateInstanceExtensionProperties(NULL, &count, extensions),
                           "extensions");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !*found; i++)
         *found = !strcmp(extensions[i].extensionName, name);
@@ -30,24 +30,24 @@ static lobe_result find_extension(const lobe_log *log, const char *name, bool *f
     return result;
 }
 
-static lobe_result require_layer(const lobe_log *log, const char *name) {
+static lobe_result require_layer(const lobe_host *host, const char *name) {
     uint32_t count = 0;
     bool found = false;
     lobe_result result =
-        VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
+        VULKAN_CHECK(host, vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
     if (result != LOBE_OK)
         return result;
-    VkLayerProperties *layers = lobe_allocate(lobe_log_allocator(log), count, sizeof *layers);
+    VkLayerProperties *layers = lobe_allocate(lobe_host_allocator(host), count, sizeof *layers);
     if (!layers)
-        return fail_memory(log);
-    result = VULKAN_CHECK(log, vkEnumerateInstanceLayerProperties(&count, layers), "layers");
+        return fail_memory(host);
+    result = VULKAN_CHECK(host, vkEnumerateInstanceLayerProperties(&count, layers), "layers");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !found; i++)
         found = !strcmp(layers[i].layerName, name);
     lobe_release(layers);
     if (result != LOBE_OK || found)
         return result;
-    return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED, "validation: the layer %s is not installed",
-                         name);
+    return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED, "validation: the layer %s is not installed",
+                          name);
 }
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
@@ -57,8 +57,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
     const engine_validation *validation = user;
     const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     atomic_fetch_add(validation->count, 1);
-    lobe_log_print(validation->log, LOBE_LOG_ERROR, "Vulkan validation %s: %s",
-                   error ? "error" : "warning", data->pMessage);
+    lobe_host_log(validation->host, LOBE_LOG_ERROR, "Vulkan validation %s: %s",
+                  error ? "error" : "warning", data->pMessage);
     return VK_FALSE;
 }
 
@@ -132,41 +132,41 @@ static VkResult create_validated(engine_instance *instance, const engine_validat
     return create_plain(instance, &request);
 }
 
-static lobe_result create_messenger(const lobe_log *log, const engine_validation *validation,
+static lobe_result create_messenger(const lobe_host *host, const engine_validation *validation,
                                     engine_instance *instance) {
     const VkDebugUtilsMessengerCreateInfoEXT settings = messenger_settings(validation);
     PFN_vkCreateDebugUtilsMessengerEXT create =
         (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->vulkan,
                                                                   "vkCreateDebugUtilsMessengerEXT");
-    return VULKAN_CHECK(log, create(instance->vulkan, &settings, NULL, &instance->messenger),
+    return VULKAN_CHECK(host, create(instance->vulkan, &settings, NULL, &instance->messenger),
                         "validation messages");
 }
 
-lobe_result engine_instance_create(const lobe_log *log, const engine_validation *validation,
+lobe_result engine_instance_create(const lobe_host *host, const engine_validation *validation,
                                    engine_instance *instance) {
-    return engine_instance_create_with(log, validation, NULL, 0, instance);
+    return engine_instance_create_with(host, validation, NULL, 0, instance);
 }
 
-lobe_result engine_instance_create_with(const lobe_log *log, const engine_validation *validation,
+lobe_result engine_instance_create_with(const lobe_host *host, const engine_validation *validation,
                                         const char *const *extensions, uint32_t extension_count,
                                         engine_instance *instance) {
     const instance_request request = {.extensions = extensions,
                                       .extension_count = extension_count,
-                                      .allocator = lobe_log_allocator(log)};
+                                      .allocator = lobe_host_allocator(host)};
     *instance = (engine_instance){0};
     instance->debug_utils = true; // which the layer brings
-    lobe_result result =
-        validation ? require_layer(log, VALIDATION_LAYER)
-                   : find_extension(log, VK_EXT_DEBUG_UTILS_EXTENSION_NAME, &instance->debug_utils);
+    lobe_result result = validation ? require_layer(host, VALIDATION_LAYER)
+                                    : find_extension(host, VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                     &instance->debug_utils);
     if (result != LOBE_OK)
         return result;
     const VkResult created = validation ? create_validated(instance, validation, &request)
                                         : create_plain(instance, &request);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
-        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
-    result = VULKAN_CHECK(log, created, "Vulkan (vkCreateInstance)");
+        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
+    result = VULKAN_CHECK(host, created, "Vulkan (vkCreateInstance)");
     if (result == LOBE_OK && validation)
-        result = create_messenger(log, validation, instance);
+        result = create_messenger(host, validation, instance);
     if (result != LOBE_OK)
         engine_instance_destroy(instance);
     return result;

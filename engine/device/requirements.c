@@ -30,7 +30,7 @@ static bool has_extension(const VkExtensionProperties *extensions, uint32_t coun
     return false;
 }
 
-lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *log,
+lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_host *host,
                                    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
                                    uint32_t *filled) {
     uint32_t count = 0;
@@ -38,10 +38,10 @@ lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *lo
     if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
         return LOBE_OK;
     VkExtensionProperties *extensions =
-        lobe_allocate(lobe_log_allocator(log), count, sizeof *extensions);
+        lobe_allocate(lobe_host_allocator(host), count, sizeof *extensions);
     if (!extensions)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "Vulkan: no host memory for a device's extensions");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "Vulkan: no host memory for a device's extensions");
     if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
         for (size_t i = 0; i < KNOWN_COUNT; i++)
             if (has_extension(extensions, count, known[i].name))
@@ -53,7 +53,7 @@ lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_log *lo
 uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
                                      const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
-    const lobe_log silent = {.allocator = allocator};
+    const lobe_host silent = {.allocator = allocator};
     uint32_t filled;
     (void)engine_extensions_fill(physical_device, &silent, names, &filled);
     return filled;

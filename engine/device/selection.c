@@ -112,14 +112,14 @@ static bool describe_features(engine_candidate *candidate, const lobe_allocator 
     return true;
 }
 
-lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log *log,
+lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_host *host,
                                       engine_candidate *candidate) {
     *candidate = (engine_candidate){.physical = physical};
     describe(candidate);
-    return describe_features(candidate, lobe_log_allocator(log))
+    return describe_features(candidate, lobe_host_allocator(host))
                ? LOBE_OK
-               : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
-                               candidate->information.name);
+               : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
+                                candidate->information.name);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -132,9 +132,9 @@ void engine_candidates_free(engine_candidate **candidates, size_t count) {
     *candidates = NULL;
 }
 
-static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count, const lobe_log *log,
-                                engine_candidate **candidates) {
-    const lobe_allocator *allocator = lobe_log_allocator(log);
+static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count,
+                                const lobe_host *host, engine_candidate **candidates) {
+    const lobe_allocator *allocator = lobe_host_allocator(host);
     *candidates = lobe_allocate(allocator, count, sizeof **candidates);
     bool complete = *candidates != NULL;
     for (size_t i = 0; complete && i < count; i++) {
@@ -145,24 +145,24 @@ static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count, 
     if (complete)
         return LOBE_OK;
     engine_candidates_free(candidates, count);
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
 }
 
-lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,
+lobe_result engine_candidates_list(VkInstance instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count) {
     *candidates = NULL;
     *count = 0;
     VkPhysicalDevice physical[64];
     uint32_t found = sizeof physical / sizeof *physical;
-    const lobe_result result =
-        VULKAN_CHECK(log, vkEnumeratePhysicalDevices(instance, &found, physical), "Vulkan devices");
+    const lobe_result result = VULKAN_CHECK(
+        host, vkEnumeratePhysicalDevices(instance, &found, physical), "Vulkan devices");
     if (result != LOBE_OK)
         return result;
     if (found == 0)
-        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
-                             "no Vulkan device: no driver reports one on this machine");
+        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
+                              "no Vulkan device: no driver reports one on this machine");
     *count = found;
-    return describe_all(physical, found, log, candidates);
+    return describe_all(physical, found, host, candidates);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -177,19 +177,19 @@ static bool is_suited(const engine_candidate *candidate) {
            !engine_features_missing(candidate->information.features);
 }
 
-static lobe_result fail_unsuited(const engine_candidate *candidate, const lobe_log *log) {
+static lobe_result fail_unsuited(const engine_candidate *candidate, const lobe_host *host) {
     const lobe_device_information *information = &candidate->information;
     if (!is_recent(information))
-        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
-                             "device '%s' offers Vulkan %u.%u, 1.3 is required", information->name,
-                             information->vulkan_major, information->vulkan_minor);
+        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
+                              "device '%s' offers Vulkan %u.%u, 1.3 is required", information->name,
+                              information->vulkan_major, information->vulkan_minor);
     if (candidate->queue_family == UINT32_MAX)
-        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
-                             "device '%s' has no queue with both graphics and compute",
-                             information->name);
+        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
+                              "device '%s' has no queue with both graphics and compute",
+                              information->name);
     const lobe_device_feature *missing = engine_features_missing(information->features);
-    return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE, "device '%s' lacks the feature %s (%s)",
-                         information->name, missing->name, missing->use);
+    return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE, "device '%s' lacks the feature %s (%s)",
+                          information->name, missing->name, missing->use);
 }
 
 static int rank(lobe_device_type type) {
@@ -225,18 +225,18 @@ static bool matches(const engine_candidate *candidates, size_t count, size_t i,
 }
 
 lobe_result engine_candidates_select(const engine_candidate *candidates, size_t count,
-                                     const char *select, const lobe_log *log, size_t *selected) {
+                                     const char *select, const lobe_host *host, size_t *selected) {
     size_t best = SIZE_MAX;
     for (size_t i = 0; i < count; i++)
         if (matches(candidates, count, i, select) &&
             (best == SIZE_MAX || is_preferred(&candidates[i], &candidates[best])))
             best = i;
     if (best == SIZE_MAX)
-        return lobe_log_fail(log, LOBE_ERROR_NO_DEVICE,
-                             "no Vulkan device matches '%s' (%zu found, the first is '%s')", select,
-                             count, candidates[0].information.name);
+        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
+                              "no Vulkan device matches '%s' (%zu found, the first is '%s')",
+                              select, count, candidates[0].information.name);
     if (!is_suited(&candidates[best]))
-        return fail_unsuited(&candidates[best], log);
+        return fail_unsuited(&candidates[best], host);
     *selected = best;
     return LOBE_OK;
 }

@@ -25,17 +25,17 @@ bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
 uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
 /// Describes one device; `candidate->information.features` is to lobe_release.
-lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_log *log,
+lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_host *host,
                                       engine_candidate *candidate);
 
 /// Lists all devices. LOBE_ERROR_NO_DEVICE where there is none, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result engine_candidates_list(VkInstance instance, const lobe_log *log,
+lobe_result engine_candidates_list(VkInstance instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count);
 void engine_candidates_free(engine_candidate **candidates, size_t count);
 
 /// Gives the index of the device that `select` (see lobe_device_parameters) asks for.
 /// LOBE_ERROR_NO_DEVICE: nothing matches, or what matches lacks something required.
 lobe_result engine_candidates_select(const engine_candidate *candidates, size_t count,
-                                     const char *select, const lobe_log *log, size_t *selected);
+                                     const char *select, const lobe_host *host, size_t *selected);
 
 #endif

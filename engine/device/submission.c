@@ -5,13 +5,13 @@
 void engine_device_lock_queue(lobe_device *device) {
     // Renderers of one device first settle who of them goes to the host.
     pthread_mutex_lock(&device->queue_mutex);
-    if (device->host.lock_queue)
-        device->host.lock_queue(device->host.user);
+    if (device->import.lock_queue)
+        device->import.lock_queue(device->import.user);
 }
 
 void engine_device_unlock_queue(lobe_device *device) {
-    if (device->host.unlock_queue)
-        device->host.unlock_queue(device->host.user);
+    if (device->import.unlock_queue)
+        device->import.unlock_queue(device->import.user);
     pthread_mutex_unlock(&device->queue_mutex);
 }
 
@@ -34,7 +34,7 @@ static lobe_result check(lobe_device *device, VkResult code, const char *functio
     const bool was_lost = atomic_exchange(&device->is_lost, code == VK_ERROR_DEVICE_LOST);
     if (was_lost && code == VK_ERROR_DEVICE_LOST)
         return LOBE_ERROR_DEVICE_LOST;
-    return engine_vulkan_check(&device->log, code, function, "%s", purpose);
+    return engine_vulkan_check(&device->host, code, function, "%s", purpose);
 }
 
 lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
@@ -112,8 +112,9 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
         .commandBufferCount = 1,
     };
     pthread_mutex_lock(&device->commands_mutex);
-    lobe_result result = VULKAN_CHECK(
-        &device->log, vkAllocateCommandBuffers(device->vulkan, &allocate, commands), "%s", purpose);
+    lobe_result result =
+        VULKAN_CHECK(&device->host, vkAllocateCommandBuffers(device->vulkan, &allocate, commands),
+                     "%s", purpose);
     if (result != LOBE_OK) {
         pthread_mutex_unlock(&device->commands_mutex);
         return result;
@@ -122,7 +123,7 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
-    result = VULKAN_CHECK(&device->log, vkBeginCommandBuffer(*commands, &begin), "%s", purpose);
+    result = VULKAN_CHECK(&device->host, vkBeginCommandBuffer(*commands, &begin), "%s", purpose);
     if (result != LOBE_OK) {
         vkFreeCommandBuffers(device->vulkan, device->commands, 1, commands);
         *commands = VK_NULL_HANDLE;
@@ -134,7 +135,7 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
 lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
                                           VkCommandBuffer commands) {
     uint64_t value = 0;
-    lobe_result result = VULKAN_CHECK(&device->log, vkEndCommandBuffer(commands), "%s", purpose);
+    lobe_result result = VULKAN_CHECK(&device->host, vkEndCommandBuffer(commands), "%s", purpose);
     if (result == LOBE_OK)
         result = engine_device_submit(device, commands, NULL, &value);
     if (result == LOBE_OK)

@@ -55,7 +55,7 @@ lobe_result engine_vulkan_result(VkResult result) {
     return meaning_of(result)->meaning;
 }
 
-lobe_result engine_vulkan_check(const lobe_log *log, VkResult vulkan, const char *expression,
+lobe_result engine_vulkan_check(const lobe_host *host, VkResult vulkan, const char *expression,
                                 const char *format, ...) {
     const lobe_result result = engine_vulkan_result(vulkan);
     if (result == LOBE_OK)
@@ -69,6 +69,6 @@ lobe_result engine_vulkan_check(const lobe_log *log, VkResult vulkan, const char
     const char *end = expression;
     while (*end && *end != '(')
         end++;
-    return lobe_log_fail(log, result, "%s: %.*s gave %s", purpose, (int)(end - expression),
-                         expression, engine_vulkan_result_name(vulkan));
+    return lobe_host_fail(host, result, "%s: %.*s gave %s", purpose, (int)(end - expression),
+                          expression, engine_vulkan_result_name(vulkan));
 }

@@ -3,7 +3,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 /// The enumerator's name, for example "VK_ERROR_DEVICE_LOST". Never NULL.
@@ -17,7 +17,7 @@ lobe_result engine_vulkan_result(VkResult result);
 /// `result = VULKAN_CHECK(&device->log, vkCreateImage(...), "image '%s'", name);`
 #define VULKAN_CHECK(log, call, ...) engine_vulkan_check((log), (call), #call, __VA_ARGS__)
 
-lobe_result engine_vulkan_check(const lobe_log *log, VkResult result, const char *expression,
+lobe_result engine_vulkan_check(const lobe_host *host, VkResult result, const char *expression,
                                 const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 #endif

@@ -152,7 +152,7 @@ static void print_graph(engine_text_builder *out, const lobe_graph *graph) {
 }
 
 char *lobe_graph_dump_graphviz(const lobe_graph *graph) {
-    engine_text_builder builder = {.bytes.allocator = graph->device->log.allocator};
+    engine_text_builder builder = {.bytes.allocator = graph->device->host.allocator};
     engine_text_builder *out = &builder;
     engine_text_add(out, "digraph lobe {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n");
     if (graph->phase != ENGINE_GRAPH_DECLARING)

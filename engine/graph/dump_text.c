@@ -100,7 +100,7 @@ static void print_resource(engine_text_builder *out, const lobe_graph *graph, ui
 }
 
 char *lobe_graph_dump_text(const lobe_graph *graph) {
-    engine_text_builder builder = {.bytes.allocator = graph->device->log.allocator};
+    engine_text_builder builder = {.bytes.allocator = graph->device->host.allocator};
     engine_text_builder *out = &builder;
     print_summary(out, graph);
     print_passes(out, graph);

@@ -29,7 +29,7 @@ lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result, const char *f
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    graph->result = lobe_log_fail(&graph->device->log, result, "%s", line);
+    graph->result = lobe_host_fail(&graph->device->host, result, "%s", line);
     return result;
 }
 
@@ -56,11 +56,11 @@ lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
 
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     *graph = NULL;
-    const lobe_allocator *allocator = device->log.allocator;
+    const lobe_allocator *allocator = device->host.allocator;
     lobe_graph *created = lobe_allocate(allocator, 1, sizeof *created);
     if (!created)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "render graph: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "render graph: no host memory");
     created->device = device;
     created->arena.allocator = created->dependencies.scratch.allocator = allocator;
     created->nothing = (lobe_pass){.graph = created, .name = "(none)"};

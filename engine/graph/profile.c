@@ -16,8 +16,8 @@ typedef struct time_series {
 } time_series;
 
 struct lobe_profile {
-    lobe_log log;
-    time_series frame, host;
+    lobe_host host;
+    time_series frame, recording;
     time_series *passes;
     uint32_t pass_count, pass_capacity;
     lobe_profile_times *times; ///< of the passes, for the last summary
@@ -27,17 +27,17 @@ struct lobe_profile {
 };
 
 static lobe_result fail_memory(const lobe_profile *profile) {
-    return lobe_log_fail(&profile->log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    return lobe_host_fail(&profile->host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
 }
 
-lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile) {
-    *profile = lobe_allocate(lobe_log_allocator(log), 1, sizeof **profile);
+lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile) {
+    *profile = lobe_allocate(lobe_host_allocator(host), 1, sizeof **profile);
     if (!*profile)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
-    if (log)
-        (*profile)->log = *log;
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    if (host)
+        (*profile)->host = *host;
     (*profile)->frame.name = "frame";
-    (*profile)->host.name = "host";
+    (*profile)->recording.name = "host";
     return LOBE_OK;
 }
 
@@ -51,7 +51,7 @@ void lobe_profile_destroy(lobe_profile **profile) {
     }
     lobe_release(gone->passes);
     lobe_release(gone->frame.milliseconds);
-    lobe_release(gone->host.milliseconds);
+    lobe_release(gone->recording.milliseconds);
     lobe_release(gone->times);
     lobe_release(gone->scratch);
     lobe_release(gone);
@@ -69,12 +69,12 @@ static time_series *find_pass(lobe_profile *profile, const char *name) {
 }
 
 static bool add_pass(lobe_profile *profile, const char *name) {
-    if (!engine_array_reserve(profile->log.allocator, (void **)&profile->passes,
+    if (!engine_array_reserve(profile->host.allocator, (void **)&profile->passes,
                               &profile->pass_capacity, (uint64_t)profile->pass_count + 1,
                               sizeof *profile->passes))
         return false;
     time_series *added = &profile->passes[profile->pass_count];
-    *added = (time_series){.name = lobe_copy_text(profile->log.allocator, name)};
+    *added = (time_series){.name = lobe_copy_text(profile->host.allocator, name)};
     if (!added->name)
         return false;
     profile->pass_count++;
@@ -82,7 +82,7 @@ static bool add_pass(lobe_profile *profile, const char *name) {
 }
 
 static bool make_room_for_run(const lobe_profile *profile, time_series *series) {
-    return engine_array_reserve(profile->log.allocator, (void **)&series->milliseconds,
+    return engine_array_reserve(profile->host.allocator, (void **)&series->milliseconds,
                                 &series->capacity, (uint64_t)series->runs + 1,
                                 sizeof *series->milliseconds);
 }
@@ -98,7 +98,7 @@ static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
         if (!make_room_for_run(profile, &profile->passes[n]))
             return false;
     return make_room_for_run(profile, &profile->frame) &&
-           make_room_for_run(profile, &profile->host);
+           make_room_for_run(profile, &profile->recording);
 }
 
 static void add_time(time_series *series, double milliseconds) {
@@ -115,8 +115,8 @@ lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *rep
         if (report->passes[n].state == LOBE_PASS_RUN)
             add_time(find_pass(profile, report->passes[n].name), report->passes[n].milliseconds);
     add_time(&profile->frame, report->milliseconds);
-    add_time(&profile->host, report->host_milliseconds);
-    profile->frame.running = profile->host.running = false;
+    add_time(&profile->recording, report->host_milliseconds);
+    profile->frame.running = profile->recording.running = false;
     for (uint32_t n = 0; n < profile->pass_count; n++)
         profile->passes[n].running = false;
     return LOBE_OK;
@@ -153,10 +153,10 @@ static lobe_profile_times times_of(const lobe_profile *profile, const time_serie
 }
 
 static lobe_result reserve_results(lobe_profile *profile) {
-    if (engine_array_reserve(profile->log.allocator, (void **)&profile->times,
+    if (engine_array_reserve(profile->host.allocator, (void **)&profile->times,
                              &profile->time_capacity, (uint64_t)profile->pass_count + 1,
                              sizeof *profile->times) &&
-        engine_array_reserve(profile->log.allocator, (void **)&profile->scratch,
+        engine_array_reserve(profile->host.allocator, (void **)&profile->scratch,
                              &profile->scratch_capacity, profile->frame.runs,
                              sizeof *profile->scratch))
         return LOBE_OK;
@@ -165,7 +165,7 @@ static lobe_result reserve_results(lobe_profile *profile) {
 
 lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary) {
     *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name},
-                                      .host = {.name = profile->host.name}};
+                                      .host = {.name = profile->recording.name}};
     if (profile->frame.runs == 0)
         return LOBE_OK;
     lobe_result result = reserve_results(profile);
@@ -177,6 +177,6 @@ lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary 
         if (profile->passes[n].runs > 0)
             profile->times[summary->pass_count++] = times_of(profile, &profile->passes[n], whole);
     summary->frame = times_of(profile, &profile->frame, whole);
-    summary->host = times_of(profile, &profile->host, 0.0);
+    summary->host = times_of(profile, &profile->recording, 0.0);
     return LOBE_OK;
 }

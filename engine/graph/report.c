@@ -17,7 +17,7 @@ static void add_pass(lobe_graph *graph, uint32_t index) {
 
 static lobe_result list_passes(lobe_graph *graph) {
     const engine_dependency_graph *dependencies = &graph->dependencies;
-    if (!engine_array_reserve(graph->device->log.allocator, (void **)&graph->pass_reports,
+    if (!engine_array_reserve(graph->device->host.allocator, (void **)&graph->pass_reports,
                               &graph->report_capacity, (uint64_t)dependencies->pass_count + 1,
                               sizeof *graph->pass_reports))
         return engine_graph_fail_memory(graph);

@@ -20,7 +20,7 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
         .queryCount = needed,
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreateQueryPool(device->vulkan, &create, device->callbacks, &graph->flight->timestamps),
         "render graph");
     if (result == LOBE_OK)
@@ -56,7 +56,7 @@ lobe_result engine_graph_read_timestamps(lobe_graph *graph) {
     if (!ticks)
         return engine_graph_fail_memory(graph);
     lobe_result result = VULKAN_CHECK(
-        &graph->device->log,
+        &graph->device->host,
         vkGetQueryPoolResults(graph->device->vulkan, graph->flight->timestamps, 0, 2 * count,
                               2 * count * sizeof *ticks, ticks, sizeof *ticks,
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),

@@ -28,16 +28,16 @@ static void encode_texel(const float *linear, const lobe_display_parameters *par
 }
 
 lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
-                                const lobe_log *log, lobe_image *picture) {
+                                const lobe_host *host, lobe_image *picture) {
     static const lobe_display_parameters defaults = {0};
     parameters = parameters != NULL ? parameters : &defaults;
     *picture = (lobe_image){0};
     if (linear->format != LOBE_FORMAT_RGBA32_FLOAT)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "picture: made from RGBA32_FLOAT images, not from %s",
-                             lobe_format_name(linear->format));
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "picture: made from RGBA32_FLOAT images, not from %s",
+                              lobe_format_name(linear->format));
     lobe_result result =
-        lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, linear->width, linear->height, log);
+        lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, linear->width, linear->height, host);
     if (result != LOBE_OK)
         return result;
     const float *source = linear->texels;

@@ -41,20 +41,21 @@ const char *lobe_format_name(lobe_format format) {
 }
 
 lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
-                                uint32_t height, const lobe_log *log) {
+                                uint32_t height, const lobe_host *host) {
     *image = (lobe_image){0};
     size_t size = lobe_format_size(format);
     if (size == 0)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "image: no texel format was given");
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "image: no texel format was given");
     if (width == 0 || height == 0 || width > LOBE_IMAGE_MAXIMUM_EXTENT ||
         height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "image: %ux%u texels is outside 1x1 to %ux%u",
-                             width, height, LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
-    void *texels = lobe_allocate(lobe_log_allocator(log), (size_t)width * height, size);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "image: %ux%u texels is outside 1x1 to %ux%u",
+                              width, height, LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
+    void *texels = lobe_allocate(lobe_host_allocator(host), (size_t)width * height, size);
     if (texels == NULL)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "image: no memory for %ux%u texels of %s", width, height,
-                             lobe_format_name(format));
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "image: no memory for %ux%u texels of %s", width, height,
+                              lobe_format_name(format));
     *image = (lobe_image){format, width, height, texels};
     return LOBE_OK;
 }

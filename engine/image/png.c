@@ -92,32 +92,32 @@ static bool encode(png_writer *writer, const lobe_image *image) {
 
 /// On success the writer's output is the whole file. `name` is for messages.
 static lobe_result encode_image(png_writer *writer, const char *name, const lobe_image *image,
-                                const lobe_log *log) {
-    *writer = (png_writer){.output.allocator = lobe_log_allocator(log)};
+                                const lobe_host *host) {
+    *writer = (png_writer){.output.allocator = lobe_host_allocator(host)};
     if (image->format != LOBE_FORMAT_RGBA8_SRGB && image->format != LOBE_FORMAT_RGBA8_UNORM)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: PNG files are written from RGBA8 images, not from %s", name,
-                             lobe_format_name(image->format));
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: PNG files are written from RGBA8 images, not from %s", name,
+                              lobe_format_name(image->format));
     bool done = create(writer) && encode(writer, image);
     png_destroy_write_struct(&writer->png, &writer->information);
     return done ? LOBE_OK
-                : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", name,
-                                writer->message);
+                : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: cannot be encoded: %s", name,
+                                 writer->message);
 }
 
-lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log) {
+lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_host *host) {
     png_writer writer;
-    lobe_result result = encode_image(&writer, path, image, log);
+    lobe_result result = encode_image(&writer, path, image, host);
     if (result == LOBE_OK)
-        result = lobe_file_write(path, writer.output.data, writer.output.size, log);
+        result = lobe_file_write(path, writer.output.data, writer.output.size, host);
     engine_bytes_free(&writer.output);
     return result;
 }
 
-lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_log *log,
+lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_host *host,
                             uint8_t **data, size_t *size) {
     png_writer writer;
-    lobe_result result = encode_image(&writer, name, image, log);
+    lobe_result result = encode_image(&writer, name, image, host);
     *data = result == LOBE_OK ? writer.output.data : NULL;
     *size = result == LOBE_OK ? writer.output.size : 0;
     if (result != LOBE_OK)
@@ -139,48 +139,49 @@ static void *resize(void *allocator, void *memory, size_t size) {
 }
 
 static lobe_result fail_reading(const library_memory *memory, const char *path, const char *message,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     if (memory->failed)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it", path);
-    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it", path);
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
 }
 
-static lobe_result decode(const char *path, const uint8_t *data, size_t size, const lobe_log *log,
+static lobe_result decode(const char *path, const uint8_t *data, size_t size, const lobe_host *host,
                           lobe_image *image) {
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
     library_memory memory = {.resize = resize,
                              .release = lobe_release,
-                             .user = (void *)lobe_log_allocator(log)}; // only read
+                             .user = (void *)lobe_host_allocator(host)}; // only read
     image_codec_extent extent;
     if (size < 8 || png_sig_cmp(data, 0, 8) != 0)
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not a PNG file", path);
-    if (!png_measure(data, size, &memory, &extent, message) || memory.failed)
-        return fail_reading(&memory, path, message, log);
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: not a PNG file", path);
+    if (!third_party_png_measure(data, size, &memory, &extent, message) || memory.failed)
+        return fail_reading(&memory, path, message, host);
     if (extent.width > LOBE_IMAGE_MAXIMUM_EXTENT || extent.height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
-                             extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
-                             LOBE_IMAGE_MAXIMUM_EXTENT);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
+                              extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
+                              LOBE_IMAGE_MAXIMUM_EXTENT);
     if (!fits_file(&extent, size))
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED,
-                             "%s: broken PNG: %ux%u texels cannot be in %zu bytes", path,
-                             extent.width, extent.height, size);
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: broken PNG: %ux%u texels cannot be in %zu bytes", path,
+                              extent.width, extent.height, size);
     lobe_result result = lobe_image_allocate(
         image, extent.sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_SRGB,
-        extent.width, extent.height, log);
+        extent.width, extent.height, host);
     if (result != LOBE_OK)
         return result;
-    if (!png_decode(data, size, &memory, &extent, true, image->texels, message) || memory.failed)
-        return fail_reading(&memory, path, message, log);
+    if (!third_party_png_decode(data, size, &memory, &extent, true, image->texels, message) ||
+        memory.failed)
+        return fail_reading(&memory, path, message, host);
     return result;
 }
 
-lobe_result lobe_png_read(const char *path, const lobe_log *log, lobe_image *image) {
+lobe_result lobe_png_read(const char *path, const lobe_host *host, lobe_image *image) {
     *image = (lobe_image){0};
     uint8_t *data;
     size_t size;
-    lobe_result result = lobe_file_read(path, NULL, log, &data, &size);
+    lobe_result result = lobe_file_read(path, NULL, host, &data, &size);
     if (result == LOBE_OK)
-        result = decode(path, data, size, log, image);
+        result = decode(path, data, size, host, image);
     if (result != LOBE_OK)
         lobe_image_free(image);
     lobe_release(data);

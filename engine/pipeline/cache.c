@@ -62,7 +62,7 @@ static lobe_result create_cache(lobe_device *device, const uint8_t *data, size_t
         .pInitialData = data,
     };
     return VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreatePipelineCache(device->vulkan, &create, device->callbacks, &cache->vulkan),
         "pipeline cache");
 }
@@ -72,18 +72,18 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
     *cache = (engine_pipeline_cache){0};
     if (!file)
         return create_cache(device, NULL, 0, cache);
-    cache->file = lobe_copy_text(device->log.allocator, file);
+    cache->file = lobe_copy_text(device->host.allocator, file);
     if (!cache->file)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline cache: no memory");
-    const lobe_log silent = {.allocator = device->log.allocator};
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline cache: no memory");
+    const lobe_host silent = {.allocator = device->host.allocator};
     uint8_t *content = NULL;
     size_t size = 0;
     const bool found = lobe_file_read(file, NULL, &silent, &content, &size) == LOBE_OK;
     cache_header header = {0};
     const uint8_t *data = found ? usable_part(device, content, size, &header) : NULL;
     if (found && !data)
-        lobe_log_print(&device->log, LOBE_LOG_DEBUG,
-                       "pipeline cache '%s' is damaged or of another driver: it is replaced", file);
+        lobe_host_log(&device->host, LOBE_LOG_DEBUG,
+                      "pipeline cache '%s' is damaged or of another driver: it is replaced", file);
     cache->checksum = data ? header.checksum : 0;
     const lobe_result result = create_cache(device, data, data ? header.size : 0, cache);
     lobe_release(content);
@@ -96,7 +96,7 @@ static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *s
     size_t data_size = 0;
     if (vkGetPipelineCacheData(device->vulkan, cache, &data_size, NULL) != VK_SUCCESS)
         return NULL;
-    uint8_t *content = lobe_allocate(device->log.allocator, 1, sizeof(cache_header) + data_size);
+    uint8_t *content = lobe_allocate(device->host.allocator, 1, sizeof(cache_header) + data_size);
     if (!content)
         return NULL;
     uint8_t *data = content + sizeof(cache_header);
@@ -113,14 +113,14 @@ static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *s
 }
 
 static void save(lobe_device *device, const engine_pipeline_cache *cache) {
-    const lobe_log silent = {.allocator = device->log.allocator};
+    const lobe_host silent = {.allocator = device->host.allocator};
     size_t size = 0;
     uint64_t checksum = 0;
     uint8_t *content = content_of(device, cache->vulkan, &size, &checksum);
     if (content && checksum != cache->checksum &&
         lobe_file_write(cache->file, content, size, &silent) != LOBE_OK)
-        lobe_log_print(&device->log, LOBE_LOG_WARNING, "pipeline cache '%s' cannot be written",
-                       cache->file);
+        lobe_host_log(&device->host, LOBE_LOG_WARNING, "pipeline cache '%s' cannot be written",
+                      cache->file);
     lobe_release(content);
 }
 

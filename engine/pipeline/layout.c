@@ -26,16 +26,16 @@ static void merge_into(engine_shader_binding *target, const engine_shader_bindin
         target->size = source->size;
 }
 
-static lobe_result merge_binding(const lobe_log *log, const engine_shader_binding *binding,
+static lobe_result merge_binding(const lobe_host *host, const engine_shader_binding *binding,
                                  engine_pipeline *pipeline) {
     for (size_t i = 0; i < pipeline->binding_count; i++) {
         engine_shader_binding *other = &pipeline->bindings[i];
         if (clash(other, binding))
-            return lobe_log_fail(log, LOBE_ERROR_SHADER,
-                                 "pipeline '%s': the stages disagree about '%s' (binding %u) and "
-                                 "'%s' (binding %u)",
-                                 pipeline->name, other->name, other->binding, binding->name,
-                                 binding->binding);
+            return lobe_host_fail(host, LOBE_ERROR_SHADER,
+                                  "pipeline '%s': the stages disagree about '%s' (binding %u) and "
+                                  "'%s' (binding %u)",
+                                  pipeline->name, other->name, other->binding, binding->name,
+                                  binding->binding);
         if (other->binding == binding->binding) {
             merge_into(other, binding);
             return LOBE_OK;
@@ -51,18 +51,18 @@ static int order_by_binding(const void *first, const void *second) {
     return (a > b) - (a < b);
 }
 
-static lobe_result merge_bindings(const lobe_log *log, const engine_shader *const *shaders,
+static lobe_result merge_bindings(const lobe_host *host, const engine_shader *const *shaders,
                                   size_t count, engine_pipeline *pipeline) {
     size_t most = 1;
     for (size_t i = 0; i < count; i++)
         most += shaders[i]->binding_count;
-    pipeline->bindings = lobe_allocate(log->allocator, most, sizeof *pipeline->bindings);
+    pipeline->bindings = lobe_allocate(host->allocator, most, sizeof *pipeline->bindings);
     if (!pipeline->bindings)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                             pipeline->name);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+                              pipeline->name);
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < shaders[i]->binding_count; j++) {
-            const lobe_result result = merge_binding(log, &shaders[i]->bindings[j], pipeline);
+            const lobe_result result = merge_binding(host, &shaders[i]->bindings[j], pipeline);
             if (result != LOBE_OK)
                 return result;
         }
@@ -87,10 +87,10 @@ static void merge_push_constants(const engine_shader *const *shaders, size_t cou
 
 static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipeline) {
     VkDescriptorSetLayoutBinding *bindings =
-        lobe_allocate(device->log.allocator, pipeline->binding_count + 1, sizeof *bindings);
+        lobe_allocate(device->host.allocator, pipeline->binding_count + 1, sizeof *bindings);
     if (!bindings)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "pipeline '%s': no host memory", pipeline->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "pipeline '%s': no host memory", pipeline->name);
     for (size_t i = 0; i < pipeline->binding_count; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = pipeline->bindings[i].binding,
@@ -104,7 +104,7 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
         .pBindings = bindings,
     };
     const lobe_result result =
-        VULKAN_CHECK(&device->log,
+        VULKAN_CHECK(&device->host,
                      vkCreateDescriptorSetLayout(device->vulkan, &create, device->callbacks,
                                                  &pipeline->set_layout),
                      "pipeline '%s'", pipeline->name);
@@ -114,10 +114,10 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
 
 static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline) {
     if (pipeline->push_constant_size > device->limits.maxPushConstantsSize)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
-                             "pipeline '%s': %u bytes of push constants, the device allows %u",
-                             pipeline->name, pipeline->push_constant_size,
-                             device->limits.maxPushConstantsSize);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                              "pipeline '%s': %u bytes of push constants, the device allows %u",
+                              pipeline->name, pipeline->push_constant_size,
+                              device->limits.maxPushConstantsSize);
     const VkPushConstantRange range = {
         .stageFlags = pipeline->push_constant_stages,
         .size = pipeline->push_constant_size,
@@ -130,7 +130,7 @@ static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline)
         .pPushConstantRanges = &range,
     };
     return VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreatePipelineLayout(device->vulkan, &create, device->callbacks, &pipeline->layout),
         "pipeline '%s'", pipeline->name);
 }
@@ -138,7 +138,7 @@ static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline)
 lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shader *const *shaders,
                                           size_t count, engine_pipeline *pipeline) {
     merge_push_constants(shaders, count, pipeline);
-    lobe_result result = merge_bindings(&device->log, shaders, count, pipeline);
+    lobe_result result = merge_bindings(&device->host, shaders, count, pipeline);
     if (result == LOBE_OK)
         result = create_set_layout(device, pipeline);
     if (result == LOBE_OK)

@@ -59,15 +59,15 @@ static void set_constant(pipeline_key *key, lobe_specialisation value) {
 }
 
 static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
-    return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
-                         key->shaders[0]->name);
+    return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+                          key->shaders[0]->name);
 }
 
 /// Orders the values by id; of several for one id the last counts.
 static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
                                        size_t count, pipeline_key *key) {
     engine_pipelines *pipelines = device->pipelines;
-    if (!engine_array_reserve(device->log.allocator, (void **)&pipelines->wanted,
+    if (!engine_array_reserve(device->host.allocator, (void **)&pipelines->wanted,
                               &pipelines->wanted_capacity, (uint64_t)count + 1,
                               sizeof *pipelines->wanted))
         return fail_memory(device, key);
@@ -107,8 +107,8 @@ static lobe_result find_shader(lobe_device *device, const char *name, VkShaderSt
                                const engine_shader **shader) {
     const lobe_result result = engine_shader_find(device, name, shader);
     if (result == LOBE_OK && (*shader)->stage != stage)
-        return lobe_log_fail(&device->log, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
-                             name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
+                              name);
     return result;
 }
 
@@ -123,7 +123,7 @@ typedef struct specialisation {
 static lobe_result create_specialisation(lobe_device *device, const pipeline_key *key,
                                          specialisation *created) {
     const size_t count = key->specialisation_count;
-    created->entries = lobe_allocate(device->log.allocator, count + 1, sizeof *created->entries);
+    created->entries = lobe_allocate(device->host.allocator, count + 1, sizeof *created->entries);
     if (!created->entries)
         return fail_memory(device, key);
     for (size_t i = 0; i < count; i++)
@@ -167,9 +167,9 @@ static lobe_result check_local_size(lobe_device *device, const engine_pipeline *
     const uint64_t invocations = (uint64_t)size[0] * size[1] * size[2];
     if (size[0] > most[0] || size[1] > most[1] || size[2] > most[2] || invocations == 0 ||
         invocations > device->limits.maxComputeWorkGroupInvocations)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
-                             "shader '%s': the device does not allow groups of %ux%ux%u",
-                             pipeline->name, size[0], size[1], size[2]);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                              "shader '%s': the device does not allow groups of %ux%ux%u",
+                              pipeline->name, size[0], size[1], size[2]);
     return LOBE_OK;
 }
 
@@ -192,7 +192,7 @@ static lobe_result create_compute(lobe_device *device, const cached_pipeline *ca
             },
         .layout = pipeline->layout,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
                                                  &create, device->callbacks, &pipeline->pipeline),
                         "pipeline '%s'", pipeline->name);
@@ -240,7 +240,7 @@ static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, p
 /// Makes the pipeline of a key.
 static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
                        const pipeline_key *key, const engine_pipeline **pipeline) {
-    const lobe_allocator *allocator = device->log.allocator;
+    const lobe_allocator *allocator = device->host.allocator;
     cached_pipeline *cached = lobe_allocate(allocator, 1, sizeof *cached);
     char *name = name_of(allocator, key);
     if (!cached || !name || !keep_key(allocator, key, &cached->key)) {
@@ -274,9 +274,9 @@ static lobe_result find_or_add(lobe_device *device, const engine_raster_paramete
 
 lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines) {
-    *pipelines = lobe_allocate(device->log.allocator, 1, sizeof **pipelines);
+    *pipelines = lobe_allocate(device->host.allocator, 1, sizeof **pipelines);
     if (!*pipelines)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
     return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
 }
 

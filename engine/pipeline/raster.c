@@ -89,9 +89,9 @@ static lobe_result check_blending(lobe_device *device, const engine_raster_param
         vkGetPhysicalDeviceFormatProperties(
             device->physical, engine_format_vulkan(parameters->colour[i]), &properties);
         if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
-            return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                                 "pipeline '%s': the device cannot blend into %s", name,
-                                 lobe_format_name(parameters->colour[i]));
+            return lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
+                                  "pipeline '%s': the device cannot blend into %s", name,
+                                  lobe_format_name(parameters->colour[i]));
     }
     return LOBE_OK;
 }
@@ -165,7 +165,7 @@ lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache c
         .pDynamicState = &dynamic,
         .layout = pipeline->layout,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkCreateGraphicsPipelines(device->vulkan, cache, 1, &create,
                                                   device->callbacks, &pipeline->pipeline),
                         "pipeline '%s'", pipeline->name);

@@ -20,14 +20,14 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
     *buffer = NULL;
     const char *name = parameters->name ? parameters->name : "buffer";
     if (parameters->size == 0)
-        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT, "buffer '%s': a size of 0",
-                             name);
-    *buffer = lobe_allocate(device->log.allocator, 1, sizeof **buffer);
-    if (!*buffer || !((*buffer)->name = lobe_copy_text(device->log.allocator, name))) {
+        return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "buffer '%s': a size of 0", name);
+    *buffer = lobe_allocate(device->host.allocator, 1, sizeof **buffer);
+    if (!*buffer || !((*buffer)->name = lobe_copy_text(device->host.allocator, name))) {
         lobe_release(*buffer);
         *buffer = NULL;
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': no host memory",
-                             name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "buffer '%s': no host memory", name);
     }
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
@@ -45,8 +45,8 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
 
 lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
     if (!data)
-        return lobe_log_fail(&buffer->device->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "buffer '%s': no data given", buffer->name);
+        return lobe_host_fail(&buffer->device->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "buffer '%s': no data given", buffer->name);
     buffer->stamp = engine_device_stamp(buffer->device);
     return engine_upload_buffer(buffer->device, buffer->name, buffer->buffer, buffer->size, data);
 }

@@ -7,18 +7,18 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
                                  VkMemoryRequirements *requirements) {
     *buffer = VK_NULL_HANDLE;
     if (size == 0)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
     if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) && size > device->limits.maxStorageBufferRange)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
-                             "buffer '%s': %llu bytes are more than the %u the device allows", name,
-                             (unsigned long long)size, device->limits.maxStorageBufferRange);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                              "buffer '%s': %llu bytes are more than the %u the device allows",
+                              name, (unsigned long long)size, device->limits.maxStorageBufferRange);
     const VkBufferCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
         .size = size,
         .usage = usage,
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
+        &device->host, vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
         "buffer '%s'", name);
     if (result != LOBE_OK)
         return result;
@@ -38,7 +38,7 @@ lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, V
         result = engine_memory_allocate(device->memory, &request, allocation);
     if (result == LOBE_OK)
         result = VULKAN_CHECK(
-            &device->log,
+            &device->host,
             vkBindBufferMemory(device->vulkan, *buffer, allocation->memory, allocation->offset),
             "buffer '%s'", name);
     if (result != LOBE_OK)

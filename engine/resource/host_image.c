@@ -47,27 +47,27 @@ static lobe_result check_limits(lobe_device *device, const engine_image_paramete
     const VkResult found = query_limits(device, create, &limits);
     const char *format = lobe_format_name(parameters->format);
     if (found == VK_ERROR_FORMAT_NOT_SUPPORTED)
-        return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                             "image '%s': the device cannot use %s this way", parameters->name,
-                             format);
-    const lobe_result result = VULKAN_CHECK(&device->log, found, "image '%s'", parameters->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
+                              "image '%s': the device cannot use %s this way", parameters->name,
+                              format);
+    const lobe_result result = VULKAN_CHECK(&device->host, found, "image '%s'", parameters->name);
     if (result != LOBE_OK)
         return result;
     if (create->extent.width > limits.maxExtent.width ||
         create->extent.height > limits.maxExtent.height)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
-                             "image '%s': %ux%u is larger than the %ux%u the device allows",
-                             parameters->name, create->extent.width, create->extent.height,
-                             limits.maxExtent.width, limits.maxExtent.height);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                              "image '%s': %ux%u is larger than the %ux%u the device allows",
+                              parameters->name, create->extent.width, create->extent.height,
+                              limits.maxExtent.width, limits.maxExtent.height);
     if (create->mipLevels > limits.maxMipLevels || create->arrayLayers > limits.maxArrayLayers)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT,
-                             "image '%s': %u levels and %u layers, the device allows %u and %u",
-                             parameters->name, create->mipLevels, create->arrayLayers,
-                             limits.maxMipLevels, limits.maxArrayLayers);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                              "image '%s': %u levels and %u layers, the device allows %u and %u",
+                              parameters->name, create->mipLevels, create->arrayLayers,
+                              limits.maxMipLevels, limits.maxArrayLayers);
     if (!(limits.sampleCounts & create->samples))
-        return lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                             "image '%s': the device does not offer %u samples of %s",
-                             parameters->name, create->samples, format);
+        return lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
+                              "image '%s': the device does not offer %u samples of %s",
+                              parameters->name, create->samples, format);
     return LOBE_OK;
 }
 
@@ -76,14 +76,14 @@ lobe_result engine_image_create(lobe_device *device, const engine_image_paramete
     *image = VK_NULL_HANDLE;
     const VkImageCreateInfo create = create_information(parameters);
     if (parameters->width == 0 || parameters->height == 0)
-        return lobe_log_fail(&device->log, LOBE_ERROR_LIMIT, "image '%s': an extent of %ux%u",
-                             parameters->name, parameters->width, parameters->height);
+        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT, "image '%s': an extent of %ux%u",
+                              parameters->name, parameters->width, parameters->height);
     lobe_result result = check_limits(device, parameters, &create);
     if (result != LOBE_OK)
         return result;
-    result =
-        VULKAN_CHECK(&device->log, vkCreateImage(device->vulkan, &create, device->callbacks, image),
-                     "image '%s'", parameters->name);
+    result = VULKAN_CHECK(&device->host,
+                          vkCreateImage(device->vulkan, &create, device->callbacks, image),
+                          "image '%s'", parameters->name);
     if (result != LOBE_OK)
         return result;
     vkGetImageMemoryRequirements(device->vulkan, *image, requirements);
@@ -109,7 +109,7 @@ lobe_result engine_view_create(lobe_device *device, const engine_view_parameters
             },
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateImageView(device->vulkan, &create, device->callbacks, view),
+        &device->host, vkCreateImageView(device->vulkan, &create, device->callbacks, view),
         "image '%s'", parameters->name);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)*view, parameters->name);

@@ -31,10 +31,10 @@ struct engine_memory {
 
 lobe_result engine_memory_create(const engine_memory_parameters *parameters,
                                  engine_memory **memory) {
-    *memory = lobe_allocate(parameters->log->allocator, 1, sizeof **memory);
+    *memory = lobe_allocate(parameters->host->allocator, 1, sizeof **memory);
     if (!*memory)
-        return lobe_log_fail(parameters->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "device memory: no host memory to manage it");
+        return lobe_host_fail(parameters->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "device memory: no host memory to manage it");
     (*memory)->parameters = *parameters;
     pthread_mutex_init(&(*memory)->mutex, NULL);
     VkPhysicalDeviceVulkan11Properties maintenance = {
@@ -146,10 +146,10 @@ static uint64_t maximum(uint64_t first, uint64_t second) {
 
 static lobe_result fail_without_room(const engine_memory *memory,
                                      const engine_memory_request *request, uint64_t room) {
-    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                         "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
-                         request->name, (unsigned long long)request->requirements.size,
-                         (unsigned long long)room, memory->parameters.limit ? " (limited)" : "");
+    return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+                          "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
+                          request->name, (unsigned long long)request->requirements.size,
+                          (unsigned long long)room, memory->parameters.limit ? " (limited)" : "");
 }
 
 /// A block of the usual size, but enough for the request, and where there is little room a small
@@ -178,12 +178,12 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
     };
     const VkDevice vulkan = memory->parameters.vulkan;
     lobe_result result = VULKAN_CHECK(
-        memory->parameters.log,
+        memory->parameters.host,
         vkAllocateMemory(vulkan, &allocate, memory->parameters.callbacks, &block->memory),
         "'%s' (%llu bytes)", request->name, (unsigned long long)request->requirements.size);
     if (result == LOBE_OK && request->place != ENGINE_MEMORY_DEVICE)
         result =
-            VULKAN_CHECK(memory->parameters.log,
+            VULKAN_CHECK(memory->parameters.host,
                          vkMapMemory(vulkan, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped),
                          "'%s'", request->name);
     return result;
@@ -191,8 +191,8 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
 
 static lobe_result fail_host_memory(const engine_memory *memory,
                                     const engine_memory_request *request) {
-    return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_MEMORY,
-                         "'%s': no host memory to manage device memory", request->name);
+    return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_MEMORY,
+                          "'%s': no host memory to manage device memory", request->name);
 }
 
 static lobe_result add_block(engine_memory *memory, const engine_memory_request *request,
@@ -201,7 +201,7 @@ static lobe_result add_block(engine_memory *memory, const engine_memory_request 
     lobe_result result = choose_block_size(memory, request, type, &size);
     if (result != LOBE_OK)
         return result;
-    const lobe_allocator *allocator = memory->parameters.log->allocator;
+    const lobe_allocator *allocator = memory->parameters.host->allocator;
     engine_memory_block *block = lobe_allocate(allocator, 1, sizeof *block);
     if (!block || !engine_range_allocator_create(allocator, size, &block->ranges)) {
         lobe_release(block);
@@ -253,8 +253,8 @@ static lobe_result allocate(engine_memory *memory, const engine_memory_request *
                             engine_allocation *allocation) {
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
-        return lobe_log_fail(memory->parameters.log, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                             "'%s': the device has no memory of the needed kind", request->name);
+        return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+                              "'%s': the device has no memory of the needed kind", request->name);
     // Where tiled images and buffers may be neighbours they share blocks.
     const bool linear = request->linear && memory->granularity > 1;
     for (engine_memory_block *block = memory->blocks; block; block = block->next) {

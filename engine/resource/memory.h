@@ -43,7 +43,7 @@ typedef struct engine_memory_parameters {
     const VkAllocationCallbacks *callbacks; ///< NULL: none
     uint64_t limit;                         ///< most bytes in blocks; 0: none
     bool budget;                            ///< VK_EXT_memory_budget is enabled
-    const lobe_log *log;                    ///< must outlive the memory
+    const lobe_host *host;                  ///< must outlive the memory
 } engine_memory_parameters;
 
 lobe_result engine_memory_create(const engine_memory_parameters *parameters,

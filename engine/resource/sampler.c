@@ -57,7 +57,7 @@ static lobe_result create(lobe_device *device, const lobe_sampler *settings, VkS
         .maxAnisotropy = settings->maximum_anisotropy,
         .maxLod = VK_LOD_CLAMP_NONE,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkCreateSampler(device->vulkan, &information, device->callbacks, sampler),
                         "sampler");
 }
@@ -71,9 +71,9 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
             *sampler = known->sampler;
             return LOBE_OK;
         }
-    engine_cached_sampler *added = lobe_allocate(device->log.allocator, 1, sizeof *added);
+    engine_cached_sampler *added = lobe_allocate(device->host.allocator, 1, sizeof *added);
     if (!added)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
     added->settings = offered;
     const lobe_result result = create(device, &offered, &added->sampler);
     if (result != LOBE_OK) {

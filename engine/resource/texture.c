@@ -6,16 +6,16 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/resource/staging.h"
 
-static lobe_result check_content(const lobe_log *log, const char *name, const lobe_image *image) {
+static lobe_result check_content(const lobe_host *host, const char *name, const lobe_image *image) {
     if (!image || !image->texels || lobe_format_size(image->format) == 0)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': no image given",
-                             name);
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': no image given",
+                              name);
     if (image->format == LOBE_FORMAT_D32_FLOAT)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "texture '%s': depth cannot be uploaded", name);
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "texture '%s': depth cannot be uploaded", name);
     if (image->width == 0 || image->height == 0)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
-                             name, image->width, image->height);
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
+                              name, image->width, image->height);
     return LOBE_OK;
 }
 
@@ -36,7 +36,7 @@ static lobe_result create_image(lobe_texture *texture) {
         result = engine_memory_allocate(device->memory, &request, &texture->allocation);
     if (result == LOBE_OK)
         result =
-            VULKAN_CHECK(&device->log,
+            VULKAN_CHECK(&device->host,
                          vkBindImageMemory(device->vulkan, texture->image,
                                            texture->allocation.memory, texture->allocation.offset),
                          "texture '%s'", texture->name);
@@ -67,15 +67,15 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
                                 lobe_texture **texture) {
     *texture = NULL;
     const char *name = parameters->name ? parameters->name : "texture";
-    lobe_result result = check_content(&device->log, name, parameters->image);
+    lobe_result result = check_content(&device->host, name, parameters->image);
     if (result != LOBE_OK)
         return result;
-    *texture = lobe_allocate(device->log.allocator, 1, sizeof **texture);
-    if (!*texture || !((*texture)->name = lobe_copy_text(device->log.allocator, name))) {
+    *texture = lobe_allocate(device->host.allocator, 1, sizeof **texture);
+    if (!*texture || !((*texture)->name = lobe_copy_text(device->host.allocator, name))) {
         lobe_release(*texture);
         *texture = NULL;
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "texture '%s': no host memory",
-                             name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "texture '%s': no host memory", name);
     }
     (*texture)->device = device;
     (*texture)->format = parameters->image->format;
@@ -97,15 +97,15 @@ bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
 }
 
 lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) {
-    const lobe_log *log = &texture->device->log;
-    lobe_result result = check_content(log, texture->name, image);
+    const lobe_host *host = &texture->device->host;
+    lobe_result result = check_content(host, texture->name, image);
     if (result != LOBE_OK)
         return result;
     if (!lobe_texture_takes(texture, image))
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
-                             texture->width, texture->height, lobe_format_name(texture->format),
-                             image->width, image->height, lobe_format_name(image->format));
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
+                              texture->width, texture->height, lobe_format_name(texture->format),
+                              image->width, image->height, lobe_format_name(image->format));
     texture->stamp = engine_device_stamp(texture->device);
     return engine_upload_image(texture->device, texture->name, texture->image, image);
 }

@@ -6,7 +6,7 @@
 #include <spirv_cross/spirv_cross_c.h>
 
 typedef struct reflection {
-    const lobe_log *log;
+    const lobe_host *host;
     engine_shader *shader;
     spvc_context context;
     spvc_compiler compiler;
@@ -14,14 +14,14 @@ typedef struct reflection {
 } reflection;
 
 static lobe_result fail_spirv(const reflection *reflection) {
-    return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER, "shader '%s': %s",
-                         reflection->shader->name,
-                         spvc_context_get_last_error_string(reflection->context));
+    return lobe_host_fail(reflection->host, LOBE_ERROR_SHADER, "shader '%s': %s",
+                          reflection->shader->name,
+                          spvc_context_get_last_error_string(reflection->context));
 }
 
 static lobe_result fail_memory(const reflection *reflection) {
-    return lobe_log_fail(reflection->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                         reflection->shader->name);
+    return lobe_host_fail(reflection->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                          reflection->shader->name);
 }
 
 static lobe_result parse(reflection *reflection, const uint32_t *words, size_t count) {
@@ -48,9 +48,10 @@ static lobe_result reflect_stage(reflection *reflection) {
         reflection->shader->stage = VK_SHADER_STAGE_COMPUTE_BIT;
         return LOBE_OK;
     default:
-        return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
-                             "shader '%s': only vertex, fragment and compute shaders are supported",
-                             reflection->shader->name);
+        return lobe_host_fail(
+            reflection->host, LOBE_ERROR_SHADER,
+            "shader '%s': only vertex, fragment and compute shaders are supported",
+            reflection->shader->name);
     }
 }
 
@@ -165,10 +166,10 @@ static lobe_result reflect_binding(const reflection *reflection,
     const engine_shader *shader = reflection->shader;
     if (spvc_compiler_get_decoration(reflection->compiler, resource->id,
                                      SpvDecorationDescriptorSet) != 0)
-        return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
-                             "shader '%s': '%s' is not in descriptor set 0", shader->name,
-                             resource->name);
-    char *name = lobe_copy_text(reflection->log->allocator, resource->name);
+        return lobe_host_fail(reflection->host, LOBE_ERROR_SHADER,
+                              "shader '%s': '%s' is not in descriptor set 0", shader->name,
+                              resource->name);
+    char *name = lobe_copy_text(reflection->host->allocator, resource->name);
     if (!name)
         return fail_memory(reflection);
     *binding = (engine_shader_binding){
@@ -195,7 +196,7 @@ static lobe_result reflect_bindings_of(const reflection *reflection, spvc_resour
         return LOBE_OK;
     engine_shader *shader = reflection->shader;
     engine_shader_binding *bindings =
-        lobe_reallocate(reflection->log->allocator, shader->bindings,
+        lobe_reallocate(reflection->host->allocator, shader->bindings,
                         shader->binding_count + found_count, sizeof *shader->bindings);
     if (!bindings)
         return fail_memory(reflection);
@@ -217,9 +218,9 @@ static lobe_result refuse(const reflection *reflection, spvc_resources all, spvc
     spvc_resources_get_resource_list_for_type(all, type, &found, &count);
     if (count == 0)
         return LOBE_OK;
-    return lobe_log_fail(reflection->log, LOBE_ERROR_SHADER,
-                         "shader '%s': '%s' is a %s, which lobe does not use",
-                         reflection->shader->name, found[0].name, kind);
+    return lobe_host_fail(reflection->host, LOBE_ERROR_SHADER,
+                          "shader '%s': '%s' is a %s, which lobe does not use",
+                          reflection->shader->name, found[0].name, kind);
 }
 
 static int order_by_binding(const void *first, const void *second) {
@@ -304,7 +305,7 @@ static lobe_result reflect_specialisation(const reflection *reflection) {
         return LOBE_OK;
     engine_shader *shader = reflection->shader;
     shader->specialisation_ids =
-        lobe_allocate(reflection->log->allocator, count, sizeof *shader->specialisation_ids);
+        lobe_allocate(reflection->host->allocator, count, sizeof *shader->specialisation_ids);
     if (!shader->specialisation_ids)
         return fail_memory(reflection);
     shader->specialisation_count = count;
@@ -324,9 +325,9 @@ static lobe_result reflect_resources(const reflection *reflection) {
     return reflect_bindings(reflection, all, active);
 }
 
-lobe_result engine_reflect(const lobe_log *log, const uint32_t *words, size_t word_count,
+lobe_result engine_reflect(const lobe_host *host, const uint32_t *words, size_t word_count,
                            engine_shader *shader) {
-    reflection reflection = {.log = log, .shader = shader};
+    reflection reflection = {.host = host, .shader = shader};
     if (spvc_context_create(&reflection.context) != SPVC_SUCCESS)
         return fail_memory(&reflection);
     lobe_result result = parse(&reflection, words, word_count);

@@ -10,7 +10,7 @@
 /// `shader->name` must be set. What it allocates is freed by engine_reflection_free, after a
 /// failure too. LOBE_ERROR_SHADER: the words are no SPIR-V, a binding is outside set 0 or of a kind
 /// that lobe does not use.
-lobe_result engine_reflect(const lobe_log *log, const uint32_t *words, size_t word_count,
+lobe_result engine_reflect(const lobe_host *host, const uint32_t *words, size_t word_count,
                            engine_shader *shader);
 void engine_reflection_free(engine_shader *shader);
 

@@ -34,12 +34,12 @@ struct engine_shaders {
 
 static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *codes, size_t count,
                              const char *folder) {
-    const lobe_allocator *allocator = shaders->device->log.allocator;
+    const lobe_allocator *allocator = shaders->device->host.allocator;
     shader_table *table = lobe_allocate(allocator, 1, sizeof *table);
     if (!table || (folder && !(table->folder = lobe_copy_text(allocator, folder)))) {
         lobe_release(table);
-        return lobe_log_fail(&shaders->device->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "shaders: no host memory");
+        return lobe_host_fail(&shaders->device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "shaders: no host memory");
     }
     table->codes = codes;
     table->count = count;
@@ -78,7 +78,7 @@ static lobe_result get_words(const engine_shaders *shaders, lobe_log_level level
                              const engine_shader_folders *folders, const engine_shader_code *code,
                              engine_shader_words *words) {
     if (code->source)
-        return engine_shader_words_get(&shaders->device->log, level, folders, code, words);
+        return engine_shader_words_get(&shaders->device->host, level, folders, code, words);
     *words = (engine_shader_words){code->words, code->size / sizeof *code->words, NULL};
     return LOBE_OK;
 }
@@ -106,7 +106,7 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
         .pCode = loaded->words.words,
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->log,
+        &device->host,
         vkCreateShaderModule(device->vulkan, &create, device->callbacks, &loaded->shader.module),
         "shader '%s'", loaded->shader.name);
     if (result == LOBE_OK)
@@ -119,17 +119,17 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
 static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
                         engine_shader_words *words, loaded_shader **result_shader) {
     lobe_device *device = shaders->device;
-    loaded_shader *loaded = lobe_allocate(device->log.allocator, 1, sizeof *loaded);
+    loaded_shader *loaded = lobe_allocate(device->host.allocator, 1, sizeof *loaded);
     if (!loaded) {
         free_words(code, words);
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                             code->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "shader '%s': no host memory", code->name);
     }
     loaded->words = *words;
     loaded->code = code;
     loaded->shader.name = code->name;
     loaded->shader.version = engine_device_stamp(device);
-    lobe_result result = engine_reflect(&device->log, words->words, words->count, &loaded->shader);
+    lobe_result result = engine_reflect(&device->host, words->words, words->count, &loaded->shader);
     if (result == LOBE_OK)
         result = create_module(device, loaded);
     if (result != LOBE_OK) {
@@ -181,9 +181,9 @@ static lobe_result load_again(engine_shaders *shaders, const engine_shader_code 
 
 lobe_result engine_shaders_create(lobe_device *device, const char *folder,
                                   engine_shaders **shaders) {
-    *shaders = lobe_allocate(device->log.allocator, 1, sizeof **shaders);
+    *shaders = lobe_allocate(device->host.allocator, 1, sizeof **shaders);
     if (!*shaders)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
     (*shaders)->device = device;
     const lobe_result result =
         add_table(*shaders, engine_embedded_shaders, engine_embedded_shaders_count,
@@ -258,13 +258,13 @@ static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
 
 lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader) {
     if (!shader->name || !shader->words || shader->size == 0 || shader->size % 4 != 0)
-        return lobe_log_fail(&device->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "shader '%s': a name and whole words of SPIR-V are needed",
-                             shader->name ? shader->name : "");
-    engine_shader_code *code = copy_code(device->log.allocator, shader);
+        return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "shader '%s': a name and whole words of SPIR-V are needed",
+                              shader->name ? shader->name : "");
+    engine_shader_code *code = copy_code(device->host.allocator, shader);
     if (!code)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                             shader->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "shader '%s': no host memory", shader->name);
     pthread_mutex_lock(&device->found_mutex);
     const lobe_result result = add_code(device, code);
     pthread_mutex_unlock(&device->found_mutex);
@@ -278,7 +278,7 @@ static lobe_result find_shader(lobe_device *device, const char *name,
     const engine_shader_code *code = find_code(shaders, name, &table);
     *shader = NULL;
     if (!code)
-        return lobe_log_fail(&device->log, LOBE_ERROR_SHADER, "there is no shader '%s'", name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_SHADER, "there is no shader '%s'", name);
     const engine_shader_folders folders = {table->folder, library_table(shaders)->folder};
     loaded_shader *loaded = find_loaded(shaders, code);
     lobe_result result = LOBE_OK;

@@ -24,7 +24,7 @@ struct engine_source_files {
 };
 
 typedef struct expansion {
-    const lobe_log *log;
+    const lobe_host *host;
     lobe_log_level level;
     const engine_shader_folders *folders;
     const engine_shader_code *code;
@@ -46,18 +46,18 @@ static source_file look_at(char *path) {
 }
 
 static lobe_result fail_memory(const expansion *expansion) {
-    return lobe_log_fail(expansion->log, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
-                         expansion->code->name);
+    return lobe_host_fail(expansion->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+                          expansion->code->name);
 }
 
 static lobe_result remember(expansion *expansion, const char *path) {
     engine_source_files *files = expansion->files;
-    source_file *grown = lobe_reallocate(lobe_log_allocator(expansion->log), files->files,
+    source_file *grown = lobe_reallocate(lobe_host_allocator(expansion->host), files->files,
                                          files->count + 1, sizeof *grown);
     if (!grown)
         return fail_memory(expansion);
     files->files = grown;
-    char *copy = lobe_copy_text(lobe_log_allocator(expansion->log), path);
+    char *copy = lobe_copy_text(lobe_host_allocator(expansion->host), path);
     if (!copy)
         return fail_memory(expansion);
     grown[files->count++] = look_at(copy);
@@ -127,8 +127,8 @@ static lobe_result expand_line(expansion *expansion, const char *path, int depth
         return LOBE_OK;
     }
     if (depth == MAXIMUM_DEPTH) {
-        lobe_log_print(expansion->log, expansion->level, "shader '%s': %s:%u: nested too deep",
-                       expansion->code->name, path, number);
+        lobe_host_log(expansion->host, expansion->level, "shader '%s': %s:%u: nested too deep",
+                      expansion->code->name, path, number);
         return LOBE_ERROR_SHADER;
     }
     engine_text_add(&expansion->output, "#line 1 \"%s\"\n", included);
@@ -153,7 +153,7 @@ static lobe_result expand_text(expansion *expansion, const char *path, int depth
 }
 
 static lobe_result expand_file(expansion *expansion, const char *path, int depth) {
-    const lobe_log silent = {.allocator = lobe_log_allocator(expansion->log)};
+    const lobe_host silent = {.allocator = lobe_host_allocator(expansion->host)};
     uint8_t *data = NULL;
     size_t size = 0;
     lobe_result result = remember(expansion, path);
@@ -161,8 +161,8 @@ static lobe_result expand_file(expansion *expansion, const char *path, int depth
         return result;
     result = lobe_file_read(path, NULL, &silent, &data, &size);
     if (result != LOBE_OK) {
-        lobe_log_print(expansion->log, expansion->level, "shader '%s': the source %s: %s",
-                       expansion->code->name, path, lobe_result_message(result));
+        lobe_host_log(expansion->host, expansion->level, "shader '%s': the source %s: %s",
+                      expansion->code->name, path, lobe_result_message(result));
         return LOBE_ERROR_SHADER;
     }
     result = expand_text(expansion, path, depth, (const char *)data, size);
@@ -170,13 +170,13 @@ static lobe_result expand_file(expansion *expansion, const char *path, int depth
     return result;
 }
 
-lobe_result engine_shader_source_read(const lobe_log *log, lobe_log_level level,
+lobe_result engine_shader_source_read(const lobe_host *host, lobe_log_level level,
                                       const engine_shader_folders *folders,
                                       const engine_shader_code *code,
                                       engine_shader_source *source) {
-    const lobe_allocator *allocator = lobe_log_allocator(log);
+    const lobe_allocator *allocator = lobe_host_allocator(host);
     *source = (engine_shader_source){.files = lobe_allocate(allocator, 1, sizeof *source->files)};
-    expansion expansion = {log,  level,         folders,
+    expansion expansion = {host, level,         folders,
                            code, source->files, {.bytes.allocator = allocator}};
     if (!source->files)
         return fail_memory(&expansion);

@@ -16,7 +16,7 @@ typedef struct engine_shader_source {
 /// the folders; "filter.glsl" is code->substitute. One that is not found stays in the text: it may
 /// be switched off, and if not, the compiler names it. `source` is to be freed after a failure too.
 /// LOBE_ERROR_SHADER: the file itself cannot be read, includes are nested too deep.
-lobe_result engine_shader_source_read(const lobe_log *log, lobe_log_level level,
+lobe_result engine_shader_source_read(const lobe_host *host, lobe_log_level level,
                                       const engine_shader_folders *folders,
                                       const engine_shader_code *code, engine_shader_source *source);
 void engine_shader_source_free(engine_shader_source *source);

@@ -30,7 +30,7 @@ const char *engine_shader_words_folder(void);
 /// Gives the words of a shader; free them with engine_shader_words_free. Where its sources do not
 /// compile or are missing, the line for the log has `level`, `words->words` is NULL, but
 /// `words->files` may say what was read. LOBE_ERROR_SHADER, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result engine_shader_words_get(const lobe_log *log, lobe_log_level level,
+lobe_result engine_shader_words_get(const lobe_host *host, lobe_log_level level,
                                     const engine_shader_folders *folders,
                                     const engine_shader_code *code, engine_shader_words *words);
 /// Whether a file that the words were made from has changed since.

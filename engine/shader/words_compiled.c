@@ -10,7 +10,7 @@
 #include "engine/shader/source.h"
 
 typedef struct compilation {
-    const lobe_log *log;
+    const lobe_host *host;
     lobe_log_level level;
     const engine_shader_code *code;
     glslang_shader_t *shader;
@@ -40,11 +40,11 @@ static lobe_result fail(const compilation *compilation, const char *messages) {
     const int length = (int)strcspn(first, "\n");
     const char *name = compilation->code->name;
     if (!strncmp(first, "0:", 2))
-        lobe_log_print(compilation->log, compilation->level, "shader '%s': %s:%.*s", name,
-                       compilation->code->source, length - 2, first + 2);
+        lobe_host_log(compilation->host, compilation->level, "shader '%s': %s:%.*s", name,
+                      compilation->code->source, length - 2, first + 2);
     else
-        lobe_log_print(compilation->log, compilation->level, "shader '%s': %.*s", name, length,
-                       first);
+        lobe_host_log(compilation->host, compilation->level, "shader '%s': %.*s", name, length,
+                      first);
     return LOBE_ERROR_SHADER;
 }
 
@@ -97,10 +97,10 @@ static lobe_result link_program(compilation *compilation) {
 
 static lobe_result copy_words(const compilation *compilation, engine_shader_words *words) {
     const size_t count = glslang_program_SPIRV_get_size(compilation->program);
-    uint32_t *copy = lobe_allocate(lobe_log_allocator(compilation->log), count, sizeof *copy);
+    uint32_t *copy = lobe_allocate(lobe_host_allocator(compilation->host), count, sizeof *copy);
     if (!copy)
-        return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "shader '%s': no host memory", compilation->code->name);
+        return lobe_host_fail(compilation->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "shader '%s': no host memory", compilation->code->name);
     glslang_program_SPIRV_get(compilation->program, copy);
     words->words = copy;
     words->count = count;
@@ -109,10 +109,10 @@ static lobe_result copy_words(const compilation *compilation, engine_shader_word
 
 static lobe_result compile(compilation *compilation, const char *text, engine_shader_words *words) {
     char *preamble =
-        preamble_of(lobe_log_allocator(compilation->log), compilation->code->definitions);
+        preamble_of(lobe_host_allocator(compilation->host), compilation->code->definitions);
     if (!preamble)
-        return lobe_log_fail(compilation->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "shader '%s': no host memory", compilation->code->name);
+        return lobe_host_fail(compilation->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "shader '%s': no host memory", compilation->code->name);
     // Counted: safe beside a host program that uses the compiler, too.
     glslang_initialize_process();
     lobe_result result = parse(compilation, text, preamble);
@@ -129,13 +129,13 @@ static lobe_result compile(compilation *compilation, const char *text, engine_sh
     return result;
 }
 
-lobe_result engine_shader_words_get(const lobe_log *log, lobe_log_level level,
+lobe_result engine_shader_words_get(const lobe_host *host, lobe_log_level level,
                                     const engine_shader_folders *folders,
                                     const engine_shader_code *code, engine_shader_words *words) {
     *words = (engine_shader_words){0};
-    compilation compilation = {.log = log, .level = level, .code = code};
+    compilation compilation = {.host = host, .level = level, .code = code};
     engine_shader_source source;
-    lobe_result result = engine_shader_source_read(log, level, folders, code, &source);
+    lobe_result result = engine_shader_source_read(host, level, folders, code, &source);
     if (result == LOBE_OK)
         result = compile(&compilation, source.text, words);
     words->files = source.files;

@@ -4,10 +4,10 @@ const char *engine_shader_words_folder(void) {
     return NULL;
 }
 
-lobe_result engine_shader_words_get(const lobe_log *log, lobe_log_level level,
+lobe_result engine_shader_words_get(const lobe_host *host, lobe_log_level level,
                                     const engine_shader_folders *folders,
                                     const engine_shader_code *code, engine_shader_words *words) {
-    (void)log;
+    (void)host;
     (void)level;
     (void)folders;
     *words = (engine_shader_words){code->words, code->size / sizeof *code->words, NULL};

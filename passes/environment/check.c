@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-void environment_check_directions(uint32_t count, float (*directions)[4]) {
+void passes_environment_check_directions(uint32_t count, float (*directions)[4]) {
     const double golden_ratio = (1 + sqrt(5)) / 2;
     for (uint32_t i = 0; i < count; ++i) {
         double height = 1 - (2.0 * i + 1) / count;
@@ -15,7 +15,7 @@ void environment_check_directions(uint32_t count, float (*directions)[4]) {
     }
 }
 
-double environment_check_peak(double concentration) {
+double passes_environment_check_peak(double concentration) {
     return concentration / (-2 * M_PI * expm1(-2 * concentration));
 }
 
@@ -24,8 +24,8 @@ static lobe_resource declare_lights(lobe_graph *graph, uint32_t count) {
                                         .name = "lights", .size = (size_t)count * sizeof(float4)});
 }
 
-lobe_resource environment_check(lobe_graph *graph, const environment_maps *maps,
-                                const environment_check_request *request) {
+lobe_resource passes_environment_check(lobe_graph *graph, const environment_maps *maps,
+                                       const environment_check_request *request) {
     const lobe_sampler sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                   LOBE_WRAP_CLAMP, 0};
     const lobe_specialisation method = {CHECK_METHOD, request->method};
@@ -59,10 +59,10 @@ lobe_resource environment_check(lobe_graph *graph, const environment_maps *maps,
     return lights;
 }
 
-lobe_resource environment_check_exact(lobe_graph *graph, const environment_maps *maps,
-                                      const environment_check_request *request,
-                                      const double concentrations[CHECK_LOBES],
-                                      uint32_t first_texel, uint32_t texel_count) {
+lobe_resource passes_environment_check_exact(lobe_graph *graph, const environment_maps *maps,
+                                             const environment_check_request *request,
+                                             const double concentrations[CHECK_LOBES],
+                                             uint32_t first_texel, uint32_t texel_count) {
     struct environment_check_exact_constants constants = {
         .count = request->count, .first_texel = first_texel, .texel_count = texel_count};
     for (int lobe = 0; lobe < CHECK_LOBES; ++lobe)

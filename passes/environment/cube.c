@@ -59,8 +59,9 @@ static struct environment_cube_constants constants_of(const lobe_environment *en
     return constants;
 }
 
-lobe_resource environment_cube(lobe_graph *graph, const lobe_environment *environment,
-                               const lobe_texture *texture, lobe_resource cube, uint32_t size) {
+lobe_resource passes_environment_cube(lobe_graph *graph, const lobe_environment *environment,
+                                      const lobe_texture *texture, lobe_resource cube,
+                                      uint32_t size) {
     struct environment_face_place places[6];
     for (int face = 0; face < 6; ++face)
         places[face] = place_of_face(environment, face);

@@ -6,7 +6,8 @@
 
 /// Adds the pass that fills level 0 of `cube`, six layers of `size` x `size` texels, from
 /// `texture`, which holds the environment's image. Returns the cube's new version.
-lobe_resource environment_cube(lobe_graph *graph, const lobe_environment *environment,
-                               const lobe_texture *texture, lobe_resource cube, uint32_t size);
+lobe_resource passes_environment_cube(lobe_graph *graph, const lobe_environment *environment,
+                                      const lobe_texture *texture, lobe_resource cube,
+                                      uint32_t size);
 
 #endif

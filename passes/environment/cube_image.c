@@ -16,34 +16,34 @@ static size_t face_texels(const cube_image *cube, uint32_t level) {
     return width * width;
 }
 
-size_t cube_image_texels(const cube_image *cube) {
+size_t passes_cube_image_texels(const cube_image *cube) {
     size_t count = 0;
     for (uint32_t level = 0; level < cube->levels; ++level)
         count += FACES * face_texels(cube, level);
     return count;
 }
 
-float *cube_image_face(const cube_image *cube, uint32_t level, uint32_t face) {
+float *passes_cube_image_face(const cube_image *cube, uint32_t level, uint32_t face) {
     size_t first = face * face_texels(cube, level);
     for (uint32_t finer = 0; finer < level; ++finer)
         first += FACES * face_texels(cube, finer);
     return cube->texels + 4 * first;
 }
 
-lobe_result cube_image_allocate(cube_image *cube, uint32_t width, const lobe_log *log) {
+lobe_result passes_cube_image_allocate(cube_image *cube, uint32_t width, const lobe_host *host) {
     *cube = (cube_image){.width = width};
     for (uint32_t extent = width; extent > 0; extent /= 2)
         ++cube->levels;
-    cube->texels =
-        lobe_allocate(lobe_log_allocator(log), 4 * cube_image_texels(cube), sizeof *cube->texels);
+    cube->texels = lobe_allocate(lobe_host_allocator(host), 4 * passes_cube_image_texels(cube),
+                                 sizeof *cube->texels);
     if (cube->texels)
         return LOBE_OK;
     *cube = (cube_image){0};
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "environment: no memory for a cube of %u",
-                         width);
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "environment: no memory for a cube of %u",
+                          width);
 }
 
-void cube_image_free(cube_image *cube) {
+void passes_cube_image_free(cube_image *cube) {
     lobe_release(cube->texels);
     *cube = (cube_image){0};
 }
@@ -72,7 +72,7 @@ static void turn_face(uint32_t face, uint32_t width, const float *source, float 
 static void fill_column(const cube_image *cube, uint32_t level, lobe_image *image) {
     uint32_t width = cube->width >> level;
     for (uint32_t face = 0; face < FACES; ++face)
-        turn_face(face, width, cube_image_face(cube, level, face),
+        turn_face(face, width, passes_cube_image_face(cube, level, face),
                   (float *)image->texels + 4 * (size_t)face * width * width);
 }
 
@@ -81,19 +81,19 @@ static void fill_with_mean(const cube_image *cube, lobe_image *image) {
     for (size_t i = 0; i < (size_t)4 * image->width * image->height; ++i) {
         double sum = 0;
         for (uint32_t face = 0; face < FACES; ++face)
-            sum += (double)cube_image_face(cube, cube->levels - 1, face)[i % 4];
+            sum += (double)passes_cube_image_face(cube, cube->levels - 1, face)[i % 4];
         texels[i] = (float)(sum / FACES);
     }
 }
 
-static lobe_result make_levels(const cube_image *cube, const lobe_log *log,
+static lobe_result make_levels(const cube_image *cube, const lobe_host *host,
                                lobe_image images[MOST_LEVELS], uint32_t *count) {
     uint32_t width = cube->width, height = FACES * cube->width;
     lobe_result result = LOBE_OK;
     while (result == LOBE_OK && height > 0) {
         lobe_image *image = &images[*count];
         result = lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, width > 0 ? width : 1, height,
-                                     log);
+                                     host);
         if (result == LOBE_OK && *count < cube->levels)
             fill_column(cube, *count, image);
         else if (result == LOBE_OK)
@@ -105,12 +105,12 @@ static lobe_result make_levels(const cube_image *cube, const lobe_log *log,
     return result;
 }
 
-lobe_result cube_image_write(const char *path, const cube_image *cube,
-                             const lobe_exr_attribute *attributes, size_t attribute_count,
-                             const lobe_log *log) {
+lobe_result passes_cube_image_write(const char *path, const cube_image *cube,
+                                    const lobe_exr_attribute *attributes, size_t attribute_count,
+                                    const lobe_host *host) {
     lobe_image images[MOST_LEVELS] = {0};
     uint32_t count = 0;
-    lobe_result result = make_levels(cube, log, images, &count);
+    lobe_result result = make_levels(cube, host, images, &count);
     const lobe_exr_layer layer = {.image = images, .depth = LOBE_EXR_FLOAT};
     if (result == LOBE_OK)
         result = lobe_exr_write(path,
@@ -120,7 +120,7 @@ lobe_result cube_image_write(const char *path, const cube_image *cube,
                                                        .attribute_count = attribute_count,
                                                        .level_count = count,
                                                        .environment = LOBE_EXR_CUBE},
-                                log);
+                                host);
     for (uint32_t level = 0; level < count; ++level)
         lobe_image_free(&images[level]);
     return result;
@@ -136,18 +136,18 @@ static bool is_cube(const lobe_exr_contents *contents) {
            finest->height == FACES * finest->width && contents->level_count > 1;
 }
 
-lobe_result cube_image_from(const char *path, const lobe_exr_contents *contents,
-                            const lobe_log *log, cube_image *cube) {
+lobe_result passes_cube_image_from(const char *path, const lobe_exr_contents *contents,
+                                   const lobe_host *host, cube_image *cube) {
     *cube = (cube_image){0};
     if (!is_cube(contents))
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not a cube with levels", path);
-    lobe_result result = cube_image_allocate(cube, contents->levels[0].width, log);
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: not a cube with levels", path);
+    lobe_result result = passes_cube_image_allocate(cube, contents->levels[0].width, host);
     for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; ++level) {
         uint32_t width = cube->width >> level;
         const float *column = contents->levels[level].texels;
         for (uint32_t face = 0; face < FACES; ++face)
             turn_face(face, width, column + 4 * (size_t)face * width * width,
-                      cube_image_face(cube, level, face));
+                      passes_cube_image_face(cube, level, face));
     }
     return result;
 }

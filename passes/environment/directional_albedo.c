@@ -5,10 +5,10 @@
 #include "shaders/interface/directional_albedo.h"
 #include "shaders/interface/specialisation.h"
 
-const lobe_sampler directional_albedo_sampler = {
+const lobe_sampler passes_directional_albedo_sampler = {
     .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
 
-lobe_resource directional_albedo(lobe_graph *graph, lobe_distribution distribution) {
+lobe_resource passes_directional_albedo(lobe_graph *graph, lobe_distribution distribution) {
     char name[64];
     snprintf(name, sizeof name, "directional albedo of distribution %d", (int)distribution);
     lobe_resource table =

@@ -24,7 +24,7 @@ static double squared_laplacian(double lambda) {
     return sum;
 }
 
-double harmonics_window(double window) {
+double passes_harmonics_window(double window) {
     if (!(window > 0))
         return 0;
     double wanted = squared_laplacian(0) * (1 - window) * (1 - window);
@@ -51,7 +51,7 @@ static uint32_t level_to_read(const irradiance_source *source) {
 static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32_t count,
                                    double window) {
     struct irradiance_harmonics_sum_constants constants = {.count = count};
-    double lambda = harmonics_window(window);
+    double lambda = passes_harmonics_window(window);
     for (int degree = 0; degree < 3; ++degree)
         constants.band_factors[degree] =
             (float)(cosine_factor[degree] / (1 + lambda * squared_eigenvalue(degree)));
@@ -69,7 +69,8 @@ static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32
     return harmonics;
 }
 
-lobe_resource irradiance_harmonics(lobe_graph *graph, irradiance_source source, double window) {
+lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
+                                          double window) {
     uint32_t level = level_to_read(&source);
     struct irradiance_harmonics_constants constants = {source.size >> level};
     uint32_t texels = 6 * constants.size * constants.size;

@@ -20,8 +20,10 @@ typedef struct irradiance_source {
 /// of the coarser texel's centre, and 2e-5 for broad lights. Nine harmonics alone miss the
 /// irradiance of that sun by 9e-2 of its peak.
 ///
-/// `window` [0, 1): how much ringing behind bright lights is taken out, see harmonics_window.
-lobe_resource irradiance_harmonics(lobe_graph *graph, irradiance_source source, double window);
+/// `window` [0, 1): how much ringing behind bright lights is taken out, see
+/// passes_harmonics_window.
+lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
+                                          double window);
 
 /// lambda >= 0 of Sloan 2008, Stupid Spherical Harmonics Tricks, "Windowing": the irradiance f_w
 /// that minimises
@@ -29,6 +31,6 @@ lobe_resource irradiance_harmonics(lobe_graph *graph, irradiance_source source, 
 /// is f with degree l divided by 1 + lambda l^2 (l + 1)^2. Chosen so that the root mean square of
 /// the Laplacian of a single light's irradiance, the one that rings most, falls to `1 - window`.
 /// It does not depend on the environment, so that what is added up stays additive.
-double harmonics_window(double window);
+double passes_harmonics_window(double window);
 
 #endif

@@ -17,19 +17,19 @@ static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, L
                                        LOBE_WRAP_CLAMP, 0};
 
 static uint32_t method_of(const filter_context *context) {
-    uint32_t method = (uint32_t)filter_setting(context, "env");
+    uint32_t method = (uint32_t)passes_filter_setting(context, "env");
     // A sample of many takes a sample of the environment: as true, and as fast as it goes.
     return method == ENVIRONMENT_EXACT && context->filter->supersamples ? ENVIRONMENT_REFERENCE
                                                                         : method;
 }
 
 static bool scatters(const filter_context *context) {
-    return filter_setting(context, "scattering") > 0;
+    return passes_filter_setting(context, "scattering") > 0;
 }
 
 /// Whether lobes between levels are blends of two cubes.
 static bool blends(const filter_context *context) {
-    return filter_setting(context, "env_levels") > 0;
+    return passes_filter_setting(context, "env_levels") > 0;
 }
 
 /// Whether an instance has microfacets of a distribution.
@@ -46,14 +46,14 @@ static bool uses_distribution(const filter_context *context, uint32_t distributi
 
 /// Whether an instance uses a half-vector lobe of GGX's shape or microfacets of it.
 static bool uses_ggx(const filter_context *context) {
-    bool as_lobes = filter_setting(context, "base") > 0;
+    bool as_lobes = passes_filter_setting(context, "base") > 0;
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
 static void build_albedo(const filter_context *context, environment_light *light) {
     for (uint32_t i = 0; i < DISTRIBUTION_COUNT; ++i) {
         if (uses_distribution(context, i))
-            light->albedo[i] = directional_albedo(context->graph, (lobe_distribution)i);
+            light->albedo[i] = passes_directional_albedo(context->graph, (lobe_distribution)i);
     }
 }
 
@@ -65,7 +65,7 @@ static lobe_resource no_harmonics(lobe_graph *graph) {
 
 /// Texels along a face of the cube.
 static uint32_t environment_width(const filter_context *context) {
-    return 16u << (uint32_t)filter_setting(context, "env_size");
+    return 16u << (uint32_t)passes_filter_setting(context, "env_size");
 }
 
 static environment_maps_request request_of(const filter_context *context) {
@@ -79,7 +79,7 @@ static environment_maps_request request_of(const filter_context *context) {
                    [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
         .parts = context->environment_parts,
     };
-    request.stored = environment_store_cubes(&context->environment->store, &request);
+    request.stored = passes_environment_store_cubes(&context->environment->store, &request);
     return request;
 }
 
@@ -87,7 +87,7 @@ static environment_maps_request request_of(const filter_context *context) {
 static void read_back_lacking(const filter_context *context, const environment_maps *maps) {
     environment_state *state = context->environment;
     for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (!environment_store_lacks(&state->store, maps, map))
+        if (!passes_environment_store_lacks(&state->store, maps, map))
             continue;
         lobe_graph_read_back(context->graph, maps->cubes[map], (lobe_range){0});
         state->reads_back = true;
@@ -99,7 +99,7 @@ static environment_maps build_cubes(const filter_context *context, environment_l
     bool prefiltered = light->method == ENVIRONMENT_PREFILTERED;
     environment_maps_request request = request_of(context);
     environment_maps maps =
-        environment_maps_declare(context->graph, &request, &context->environment->progress);
+        passes_environment_maps_declare(context->graph, &request, &context->environment->progress);
     context->environment->last = maps;
     if (context->keeps_environment && maps.up_to_date)
         read_back_lacking(context, &maps);
@@ -123,41 +123,42 @@ static void build_maps(const filter_context *context, environment_light *light) 
                                 maps.levels[LOBE_ENVIRONMENT_RADIANCE]};
     bool harmonics =
         light->method == ENVIRONMENT_PREFILTERED || light->method == ENVIRONMENT_SAMPLED;
-    light->harmonics = harmonics ? irradiance_harmonics(context->graph, source,
-                                                        filter_setting(context, "env_window"))
-                                 : no_harmonics(context->graph);
+    light->harmonics =
+        harmonics ? passes_irradiance_harmonics(context->graph, source,
+                                                passes_filter_setting(context, "env_window"))
+                  : no_harmonics(context->graph);
 }
 
-lobe_result environment_light_look(const filter_context *context, lobe_device *device) {
+lobe_result passes_environment_light_load(const filter_context *context, lobe_device *device) {
     if (!context->environment_cache || !context->scene->environment)
         return LOBE_OK;
     environment_maps_request request = request_of(context);
-    return environment_store_look(&context->environment->store, device, context->environment_cache,
-                                  &request, context->log);
+    return passes_environment_store_load(&context->environment->store, device,
+                                         context->environment_cache, &request, context->host);
 }
 
-void environment_light_keep(const filter_context *context) {
+void passes_environment_light_save(const filter_context *context) {
     environment_state *state = context->environment;
     for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (environment_store_lacks(&state->store, &state->last, map))
-            environment_store_keep(&state->store, context->environment_cache, context->graph,
-                                   &state->last, map, context->log);
+        if (passes_environment_store_lacks(&state->store, &state->last, map))
+            passes_environment_store_save(&state->store, context->environment_cache, context->graph,
+                                          &state->last, map, context->host);
     }
     state->reads_back = false;
 }
 
-void environment_light_change(environment_state *state) {
-    environment_maps_renew(&state->last, &state->progress);
-    environment_store_forget(&state->store);
+void passes_environment_light_change(environment_state *state) {
+    passes_environment_maps_renew(&state->last, &state->progress);
+    passes_environment_store_forget(&state->store);
     state->reads_back = false;
 }
 
-void environment_light_forget(environment_state *state) {
-    environment_store_forget(&state->store);
+void passes_environment_light_forget(environment_state *state) {
+    passes_environment_store_forget(&state->store);
     *state = (environment_state){0};
 }
 
-environment_light environment_light_build(const filter_context *context) {
+environment_light passes_environment_light_build(const filter_context *context) {
     environment_light light = {.method = method_of(context)};
     light.present = context->scene->environment != NULL;
     bool split = light.present &&
@@ -166,7 +167,7 @@ environment_light environment_light_build(const filter_context *context) {
     if (split || scatters(context))
         build_albedo(context, &light);
     if (!light.present) {
-        environment_light_forget(context->environment);
+        passes_environment_light_forget(context->environment);
         return light;
     }
     build_maps(context, &light);
@@ -197,8 +198,8 @@ static lobe_range levels_read(const environment_light *light, const filter_conte
     return (lobe_range){.first_level = level, .level_count = 1};
 }
 
-void environment_light_read(const environment_light *light, const filter_context *context,
-                            lobe_pass *pass, const shading_sample *sample) {
+void passes_environment_light_read(const environment_light *light, const filter_context *context,
+                                   lobe_pass *pass, const shading_sample *sample) {
     if (!light->present)
         return;
     struct environment_constants constants = constants_of(context, sample);
@@ -228,30 +229,33 @@ void environment_light_read(const environment_light *light, const filter_context
         lobe_pass_read(pass, &bindings[i]);
 }
 
-uint32_t environment_light_lights_at_once(const environment_light *light, uint32_t lights) {
+uint32_t passes_environment_light_lights_at_once(const environment_light *light, uint32_t lights) {
     if (light->present && light->method == ENVIRONMENT_EXACT)
         return 4; // every texel of the environment is a light
     return lights < 1 ? 1 : lights < 4 ? lights : 4;
 }
 
-void environment_light_specialise(const environment_light *light, const filter_context *context,
-                                  specialisation_list *list) {
-    specialise(list, SPECIALISE_MULTIPLE_SCATTERING, scatters(context));
+void passes_environment_light_specialise(const environment_light *light,
+                                         const filter_context *context, specialisation_list *list) {
+    passes_specialise(list, SPECIALISE_MULTIPLE_SCATTERING, scatters(context));
     if (!light->present)
         return;
-    specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
-    specialise(list, SPECIALISE_ENVIRONMENT_PROBES,
-               (uint32_t)filter_setting(context, "env_probes"));
-    specialise(list, SPECIALISE_ENVIRONMENT_GRID, (uint32_t)filter_setting(context, "env_grid"));
-    specialise(list, SPECIALISE_ENVIRONMENT_BLENDED, blends(context));
-    specialise(list, SPECIALISE_HORIZON, (uint32_t)filter_setting(context, "horizon"));
+    passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
+    passes_specialise(list, SPECIALISE_ENVIRONMENT_PROBES,
+                      (uint32_t)passes_filter_setting(context, "env_probes"));
+    passes_specialise(list, SPECIALISE_ENVIRONMENT_GRID,
+                      (uint32_t)passes_filter_setting(context, "env_grid"));
+    passes_specialise(list, SPECIALISE_ENVIRONMENT_BLENDED, blends(context));
+    passes_specialise(list, SPECIALISE_HORIZON,
+                      (uint32_t)passes_filter_setting(context, "horizon"));
 }
 
-lobe_binding environment_light_albedo(const environment_light *light, const filter_context *context,
-                                      const lobe_material *material) {
+lobe_binding passes_environment_light_albedo(const environment_light *light,
+                                             const filter_context *context,
+                                             const lobe_material *material) {
     lobe_binding binding = {.name = "directional_albedo_table",
                             .resource = light->albedo[material->distribution],
-                            .sampler = directional_albedo_sampler};
+                            .sampler = passes_directional_albedo_sampler};
     bool table = material->model == LOBE_MATERIAL_MICROFACET &&
                  (binding.resource.index || binding.resource.version);
     if (!table)

@@ -25,32 +25,33 @@ typedef struct environment_light {
 
 /// Looks for what this frame needs in the folder of kept maps, if there is one; before the frame is
 /// begun. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
-lobe_result environment_light_look(const filter_context *context, lobe_device *device);
+lobe_result passes_environment_light_load(const filter_context *context, lobe_device *device);
 
 /// Keeps in that folder what the last frame read back for it (`reads_back`). The device must have
 /// finished that frame, and the next must not have begun.
-void environment_light_keep(const filter_context *context);
+void passes_environment_light_save(const filter_context *context);
 
 /// The scene's environment has changed.
-void environment_light_change(environment_state *state);
+void passes_environment_light_change(environment_state *state);
 /// There is no environment any more, or no scene.
-void environment_light_forget(environment_state *state);
+void passes_environment_light_forget(environment_state *state);
 
 /// Adds the passes that make the maps.
-environment_light environment_light_build(const filter_context *context);
+environment_light passes_environment_light_build(const filter_context *context);
 
 /// Binds them to all draws of a shading pass.
-void environment_light_read(const environment_light *light, const filter_context *context,
-                            lobe_pass *pass, const shading_sample *sample);
+void passes_environment_light_read(const environment_light *light, const filter_context *context,
+                                   lobe_pass *pass, const shading_sample *sample);
 
 /// How many of `lights` punctual lights filters see together.
-uint32_t environment_light_lights_at_once(const environment_light *light, uint32_t lights);
+uint32_t passes_environment_light_lights_at_once(const environment_light *light, uint32_t lights);
 
-void environment_light_specialise(const environment_light *light, const filter_context *context,
-                                  specialisation_list *list);
+void passes_environment_light_specialise(const environment_light *light,
+                                         const filter_context *context, specialisation_list *list);
 
 /// The table of directional albedo for a material's draws.
-lobe_binding environment_light_albedo(const environment_light *light, const filter_context *context,
-                                      const lobe_material *material);
+lobe_binding passes_environment_light_albedo(const environment_light *light,
+                                             const filter_context *context,
+                                             const lobe_material *material);
 
 #endif

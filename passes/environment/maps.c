@@ -12,7 +12,7 @@
 
 typedef enum part_kind { PART_LOBES, PART_BETWEEN, PART_MIXTURE } part_kind;
 
-/// All that one call of environment_maps_declare needs.
+/// All that one call of passes_environment_maps_declare needs.
 typedef struct declaration {
     lobe_graph *graph;
     const environment_maps_request *request;
@@ -42,11 +42,13 @@ static void do_part(declaration *d, part_kind kind, uint32_t level, uint32_t fir
     double concentration = lobe_environment_level_concentration(cube->width, level);
     lobe_pass *pass;
     if (kind == PART_MIXTURE)
-        pass = environment_mixture(d->graph, &d->sources, &d->cubes[PART_LOBES],
-                                   &d->cubes[PART_BETWEEN], cube, level, first_face, face_count);
+        pass = passes_environment_mixture(d->graph, &d->sources, &d->cubes[PART_LOBES],
+                                          &d->cubes[PART_BETWEEN], cube, level, first_face,
+                                          face_count);
     else
-        pass = environment_prefiltering(d->graph, &d->sources, cube, level, first_face, face_count,
-                                        kind == PART_BETWEEN ? 2 * concentration : concentration);
+        pass = passes_environment_prefiltering(
+            d->graph, &d->sources, cube, level, first_face, face_count,
+            kind == PART_BETWEEN ? 2 * concentration : concentration);
     if (d->keep)
         lobe_pass_keep(pass);
 }
@@ -65,7 +67,7 @@ static void do_cube(declaration *d, part_kind kind, uint32_t *left) {
 
 static reduced_map declare_cube(lobe_graph *graph, const char *name, uint32_t width) {
     reduced_map cube = {
-        .width = width, .height = width, .layers = 6, .levels = level_count(width, width)};
+        .width = width, .height = width, .layers = 6, .levels = passes_level_count(width, width)};
     cube.resource = lobe_graph_image(graph, &(lobe_image_description){
                                                 .name = name,
                                                 .format = LOBE_FORMAT_RGBA32_FLOAT,
@@ -83,7 +85,7 @@ static reduced_map declare_filtered(lobe_graph *graph, part_kind kind, uint32_t 
     static const char *const names[] = {"lobes", "lobes in between", "GGX lobes"};
     char name[64];
     snprintf(name, sizeof name, ENVIRONMENT_MAP_PREFIX "filtered with %s, %u", names[kind], set);
-    return declare_cube(graph, name, prefiltered_width(size));
+    return declare_cube(graph, name, passes_prefiltered_width(size));
 }
 
 static void give(environment_maps *maps, lobe_environment_map map, const reduced_map *cube) {
@@ -94,9 +96,9 @@ static void give(environment_maps *maps, lobe_environment_map map, const reduced
 
 static reduced_map declare_radiance(lobe_graph *graph, const environment_maps_request *request) {
     reduced_map cube = declare_cube(graph, ENVIRONMENT_MAP_PREFIX "radiance", request->size);
-    cube.resource = environment_cube(graph, request->environment, request->texture, cube.resource,
-                                     request->size);
-    environment_reduction(graph, &cube);
+    cube.resource = passes_environment_cube(graph, request->environment, request->texture,
+                                            cube.resource, request->size);
+    passes_environment_reduction(graph, &cube);
     return cube;
 }
 
@@ -125,9 +127,10 @@ static void declare_lobes(declaration *d, const environment_maps_progress *progr
                           environment_maps *maps) {
     static const lobe_environment_map made[] = {LOBE_ENVIRONMENT_VON_MISES_FISHER,
                                                 LOBE_ENVIRONMENT_BETWEEN, LOBE_ENVIRONMENT_GGX};
-    uint32_t parts = parts_of_cube(prefiltered_width(d->request->size)), left = maps->parts_done;
-    d->sources =
-        environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE], d->request->size);
+    uint32_t parts = parts_of_cube(passes_prefiltered_width(d->request->size)),
+             left = maps->parts_done;
+    d->sources = passes_environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
+                                              d->request->size);
     for (uint32_t kind = 0; kind < kinds_wanted(d->request); ++kind) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
         do_cube(d, kind, &left);
@@ -146,7 +149,7 @@ static void declare_stored(declaration *d, environment_maps *maps) {
         if (!d->request->wanted[map])
             continue;
         reduced_map cube = declare_filtered(d->graph, kinds[map], d->set, d->request->size);
-        environment_restoring(d->graph, &d->request->stored[map], &cube);
+        passes_environment_restoring(d->graph, &d->request->stored[map], &cube);
         give(maps, (lobe_environment_map)map, &cube);
     }
 }
@@ -154,7 +157,7 @@ static void declare_stored(declaration *d, environment_maps *maps) {
 static uint32_t parts_wanted(const environment_maps_request *request) {
     return request->stored
                ? 0
-               : kinds_wanted(request) * parts_of_cube(prefiltered_width(request->size));
+               : kinds_wanted(request) * parts_of_cube(passes_prefiltered_width(request->size));
 }
 
 static uint32_t advance(const environment_maps_request *request, uint32_t part_count,
@@ -166,9 +169,9 @@ static uint32_t advance(const environment_maps_request *request, uint32_t part_c
     return progress->done < part_count ? progress->done : part_count;
 }
 
-environment_maps environment_maps_declare(lobe_graph *graph,
-                                          const environment_maps_request *request,
-                                          environment_maps_progress *progress) {
+environment_maps passes_environment_maps_declare(lobe_graph *graph,
+                                                 const environment_maps_request *request,
+                                                 environment_maps_progress *progress) {
     environment_maps maps = {.complete = true, .part_count = parts_wanted(request)};
     bool goes_on = progress->size != request->size || progress->done < maps.part_count;
     maps.parts_done = advance(request, maps.part_count, progress);
@@ -186,7 +189,8 @@ environment_maps environment_maps_declare(lobe_graph *graph,
     return maps;
 }
 
-void environment_maps_renew(const environment_maps *last, environment_maps_progress *progress) {
+void passes_environment_maps_renew(const environment_maps *last,
+                                   environment_maps_progress *progress) {
     progress->done = 0;
     if (!last->up_to_date)
         return;

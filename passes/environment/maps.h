@@ -42,15 +42,16 @@ typedef struct environment_maps {
 
 /// Declares the maps and adds the passes that make them. All is retained: passes run only where the
 /// texture or the request changed. Call it once in every frame that uses the maps.
-environment_maps environment_maps_declare(lobe_graph *graph,
-                                          const environment_maps_request *request,
-                                          environment_maps_progress *progress);
+environment_maps passes_environment_maps_declare(lobe_graph *graph,
+                                                 const environment_maps_request *request,
+                                                 environment_maps_progress *progress);
 
 /// The texture has, or soon gets, another content: filtered cubes are made anew from the next frame
 /// on, part by part, and the former ones are used until then.
-void environment_maps_renew(const environment_maps *last, environment_maps_progress *progress);
+void passes_environment_maps_renew(const environment_maps *last,
+                                   environment_maps_progress *progress);
 
 /// Begins a frame of the graph that holds the maps of a tool, for passes that read them.
-lobe_graph *environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes);
+lobe_graph *passes_environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes);
 
 #endif

@@ -41,10 +41,10 @@ static void find_weights(uint32_t width, uint32_t level,
     }
 }
 
-lobe_pass *environment_mixture(lobe_graph *graph, const prefiltering_sources *sources,
-                               const reduced_map *lobes, const reduced_map *between,
-                               reduced_map *cube, uint32_t level, uint32_t first_face,
-                               uint32_t face_count) {
+lobe_pass *passes_environment_mixture(lobe_graph *graph, const prefiltering_sources *sources,
+                                      const reduced_map *lobes, const reduced_map *between,
+                                      reduced_map *cube, uint32_t level, uint32_t first_face,
+                                      uint32_t face_count) {
     uint32_t width = cube->width >> level;
     struct environment_mixture_constants constants = {
         .width = width, .levels = cube->levels - level, .first_face = first_face};
@@ -56,8 +56,8 @@ lobe_pass *environment_mixture(lobe_graph *graph, const prefiltering_sources *so
                                                           .width = width,
                                                           .height = width,
                                                           .layers = 6});
-    environment_prefiltering(graph, sources, &sharpest, 0, first_face, face_count,
-                             4 * lobe_environment_level_concentration(cube->width, level));
+    passes_environment_prefiltering(graph, sources, &sharpest, 0, first_face, face_count,
+                                    4 * lobe_environment_level_concentration(cube->width, level));
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "environment_mixture");
     lobe_pass_read(pass, &(lobe_binding){"sharpest", sharpest.resource,
                                          .range = {0, 1, first_face, face_count}});

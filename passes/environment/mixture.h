@@ -6,9 +6,9 @@
 /// Adds the passes that fill faces of one level of `cube` with what GGX lobes see. `lobes` is
 /// filtered with von Mises-Fisher lobes, `between` with twice their concentrations: both at this
 /// level and all coarser ones. Returns the last pass.
-lobe_pass *environment_mixture(lobe_graph *graph, const prefiltering_sources *sources,
-                               const reduced_map *lobes, const reduced_map *between,
-                               reduced_map *cube, uint32_t level, uint32_t first_face,
-                               uint32_t face_count);
+lobe_pass *passes_environment_mixture(lobe_graph *graph, const prefiltering_sources *sources,
+                                      const reduced_map *lobes, const reduced_map *between,
+                                      reduced_map *cube, uint32_t level, uint32_t first_face,
+                                      uint32_t face_count);
 
 #endif

@@ -24,7 +24,7 @@
 // texels (kappa = 4096 with 128). Four texels leave a third of that, for four times the work.
 #define LEVEL_TEXELS_A_DEVIATION 2
 
-uint32_t prefiltered_width(uint32_t size) {
+uint32_t passes_prefiltered_width(uint32_t size) {
     // No lobe narrower than a texel of the radiance, and kappa = 4096 from 128 texels on.
     return size <= 128 ? 2 * size : size;
 }
@@ -91,8 +91,8 @@ static filtered_source source_at(const prefiltering_sources *sources, uint32_t l
     return source;
 }
 
-prefiltering_sources environment_smoothing(lobe_graph *graph, lobe_resource radiance,
-                                           uint32_t size) {
+prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resource radiance,
+                                                  uint32_t size) {
     prefiltering_sources sources = {.radiance = radiance, .size = size};
     uint32_t count = 0;
     while (size >> (count + 1) >= LEAST_SOURCE_WIDTH)
@@ -130,9 +130,9 @@ static filtered_source source_for(const prefiltering_sources *sources, double co
     return source_at(sources, level);
 }
 
-lobe_pass *environment_prefiltering(lobe_graph *graph, const prefiltering_sources *sources,
-                                    reduced_map *cube, uint32_t level, uint32_t first_face,
-                                    uint32_t face_count, double concentration) {
+lobe_pass *passes_environment_prefiltering(lobe_graph *graph, const prefiltering_sources *sources,
+                                           reduced_map *cube, uint32_t level, uint32_t first_face,
+                                           uint32_t face_count, double concentration) {
     filtered_source source = source_for(sources, concentration);
     filtered_target target = {level,      cube->width >> level, first_face,
                               face_count, concentration,        true};

@@ -11,16 +11,16 @@ typedef struct prefiltering_sources {
 } prefiltering_sources;
 
 /// Texels along a face of a filtered cube's level 0, for a radiance of `size`.
-uint32_t prefiltered_width(uint32_t size);
+uint32_t passes_prefiltered_width(uint32_t size);
 
 /// Adds the passes that smooth level 0 of an environment's cube.
-prefiltering_sources environment_smoothing(lobe_graph *graph, lobe_resource radiance,
-                                           uint32_t size);
+prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resource radiance,
+                                                  uint32_t size);
 
 /// Adds the pass that fills faces of one level of `cube` (six layers) with what a von Mises-Fisher
 /// lobe of a concentration sees, once linear interpolation has had its share. Returns the pass.
-lobe_pass *environment_prefiltering(lobe_graph *graph, const prefiltering_sources *sources,
-                                    reduced_map *cube, uint32_t level, uint32_t first_face,
-                                    uint32_t face_count, double concentration);
+lobe_pass *passes_environment_prefiltering(lobe_graph *graph, const prefiltering_sources *sources,
+                                           reduced_map *cube, uint32_t level, uint32_t first_face,
+                                           uint32_t face_count, double concentration);
 
 #endif

@@ -8,7 +8,7 @@
 
 struct lobe_environment_maps {
     lobe_device *device;
-    lobe_log log;
+    lobe_host host;
     lobe_graph *graph;
     lobe_texture *texture;
     lobe_environment shape; ///< layout and extent, without texels
@@ -25,14 +25,14 @@ struct lobe_environment_maps {
 // ---------------------------------------------------------------------------------------------
 // Making them
 
-static lobe_result out_of_memory(const lobe_log *log) {
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
+static lobe_result out_of_memory(const lobe_host *host) {
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
 }
 
 static lobe_result take_times(lobe_environment_maps *maps) {
-    if (pass_times_add(&maps->times, lobe_graph_describe(maps->graph), maps->log.allocator))
+    if (passes_pass_times_add(&maps->times, lobe_graph_describe(maps->graph), maps->host.allocator))
         return LOBE_OK;
-    return out_of_memory(&maps->log);
+    return out_of_memory(&maps->host);
 }
 
 static void inform(lobe_environment_maps *maps, const environment_maps *made) {
@@ -55,9 +55,9 @@ static void want(lobe_graph *graph, const environment_maps *made) {
     }
 }
 
-lobe_graph *environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
+lobe_graph *passes_environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
     lobe_graph_begin(maps->graph);
-    *cubes = environment_maps_declare(maps->graph, &maps->request, &maps->progress);
+    *cubes = passes_environment_maps_declare(maps->graph, &maps->request, &maps->progress);
     return maps->graph;
 }
 
@@ -67,7 +67,7 @@ static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
     lobe_frame_free(&maps->times);
     maps->information = (lobe_environment_maps_information){0};
     for (environment_maps made = {0}; !made.up_to_date && !*stopped;) {
-        environment_maps_begin(maps, &made);
+        passes_environment_maps_begin(maps, &made);
         want(maps->graph, &made);
         lobe_result result = lobe_graph_execute(maps->graph);
         if (result == LOBE_OK)
@@ -88,12 +88,12 @@ static lobe_result look_into_cache(lobe_environment_maps *maps,
                                    const lobe_environment *environment) {
     environment_maps_request request = maps->request;
     request.environment = environment;
-    environment_store_forget(&maps->store);
+    passes_environment_store_forget(&maps->store);
     lobe_result result = LOBE_OK;
     if (maps->cache)
-        result =
-            environment_store_look(&maps->store, maps->device, maps->cache, &request, &maps->log);
-    maps->request.stored = environment_store_cubes(&maps->store, &maps->request);
+        result = passes_environment_store_load(&maps->store, maps->device, maps->cache, &request,
+                                               &maps->host);
+    maps->request.stored = passes_environment_store_cubes(&maps->store, &maps->request);
     return result;
 }
 
@@ -102,13 +102,14 @@ static lobe_result keep_in_cache(lobe_environment_maps *maps) {
     lobe_result result = LOBE_OK;
     for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
         environment_maps cubes;
-        lobe_graph *graph = environment_maps_begin(maps, &cubes);
-        if (!environment_store_lacks(&maps->store, &cubes, map))
+        lobe_graph *graph = passes_environment_maps_begin(maps, &cubes);
+        if (!passes_environment_store_lacks(&maps->store, &cubes, map))
             continue;
         lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
         result = lobe_graph_execute(graph);
         if (result == LOBE_OK)
-            environment_store_keep(&maps->store, maps->cache, graph, &cubes, map, &maps->log);
+            passes_environment_store_save(&maps->store, maps->cache, graph, &cubes, map,
+                                          &maps->host);
     }
     return result;
 }
@@ -130,25 +131,26 @@ static lobe_result check(const lobe_environment_maps *maps, const lobe_environme
     double position[2];
     uint32_t size = maps->request.size;
     if (size < 16 || size > 2048 || (size & (size - 1)) != 0)
-        return lobe_log_fail(
-            &maps->log, LOBE_ERROR_INVALID_ARGUMENT,
+        return lobe_host_fail(
+            &maps->host, LOBE_ERROR_INVALID_ARGUMENT,
             "%s: a cube of %u texels a face; a power of two in [16, 2048] is right",
             environment->name, size);
     if (environment->image.format != LOBE_FORMAT_RGBA32_FLOAT ||
         !lobe_environment_position(environment, (double[3]){1, 0, 0}, position))
-        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: %ux%u texels of %s do not fit the environment's layout",
-                             environment->name, environment->image.width, environment->image.height,
-                             lobe_format_name(environment->image.format));
+        return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: %ux%u texels of %s do not fit the environment's layout",
+                              environment->name, environment->image.width,
+                              environment->image.height,
+                              lobe_format_name(environment->image.format));
     return LOBE_OK;
 }
 
 static void set_up(lobe_environment_maps *maps, lobe_device *device,
                    const lobe_environment_maps_parameters *parameters) {
     maps->device = device;
-    if (parameters->log)
-        maps->log = *parameters->log;
-    maps->log.allocator = lobe_device_allocator(device);
+    if (parameters->host)
+        maps->host = *parameters->host;
+    maps->host.allocator = lobe_device_allocator(device);
     maps->shape = *parameters->environment;
     maps->shape.name = NULL;
     maps->shape.image.texels = NULL;
@@ -176,7 +178,7 @@ static lobe_result fill(lobe_environment_maps *maps, const lobe_environment *env
 }
 
 static bool copy_cache(lobe_environment_maps *maps, const char *cache) {
-    maps->cache = cache ? lobe_copy_text(maps->log.allocator, cache) : NULL;
+    maps->cache = cache ? lobe_copy_text(maps->host.allocator, cache) : NULL;
     return !cache || maps->cache;
 }
 
@@ -186,10 +188,10 @@ lobe_result lobe_environment_maps_create(lobe_device *device,
     bool stopped = false;
     *maps = lobe_allocate(lobe_device_allocator(device), 1, sizeof **maps);
     if (!*maps)
-        return out_of_memory(parameters->log);
+        return out_of_memory(parameters->host);
     set_up(*maps, device, parameters);
     lobe_result result =
-        copy_cache(*maps, parameters->cache) ? LOBE_OK : out_of_memory(&(*maps)->log);
+        copy_cache(*maps, parameters->cache) ? LOBE_OK : out_of_memory(&(*maps)->host);
     if (result == LOBE_OK)
         result = fill(*maps, parameters->environment, &stopped);
     if (result != LOBE_OK || stopped)
@@ -201,7 +203,7 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
     if (!maps || !*maps)
         return;
     lobe_graph_destroy(&(*maps)->graph);
-    environment_store_forget(&(*maps)->store);
+    passes_environment_store_forget(&(*maps)->store);
     lobe_release((*maps)->cache);
     lobe_texture_destroy(&(*maps)->texture);
     lobe_frame_free(&(*maps)->times);
@@ -215,9 +217,9 @@ lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
     if (environment && (environment->layout != maps->shape.layout ||
                         environment->image.width != maps->shape.image.width ||
                         environment->image.height != maps->shape.image.height))
-        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: not of the layout and extent of the environment before",
-                             environment->name);
+        return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: not of the layout and extent of the environment before",
+                              environment->name);
     if (environment)
         result = lobe_texture_update(maps->texture, &environment->image);
     if (result != LOBE_OK)
@@ -241,16 +243,16 @@ lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environ
     *image = (lobe_image){0};
     if ((unsigned)map >= LOBE_ENVIRONMENT_MAP_COUNT || level >= maps->information.levels[map] ||
         face >= 6)
-        return lobe_log_fail(&maps->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "environment maps: there is no level %u, face %u of cube %d", level,
-                             face, (int)map);
+        return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "environment maps: there is no level %u, face %u of cube %d", level,
+                              face, (int)map);
     environment_maps made;
-    environment_maps_begin(maps, &made);
+    passes_environment_maps_begin(maps, &made);
     lobe_graph_read_back(maps->graph, made.cubes[map], (lobe_range){level, 1, face, 1});
     lobe_result result = lobe_graph_execute(maps->graph);
     uint32_t width = maps->information.width[map] >> level;
     if (result == LOBE_OK)
-        result = lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, width, width, &maps->log);
+        result = lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, width, width, &maps->host);
     if (result == LOBE_OK)
         memcpy(image->texels, lobe_graph_data(maps->graph, made.cubes[map], NULL),
                (size_t)width * width * lobe_format_size(LOBE_FORMAT_RGBA32_FLOAT));

@@ -26,7 +26,7 @@ static uint32_t reduce_step(lobe_graph *graph, reduced_map *cube, uint32_t first
     return tiled ? 3 : 1;
 }
 
-void environment_reduction(lobe_graph *graph, reduced_map *cube) {
+void passes_environment_reduction(lobe_graph *graph, reduced_map *cube) {
     for (uint32_t level = 1; level < cube->levels;)
         level += reduce_step(graph, cube, level);
 }

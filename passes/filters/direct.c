@@ -11,11 +11,11 @@ static const lobe_knob *const knobs[] = {&curvature_knob, NULL};
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
     (void)instance;
-    appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
-                                 (float)filter_setting(context, "curvature"));
+    passes_appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
+                                        (float)passes_filter_setting(context, "curvature"));
 }
 
-const lobe_filter filter_direct = {
+const lobe_filter passes_filter_direct = {
     .name = "direct",
     .summary = "one unfiltered sample of the maps: fast, and aliased",
     .paper = "",

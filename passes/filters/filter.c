@@ -3,25 +3,26 @@
 #include <assert.h>
 #include <string.h>
 
-double filter_setting(const filter_context *context, const char *knob) {
+double passes_filter_setting(const filter_context *context, const char *knob) {
     return lobe_settings_get(context->filter, context->settings, knob);
 }
 
-void appearance_bind(filtered_appearance *appearance, const char *name, lobe_resource resource,
-                     lobe_sampler sampler) {
+void passes_appearance_bind(filtered_appearance *appearance, const char *name,
+                            lobe_resource resource, lobe_sampler sampler) {
     assert(appearance->binding_count < FILTER_MAXIMUM_BINDINGS);
     appearance->bindings[appearance->binding_count++] =
         (lobe_binding){.name = name, .resource = resource, .sampler = sampler};
 }
 
-void appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits) {
+void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits) {
     assert(appearance->specialisation_count < FILTER_MAXIMUM_SPECIALISATIONS);
     appearance->specialisation[appearance->specialisation_count++] =
         (lobe_specialisation){id, bits};
 }
 
-void appearance_specialise_number(filtered_appearance *appearance, uint32_t id, float value) {
+void passes_appearance_specialise_number(filtered_appearance *appearance, uint32_t id,
+                                         float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    appearance_specialise(appearance, id, bits);
+    passes_appearance_specialise(appearance, id, bits);
 }

@@ -48,7 +48,7 @@ typedef struct filter_context {
     uint32_t environment_parts;    ///< of the work on its maps to do in this frame at most; 0: all
     const char *environment_cache; ///< folder of kept maps; NULL: none
     bool keeps_environment;        ///< adds to it
-    const lobe_log *log;
+    const lobe_host *host;
 } filter_context;
 
 struct lobe_filter {
@@ -71,13 +71,13 @@ struct lobe_filter {
 };
 
 /// All filters, ended by NULL: the one place that lists them (passes/filters/table.c).
-extern const lobe_filter *const filter_table[];
+extern const lobe_filter *const passes_filter_table[];
 
-double filter_setting(const filter_context *context, const char *knob);
+double passes_filter_setting(const filter_context *context, const char *knob);
 
-void appearance_bind(filtered_appearance *appearance, const char *name, lobe_resource resource,
-                     lobe_sampler sampler);
-void appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);
-void appearance_specialise_number(filtered_appearance *appearance, uint32_t id, float value);
+void passes_appearance_bind(filtered_appearance *appearance, const char *name,
+                            lobe_resource resource, lobe_sampler sampler);
+void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);
+void passes_appearance_specialise_number(filtered_appearance *appearance, uint32_t id, float value);
 
 #endif

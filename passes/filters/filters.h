@@ -4,13 +4,13 @@
 #include "passes/filters/filter.h"
 
 // One a file beside this one.
-extern const lobe_filter filter_direct;
-extern const lobe_filter filter_mipmap;
-extern const lobe_filter filter_toksvig;
-extern const lobe_filter filter_lean;
-extern const lobe_filter filter_leadr;
-extern const lobe_filter filter_lobes;
-extern const lobe_filter filter_moments;
-extern const lobe_filter filter_reference;
+extern const lobe_filter passes_filter_direct;
+extern const lobe_filter passes_filter_mipmap;
+extern const lobe_filter passes_filter_toksvig;
+extern const lobe_filter passes_filter_lean;
+extern const lobe_filter passes_filter_leadr;
+extern const lobe_filter passes_filter_lobes;
+extern const lobe_filter passes_filter_moments;
+extern const lobe_filter passes_filter_reference;
 
 #endif

@@ -25,16 +25,22 @@ static const lobe_knob height_knob = {
     .initial = 1,
 };
 static const lobe_knob *const knobs[] = {
-    &grid_knob, &height_knob, &knob_probes, &knob_bias, &knob_curvature, &knob_storage, NULL,
+    &grid_knob,
+    &height_knob,
+    &passes_knob_probes,
+    &passes_knob_bias,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
-    slope_moments_build(context, instance, appearance);
-    size_t grid = (size_t)filter_setting(context, "grid");
-    appearance_specialise(appearance, SPECIALISE_GRID, 3 + 2 * (uint32_t)grid);
-    appearance_specialise_number(appearance, SPECIALISE_REACH, reaches[grid]);
-    appearance_specialise_number(appearance, SPECIALISE_HEIGHT,
-                                 (float)filter_setting(context, "height"));
+    passes_slope_moments_build(context, instance, appearance);
+    size_t grid = (size_t)passes_filter_setting(context, "grid");
+    passes_appearance_specialise(appearance, SPECIALISE_GRID, 3 + 2 * (uint32_t)grid);
+    passes_appearance_specialise_number(appearance, SPECIALISE_REACH, reaches[grid]);
+    passes_appearance_specialise_number(appearance, SPECIALISE_HEIGHT,
+                                        (float)passes_filter_setting(context, "height"));
 }
 
 static const char *ignores(const lobe_material *material) {
@@ -46,7 +52,7 @@ static const char *ignores(const lobe_material *material) {
     return NULL;
 }
 
-const lobe_filter filter_leadr = {
+const lobe_filter passes_filter_leadr = {
     .name = "leadr",
     .summary = "one anisotropic Beckmann lobe, masked and lit as displaced facets are",
     .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping",

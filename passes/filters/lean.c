@@ -2,8 +2,8 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/slope_moments.h"
 
-static const lobe_knob *const knobs[] = {&knob_probes, &knob_bias, &knob_curvature, &knob_storage,
-                                         NULL};
+static const lobe_knob *const knobs[] = {&passes_knob_probes, &passes_knob_bias,
+                                         &passes_knob_curvature, &passes_knob_storage, NULL};
 
 static const char *ignores(const lobe_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES && material->lobe_count > 1)
@@ -14,12 +14,12 @@ static const char *ignores(const lobe_material *material) {
     return NULL;
 }
 
-const lobe_filter filter_lean = {
+const lobe_filter passes_filter_lean = {
     .name = "lean",
     .summary = "one anisotropic Beckmann lobe, from moments of the maps' slopes",
     .paper = "Olano, Baker 2010, LEAN Mapping",
     .shading = "lean",
     .knobs = knobs,
-    .build = slope_moments_build,
+    .build = passes_slope_moments_build,
     .ignores = ignores,
 };

@@ -2,14 +2,14 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/parameter_averaging.h"
 
-static const lobe_knob *const knobs[] = {&knob_probes, &knob_bias, &knob_curvature, &knob_storage,
-                                         NULL};
+static const lobe_knob *const knobs[] = {&passes_knob_probes, &passes_knob_bias,
+                                         &passes_knob_curvature, &passes_knob_storage, NULL};
 
-const lobe_filter filter_mipmap = {
+const lobe_filter passes_filter_mipmap = {
     .name = "mipmap",
     .summary = "normals and widths averaged like colours: fast, and wrong",
     .paper = "Xu et al. 2017, section 5.2 (naive MIP-mapping)",
     .shading = "mipmap",
     .knobs = knobs,
-    .build = parameter_averaging_build,
+    .build = passes_parameter_averaging_build,
 };

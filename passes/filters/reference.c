@@ -1,6 +1,6 @@
 #include "passes/filters/filters.h"
 
-const lobe_filter filter_reference = {
+const lobe_filter passes_filter_reference = {
     .name = "reference",
     .summary = "the mean of many unfiltered samples: the truth, slowly",
     .paper = "",

@@ -130,13 +130,13 @@ static const lobe_knob *shared_knob(const lobe_filter *filter, size_t index) {
 
 size_t lobe_filter_count(void) {
     size_t count = 0;
-    while (filter_table[count])
+    while (passes_filter_table[count])
         ++count;
     return count;
 }
 
 const lobe_filter *lobe_filter_get(size_t index) {
-    return index < lobe_filter_count() ? filter_table[index] : NULL;
+    return index < lobe_filter_count() ? passes_filter_table[index] : NULL;
 }
 
 static void append(char *text, size_t size, const char *separator, const char *word) {
@@ -144,17 +144,17 @@ static void append(char *text, size_t size, const char *separator, const char *w
     snprintf(text + used, size - used, "%s%s", used ? separator : "", word);
 }
 
-lobe_result lobe_filter_find(const char *name, const lobe_log *log, const lobe_filter **filter) {
+lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe_filter **filter) {
     char names[512] = "";
-    for (size_t i = 0; filter_table[i]; ++i) {
-        if (strcmp(filter_table[i]->name, name) == 0) {
-            *filter = filter_table[i];
+    for (size_t i = 0; passes_filter_table[i]; ++i) {
+        if (strcmp(passes_filter_table[i]->name, name) == 0) {
+            *filter = passes_filter_table[i];
             return LOBE_OK;
         }
-        append(names, sizeof names, ", ", filter_table[i]->name);
+        append(names, sizeof names, ", ", passes_filter_table[i]->name);
     }
     *filter = NULL;
-    lobe_log_print(log, LOBE_LOG_ERROR, "no filter '%s'; there are %s", name, names);
+    lobe_host_log(host, LOBE_LOG_ERROR, "no filter '%s'; there are %s", name, names);
     return LOBE_ERROR_NOT_FOUND;
 }
 
@@ -210,17 +210,17 @@ static size_t find_knob(const lobe_filter *filter, const char *name, size_t leng
 }
 
 static lobe_result no_such_knob(const lobe_filter *filter, const char *assignment, size_t length,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     char names[512] = "";
     for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i)
         append(names, sizeof names, ", ", lobe_filter_knob(filter, i)->name);
-    lobe_log_print(log, LOBE_LOG_ERROR, "filter '%s' has no knob '%.*s'; it has %s", filter->name,
-                   (int)length, assignment, names);
+    lobe_host_log(host, LOBE_LOG_ERROR, "filter '%s' has no knob '%.*s'; it has %s", filter->name,
+                  (int)length, assignment, names);
     return LOBE_ERROR_NOT_FOUND;
 }
 
 static lobe_result set_choice(const lobe_knob *knob, const char *text, double *value,
-                              const lobe_log *log) {
+                              const lobe_host *host) {
     char choices[256] = "";
     for (size_t i = 0; knob->choices[i]; ++i) {
         if (strcmp(knob->choices[i], text) == 0) {
@@ -229,8 +229,8 @@ static lobe_result set_choice(const lobe_knob *knob, const char *text, double *v
         }
         append(choices, sizeof choices, ", ", knob->choices[i]);
     }
-    lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is one of %s", knob->name,
-                   text, choices);
+    lobe_host_log(host, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is one of %s", knob->name,
+                  text, choices);
     return LOBE_ERROR_INVALID_ARGUMENT;
 }
 
@@ -240,51 +240,51 @@ static bool allows(const lobe_knob *knob, double value) {
     return value >= knob->minimum && value <= knob->maximum && (!whole || value == floor(value));
 }
 
-static lobe_result refuse_number(const lobe_knob *knob, const char *text, const lobe_log *log) {
+static lobe_result refuse_number(const lobe_knob *knob, const char *text, const lobe_host *host) {
     bool whole = knob->kind != LOBE_KNOB_NUMBER;
-    lobe_log_print(log, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is a %s from %g to %g",
-                   knob->name, text, whole ? "whole number" : "number", knob->minimum,
-                   knob->maximum);
+    lobe_host_log(host, LOBE_LOG_ERROR, "knob '%s' cannot be '%s'; it is a %s from %g to %g",
+                  knob->name, text, whole ? "whole number" : "number", knob->minimum,
+                  knob->maximum);
     return LOBE_ERROR_INVALID_ARGUMENT;
 }
 
 static lobe_result set_number(const lobe_knob *knob, const char *text, double *value,
-                              const lobe_log *log) {
+                              const lobe_host *host) {
     char *end = NULL;
     double number = strtod(text, &end);
     if (*text == '\0' || *end != '\0' || !allows(knob, number))
-        return refuse_number(knob, text, log);
+        return refuse_number(knob, text, host);
     *value = number;
     return LOBE_OK;
 }
 
-lobe_result settings_check(const lobe_filter *filter, const lobe_settings *settings,
-                           const lobe_log *log) {
+lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings *settings,
+                                  const lobe_host *host) {
     for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
         const lobe_knob *knob = lobe_filter_knob(filter, i);
         char text[32];
         snprintf(text, sizeof text, "%g", settings->values[i]);
         if (!allows(knob, settings->values[i]))
-            return refuse_number(knob, text, log);
+            return refuse_number(knob, text, host);
     }
     return LOBE_OK;
 }
 
 lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
-                              const char *assignment, const lobe_log *log) {
+                              const char *assignment, const lobe_host *host) {
     const char *equals = strchr(assignment, '=');
     if (!equals) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "'%s' sets no knob; write NAME=VALUE", assignment);
+        lobe_host_log(host, LOBE_LOG_ERROR, "'%s' sets no knob; write NAME=VALUE", assignment);
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
     size_t length = (size_t)(equals - assignment);
     size_t index = find_knob(filter, assignment, length);
     const lobe_knob *knob = lobe_filter_knob(filter, index);
     if (!knob)
-        return no_such_knob(filter, assignment, length, log);
+        return no_such_knob(filter, assignment, length, host);
     double *value = &settings->values[index];
-    return knob->kind == LOBE_KNOB_CHOICE ? set_choice(knob, equals + 1, value, log)
-                                          : set_number(knob, equals + 1, value, log);
+    return knob->kind == LOBE_KNOB_CHOICE ? set_choice(knob, equals + 1, value, host)
+                                          : set_number(knob, equals + 1, value, host);
 }
 
 double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,

@@ -4,7 +4,7 @@
 #include <lobe/filter.h>
 
 /// Every value is one that its knob allows; else one line and LOBE_ERROR_INVALID_ARGUMENT.
-lobe_result settings_check(const lobe_filter *filter, const lobe_settings *settings,
-                           const lobe_log *log);
+lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings *settings,
+                                  const lobe_host *host);
 
 #endif

@@ -5,7 +5,7 @@
 
 /// Binds what shaders/maps/base_maps.glsl reads: a material's constants, normal and width map.
 /// `colours`: the shader reads colours and metal of the constants too, and depends on them.
-void base_maps_read(const filter_context *context, const device_material *material, bool colours,
-                    lobe_pass *pass);
+void passes_base_maps_read(const filter_context *context, const device_material *material,
+                           bool colours, lobe_pass *pass);
 
 #endif

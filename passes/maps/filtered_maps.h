@@ -5,18 +5,18 @@
 
 /// Adds what shaders/shading/filtered_maps.glsl reads: the colour maps of a material, filtered
 /// linearly (each image once for all materials), and the knobs of the footprint.
-void filtered_maps_build(const filter_context *context, uint32_t material,
-                         filtered_appearance *appearance);
+void passes_filtered_maps_build(const filter_context *context, uint32_t material,
+                                filtered_appearance *appearance);
 
 /// Size of the maps that lobes come from: the larger of the normal and the width map, in texels.
 /// False where the material has neither.
-bool lobe_map_extent(const device_material *material, uint32_t *width, uint32_t *height);
+bool passes_lobe_map_extent(const device_material *material, uint32_t *width, uint32_t *height);
 
 /// The storage format of filtered maps that the knob "storage" asks for.
-lobe_format filtered_map_format(const filter_context *context);
+lobe_format passes_filtered_map_format(const filter_context *context);
 
 /// Trilinear, wrapping as the material's map does.
-lobe_sampler filtered_map_sampler(const device_material *material, uint32_t map);
+lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32_t map);
 
 /// Knobs of all filters that read filtered maps: put them last in a filter's list.
 ///
@@ -26,12 +26,12 @@ lobe_sampler filtered_map_sampler(const device_material *material, uint32_t map)
 /// tablecloth 0.1365, 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
 ///
 /// curvature: 1 is the variance that the interpolated normals have under the pixel's box.
-extern const lobe_knob knob_probes, knob_bias, knob_curvature;
+extern const lobe_knob passes_knob_probes, passes_knob_bias, passes_knob_curvature;
 
 /// The format of maps of numbers that lie between 0 and 1, or are directions.
 /// float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs
 /// 6 % of kappa at 128 and half of it at 1000, where float32 loses 4e-5. In pictures: tablecloth
 /// (kappa 128) 1.3 % apart (relative L2), errors against the reference equal to three digits.
-extern const lobe_knob knob_storage;
+extern const lobe_knob passes_knob_storage;
 
 #endif

@@ -1,32 +1,32 @@
 #include "passes/maps/level_reduction.h"
 
-uint32_t half_extent(uint32_t size) {
+uint32_t passes_half_extent(uint32_t size) {
     return size > 1 ? size / 2 : 1;
 }
 
-uint32_t level_count(uint32_t width, uint32_t height) {
+uint32_t passes_level_count(uint32_t width, uint32_t height) {
     uint32_t count = 1;
     for (uint32_t size = width > height ? width : height; size > 1; size /= 2)
         ++count;
     return count;
 }
 
-uint64_t reduced_map_bytes(const reduced_map *map, lobe_format format) {
+uint64_t passes_reduced_map_bytes(const reduced_map *map, lobe_format format) {
     uint64_t texels = 0;
     uint32_t width = map->width, height = map->height;
     for (uint32_t level = 0; level < map->levels; ++level) {
         texels += (uint64_t)width * height;
-        width = half_extent(width);
-        height = half_extent(height);
+        width = passes_half_extent(width);
+        height = passes_half_extent(height);
     }
     return texels * map->layers * lobe_format_size(format);
 }
 
-reduced_map reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
-                                uint32_t width, uint32_t height, uint32_t layers) {
+reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
+                                       uint32_t width, uint32_t height, uint32_t layers) {
     reduced_map map = {
-        .width = half_extent(width), .height = half_extent(height), .layers = layers};
-    map.levels = level_count(map.width, map.height);
+        .width = passes_half_extent(width), .height = passes_half_extent(height), .layers = layers};
+    map.levels = passes_level_count(map.width, map.height);
     map.resource = lobe_graph_image(graph, &(lobe_image_description){.name = name,
                                                                      .format = format,
                                                                      .width = map.width,
@@ -71,7 +71,8 @@ static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_le
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){
                   .shader = tiled ? "maps/level_reduction_tiled.comp" : "maps/level_reduction.comp",
-                  .threads = {half_extent(source->width), half_extent(source->height), map->layers},
+                  .threads = {passes_half_extent(source->width), passes_half_extent(source->height),
+                              map->layers},
               });
     return tiled ? 3 : 1;
 }
@@ -82,19 +83,19 @@ static void reduce_all(lobe_graph *graph, reduced_map *map, source_level source,
         uint32_t count = reduce_step(graph, map, &source, first);
         first += count;
         for (; count > 0; --count) {
-            source.width = half_extent(source.width);
-            source.height = half_extent(source.height);
+            source.width = passes_half_extent(source.width);
+            source.height = passes_half_extent(source.height);
         }
         source.resource = map->resource;
         source.level = first - 1;
     }
 }
 
-void level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source, uint32_t width,
-                          uint32_t height) {
+void passes_level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source,
+                                 uint32_t width, uint32_t height) {
     reduce_all(graph, map, (source_level){source, 0, width, height}, 0);
 }
 
-void level_reduction(lobe_graph *graph, reduced_map *map) {
+void passes_level_reduction(lobe_graph *graph, reduced_map *map) {
     reduce_all(graph, map, (source_level){map->resource, 0, map->width, map->height}, 1);
 }

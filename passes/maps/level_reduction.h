@@ -12,21 +12,21 @@ typedef struct reduced_map {
 } reduced_map;
 
 /// Levels of a full chain: floor(log2(max(width, height))) + 1.
-uint32_t level_count(uint32_t width, uint32_t height);
+uint32_t passes_level_count(uint32_t width, uint32_t height);
 /// max(1, floor(size / 2)).
-uint32_t half_extent(uint32_t size);
+uint32_t passes_half_extent(uint32_t size);
 /// Bytes of all levels and layers.
-uint64_t reduced_map_bytes(const reduced_map *map, lobe_format format);
+uint64_t passes_reduced_map_bytes(const reduced_map *map, lobe_format format);
 
 /// Declares a retained map of full chain whose level 0 is half as large as `width` x `height`.
-reduced_map reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
-                                uint32_t width, uint32_t height, uint32_t layers);
+reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
+                                       uint32_t width, uint32_t height, uint32_t layers);
 
 /// Adds passes that fill level 0 and all others of `map` from level 0 of `source`, which is twice
 /// as large (`width` x `height`, of which `map` was declared).
-void level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source, uint32_t width,
-                          uint32_t height);
+void passes_level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source,
+                                 uint32_t width, uint32_t height);
 /// Adds passes that fill levels 1 and up of `map` from its level 0.
-void level_reduction(lobe_graph *graph, reduced_map *map);
+void passes_level_reduction(lobe_graph *graph, reduced_map *map);
 
 #endif

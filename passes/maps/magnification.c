@@ -9,7 +9,7 @@ static float nearest_depth(const filter_context *context, size_t index) {
     const lobe_instance *instance = &context->scene->scene->instances[index];
     const lobe_mesh *mesh = &context->scene->scene->meshes[instance->mesh];
     vec4 axis;
-    camera_axis(context->camera, axis);
+    passes_camera_axis(context->camera, axis);
     float nearest = INFINITY;
     for (int corner = 0; corner < 8; ++corner) {
         float depth = -axis[3];
@@ -50,8 +50,8 @@ static float stretch(const filter_context *context, size_t instance) {
     return sqrtf(sum);
 }
 
-bool may_be_magnified(const filter_context *context, uint32_t material, uint32_t map,
-                      uint32_t width, uint32_t height, double probes, double bias) {
+bool passes_may_be_magnified(const filter_context *context, uint32_t material, uint32_t map,
+                             uint32_t width, uint32_t height, double probes, double bias) {
     const device_scene *scene = context->scene;
     const lobe_texture_use *use = scene->materials[material].maps[map].use;
     double determinant = (double)use->transform[0][0] * use->transform[1][1] -

@@ -12,24 +12,24 @@ static double evaluate(const material_lobe *lobe, const double direction[3]) {
     return lobe->weight * kappa / (-2 * M_PI * expm1(-2 * kappa)) * exp(-0.5 * kappa * square);
 }
 
-double material_lobes_evaluate(const material_lobe *lobes, size_t count,
-                               const double direction[3]) {
+double passes_material_lobes_evaluate(const material_lobe *lobes, size_t count,
+                                      const double direction[3]) {
     double sum = 0;
     for (size_t i = 0; i < count; ++i)
         sum += evaluate(&lobes[i], direction);
     return sum;
 }
 
-double material_patch_evaluate(const material_patch *patch, const double direction[3]) {
-    return material_lobes_evaluate(patch->lobes, patch->count, direction);
+double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]) {
+    return passes_material_lobes_evaluate(patch->lobes, patch->count, direction);
 }
 
-bool material_patch_read(const lobe_scene *scene, const device_material *material, uint32_t index,
-                         material_patch *patch) {
+bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
+                                uint32_t index, material_patch *patch) {
     uint32_t width, height;
-    material_lobe_extent(material, &width, &height);
+    passes_material_lobe_extent(material, &width, &height);
     float corner[2];
-    sample_position(index, MATERIAL_PATCHES, corner);
+    passes_sample_position(index, MATERIAL_PATCHES, corner);
     uint32_t columns = width < MATERIAL_PATCH_EXTENT ? width : MATERIAL_PATCH_EXTENT;
     uint32_t rows = height < MATERIAL_PATCH_EXTENT ? height : MATERIAL_PATCH_EXTENT;
     uint32_t left = (uint32_t)(corner[0] * (float)(width - columns));
@@ -37,8 +37,8 @@ bool material_patch_read(const lobe_scene *scene, const device_material *materia
     patch->count = 0;
     for (uint32_t y = 0; y < rows; ++y) {
         for (uint32_t x = 0; x < columns; ++x) {
-            uint32_t count = material_lobes_read(scene, material, left + x, top + y,
-                                                 &patch->lobes[patch->count]);
+            uint32_t count = passes_material_lobes_read(scene, material, left + x, top + y,
+                                                        &patch->lobes[patch->count]);
             if (count == 0)
                 return false;
             patch->count += count;
@@ -49,14 +49,14 @@ bool material_patch_read(const lobe_scene *scene, const device_material *materia
     return true;
 }
 
-void material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]) {
+void passes_material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]) {
     const material_lobe *lobe = &patch->lobes[index * 7919u % patch->count];
     float position[2];
-    sample_position(index, MATERIAL_PATCH_DIRECTIONS, position);
+    passes_sample_position(index, MATERIAL_PATCH_DIRECTIONS, position);
     double angle = 2 * M_PI * position[1];
     // Of a narrow lobe, the inverse of its distribution in 1 - cos.
     double versine = fmin(-log1p(-0.999 * position[0]) / fmax(lobe->concentration, 1), 2);
     double sine = sqrt(versine * (2 - versine));
     double local[3] = {sine * cos(angle), sine * sin(angle), 1 - versine};
-    material_lobe_rotate(lobe->axis, local, direction);
+    passes_material_lobe_rotate(lobe->axis, local, direction);
 }

@@ -15,16 +15,17 @@ typedef struct material_patch {
 } material_patch;
 
 /// Patch `index` of MATERIAL_PATCHES. False where a map has a format that hosts do not read.
-bool material_patch_read(const lobe_scene *scene, const device_material *material, uint32_t index,
-                         material_patch *patch);
+bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
+                                uint32_t index, material_patch *patch);
 
 /// The sum of all lobes at a unit direction.
-double material_patch_evaluate(const material_patch *patch, const double direction[3]);
+double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]);
 /// The sum of some.
-double material_lobes_evaluate(const material_lobe *lobes, size_t count, const double direction[3]);
+double passes_material_lobes_evaluate(const material_lobe *lobes, size_t count,
+                                      const double direction[3]);
 
 /// Direction `index` of MATERIAL_PATCH_DIRECTIONS, drawn from one of the patch's lobes: the mean of
 /// error over truth at such directions is the error's integral.
-void material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]);
+void passes_material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]);
 
 #endif

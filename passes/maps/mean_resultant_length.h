@@ -3,6 +3,6 @@
 
 /// Length [0, 1) of the mean direction of a von Mises-Fisher distribution of concentration kappa
 /// [0, infinity): coth kappa - 1/kappa. (Mardia, Jupp 2000, section 9.3.)
-double mean_resultant_length(double kappa);
+double passes_mean_resultant_length(double kappa);
 
 #endif

@@ -6,11 +6,11 @@
 
 /// Adds the pass that averages normals and concentrations like colours, and the reduction of what
 /// it writes. The material has a normal or width map.
-reduced_map parameter_averaging(const filter_context *context, uint32_t material);
+reduced_map passes_parameter_averaging(const filter_context *context, uint32_t material);
 
 /// All that shaders/shading/averaged_maps.glsl reads: these maps where the material has any, and
-/// what filtered_maps_build adds. The `build` of a filter.
-void parameter_averaging_build(const filter_context *context, size_t instance,
-                               filtered_appearance *appearance);
+/// what passes_filtered_maps_build adds. The `build` of a filter.
+void passes_parameter_averaging_build(const filter_context *context, size_t instance,
+                                      filtered_appearance *appearance);
 
 #endif

@@ -25,8 +25,8 @@ static struct atlas_layout layout_of(const device_material *material) {
     return layout;
 }
 
-surface_atlas surface_atlas_draw(const filter_context *context, size_t instance, uint32_t width,
-                                 uint32_t height) {
+surface_atlas passes_surface_atlas_draw(const filter_context *context, size_t instance,
+                                        uint32_t width, uint32_t height) {
     lobe_graph *graph = context->graph;
     const device_instance *drawn = &context->scene->instances[instance];
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "surface_atlas");

@@ -13,7 +13,7 @@ typedef struct surface_atlas {
 /// Adds the raster pass that draws the atlas with `width` x `height` texels; retained, so that it
 /// runs when the mesh changes. Texture coordinates are those of the material's normal map, or of
 /// its width map (see device_instance.is_atlas).
-surface_atlas surface_atlas_draw(const filter_context *context, size_t instance, uint32_t width,
-                                 uint32_t height);
+surface_atlas passes_surface_atlas_draw(const filter_context *context, size_t instance,
+                                        uint32_t width, uint32_t height);
 
 #endif

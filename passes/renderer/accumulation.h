@@ -5,7 +5,7 @@
 
 /// Adds the pass that adds one sample of a picture to the sum of samples (both RGBA32_FLOAT);
 /// returns the new sum.
-lobe_resource accumulation(lobe_graph *graph, lobe_resource radiance, lobe_resource sum,
-                           uint32_t width, uint32_t height);
+lobe_resource passes_accumulation(lobe_graph *graph, lobe_resource radiance, lobe_resource sum,
+                                  uint32_t width, uint32_t height);
 
 #endif

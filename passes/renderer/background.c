@@ -11,7 +11,7 @@
 /// world. An orthographic camera sees the environment in one direction only.
 static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
     mat3 rotation;
-    camera_rotation(context->camera, rotation);
+    passes_camera_rotation(context->camera, rotation);
     float height = context->camera->vertical_field_of_view > 0
                        ? tanf(0.5f * context->camera->vertical_field_of_view)
                        : 0;
@@ -32,8 +32,8 @@ static void move_to_sample(const filter_context *context, const float sample[2],
         centre[i] -= x * right[i] + y * down[i];
 }
 
-void background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                const float sample[2], bool outputs) {
+void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
+                       const float sample[2], bool outputs) {
     const lobe_environment *environment = context->scene->scene->environment;
     vec3 centre, right, down;
     picture_axes(context, centre, right, down);

@@ -8,7 +8,7 @@
 /// `sample`: where in the pixel the sample lies, [0, 1] each. `outputs`: with arbitrary output
 /// variables. Where pixels are not supersampled, each shows the mean over as much of the
 /// environment as it covers.
-void background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                const float sample[2], bool outputs);
+void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
+                       const float sample[2], bool outputs);
 
 #endif

@@ -17,7 +17,7 @@ static void view_direction(const lobe_camera *camera, vec3 forward) {
     glm_vec3_normalize(forward);
 }
 
-void camera_rotation(const lobe_camera *camera, mat3 rotation) {
+void passes_camera_rotation(const lobe_camera *camera, mat3 rotation) {
     vec3 forward, up, right;
     view_direction(camera, forward);
     copy(camera->up, up);
@@ -36,7 +36,7 @@ void camera_rotation(const lobe_camera *camera, mat3 rotation) {
     }
 }
 
-void camera_eye(const lobe_camera *camera, vec4 eye) {
+void passes_camera_eye(const lobe_camera *camera, vec4 eye) {
     copy(camera->eye, eye);
     eye[3] = 1;
     if (camera->vertical_field_of_view > 0)
@@ -46,7 +46,7 @@ void camera_eye(const lobe_camera *camera, vec4 eye) {
     eye[3] = 0;
 }
 
-void camera_axis(const lobe_camera *camera, vec4 axis) {
+void passes_camera_axis(const lobe_camera *camera, vec4 axis) {
     vec3 eye;
     copy(camera->eye, eye);
     view_direction(camera, axis);
@@ -56,7 +56,7 @@ void camera_axis(const lobe_camera *camera, vec4 axis) {
 /// Distance along the view of the farthest corner of the bounds.
 static float farthest(const lobe_camera *camera, const float minimum[3], const float maximum[3]) {
     vec4 axis;
-    camera_axis(camera, axis);
+    passes_camera_axis(camera, axis);
     float distance = -axis[3];
     for (int i = 0; i < 3; ++i)
         distance += axis[i] * (axis[i] > 0 ? maximum[i] : minimum[i]);
@@ -83,9 +83,9 @@ static void orthographic(const lobe_camera *camera, float aspect, float far_plan
     projection[3][2] = 1 + camera->near_plane / depth;
 }
 
-void camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
-                       const float sample[2], const float minimum[3], const float maximum[3],
-                       mat4 world_to_clip) {
+void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
+                              const float sample[2], const float minimum[3], const float maximum[3],
+                              mat4 world_to_clip) {
     float aspect = (float)width / (float)height;
     mat4 projection, shift, view;
     if (camera->vertical_field_of_view > 0)
@@ -97,7 +97,7 @@ void camera_projection(const lobe_camera *camera, uint32_t width, uint32_t heigh
     shift[3][0] = (1 - 2 * sample[0]) / (float)width;
     shift[3][1] = (1 - 2 * sample[1]) / (float)height;
     mat3 rotation;
-    camera_rotation(camera, rotation);
+    passes_camera_rotation(camera, rotation);
     glm_mat4_identity(view);
     glm_mat4_ins3(rotation, view);
     vec3 eye, moved;

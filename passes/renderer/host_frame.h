@@ -8,23 +8,23 @@
 /// What a host has a part in: its images, its passes, its submission.
 
 /// Whether images are delivered in host memory.
-bool host_frame_delivers(const lobe_render_parameters *parameters);
+bool passes_host_frame_delivers(const lobe_render_parameters *parameters);
 
 /// Brings the images of the host's target into the graph; `imported` is all zero without one.
 /// LOBE_ERROR_INVALID_ARGUMENT: no radiance, or another extent than asked for. What else is wrong
 /// with an image stays in the graph.
-lobe_result host_frame_import(lobe_graph *graph, const lobe_render_parameters *parameters,
-                              const lobe_log *log, shading_targets *imported);
+lobe_result passes_host_frame_import(lobe_graph *graph, const lobe_render_parameters *parameters,
+                                     const lobe_host *host, shading_targets *imported);
 /// Puts them in the place of those declared.
-void host_frame_replace(const shading_targets *imported, shading_targets *targets);
+void passes_host_frame_replace(const shading_targets *imported, shading_targets *targets);
 
 /// Lets the host add its passes.
-void host_frame_before(lobe_graph *graph, const lobe_render_parameters *parameters,
-                       shading_targets *targets);
-void host_frame_after(lobe_graph *graph, const lobe_render_parameters *parameters,
-                      shading_targets *targets);
+void passes_host_frame_before(lobe_graph *graph, const lobe_render_parameters *parameters,
+                              shading_targets *targets);
+void passes_host_frame_after(lobe_graph *graph, const lobe_render_parameters *parameters,
+                             shading_targets *targets);
 
 /// Executes the graph, or submits it as the host wants it.
-lobe_result host_frame_run(lobe_graph *graph, const lobe_render_parameters *parameters);
+lobe_result passes_host_frame_run(lobe_graph *graph, const lobe_render_parameters *parameters);
 
 #endif

@@ -13,32 +13,32 @@ static_assert(LOBE_DISTRIBUTION_BLINN_PHONG == DISTRIBUTION_BLINN_PHONG,
               "one list of distributions");
 static_assert(LOBE_DISTRIBUTION_VMF == DISTRIBUTION_VMF, "one list of distributions");
 
-void specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
+void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
     assert(list->count < MAXIMUM_SPECIALISATIONS);
     list->items[list->count++] = (lobe_specialisation){id, bits};
 }
 
-void specialise_number(specialisation_list *list, uint32_t id, float value) {
+void passes_specialise_number(specialisation_list *list, uint32_t id, float value) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    specialise(list, id, bits);
+    passes_specialise(list, id, bits);
 }
 
 static bool any(const float colour[3]) {
     return colour[0] > 0 || colour[1] > 0 || colour[2] > 0;
 }
 
-void material_specialise(const device_material *material, specialisation_list *list) {
+void passes_material_specialise(const device_material *material, specialisation_list *list) {
     const lobe_material *source = material->material;
     bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
-    specialise(list, SPECIALISE_MODEL, source->model);
-    specialise(list, SPECIALISE_DISTRIBUTION, source->distribution);
-    specialise(list, SPECIALISE_LOBE_COUNT, microfacet ? 1 : source->lobe_count);
-    specialise(list, SPECIALISE_MAPS, material->map_bits);
-    specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
-    specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));
-    specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
-    specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);
-    specialise(list, SPECIALISE_METALLIC_MAP, material->metallic_varies);
-    specialise(list, SPECIALISE_EMISSION, any(source->emissive));
+    passes_specialise(list, SPECIALISE_MODEL, source->model);
+    passes_specialise(list, SPECIALISE_DISTRIBUTION, source->distribution);
+    passes_specialise(list, SPECIALISE_LOBE_COUNT, microfacet ? 1 : source->lobe_count);
+    passes_specialise(list, SPECIALISE_MAPS, material->map_bits);
+    passes_specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
+    passes_specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));
+    passes_specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
+    passes_specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);
+    passes_specialise(list, SPECIALISE_METALLIC_MAP, material->metallic_varies);
+    passes_specialise(list, SPECIALISE_EMISSION, any(source->emissive));
 }

@@ -20,8 +20,8 @@ static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name,
     return time;
 }
 
-bool pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
-                    const lobe_allocator *allocator) {
+bool passes_pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
+                           const lobe_allocator *allocator) {
     frame->milliseconds += report->milliseconds;
     frame->host_milliseconds += report->host_milliseconds;
     ++frame->submissions;

@@ -1,6 +1,6 @@
 #include "passes/renderer/picture_drawing.h"
 
-void picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets) {
+void passes_picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets) {
     const size_t size = (size_t)targets->width * targets->height * 4 * sizeof *texels;
     const lobe_binding picture = {.name = "picture_block",
                                   .resource = lobe_graph_upload(graph, "picture", texels, size)};

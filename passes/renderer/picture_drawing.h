@@ -6,6 +6,6 @@
 /// Adds the pass that draws a finished picture, as large as the targets, into their radiance: over
 /// what that holds, where it is to be kept. `texels`: width * height of RGBA, radiance times
 /// coverage and coverage; copied.
-void picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets);
+void passes_picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets);
 
 #endif

@@ -18,7 +18,7 @@
 
 struct lobe_renderer {
     lobe_device *device;
-    lobe_log log;
+    lobe_host host;
     lobe_graph *graph;
     device_scene *scene;
     const lobe_filter *warned; ///< the filter whose limits were told last
@@ -40,18 +40,18 @@ typedef struct rendering {
     bool without_background; ///< the reference is laid over what the host drew
 } rendering;
 
-lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
+lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
                                  lobe_renderer **renderer) {
     const lobe_allocator *allocator = lobe_device_allocator(device);
     *renderer = lobe_allocate(allocator, 1, sizeof **renderer);
     if (!*renderer) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "renderer: out of memory");
+        lobe_host_log(host, LOBE_LOG_ERROR, "renderer: out of memory");
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     (*renderer)->device = device;
-    if (log)
-        (*renderer)->log = *log;
-    (*renderer)->log.allocator = allocator;
+    if (host)
+        (*renderer)->host = *host;
+    (*renderer)->host.allocator = allocator;
     lobe_result result = lobe_graph_create(device, &(*renderer)->graph);
     if (result != LOBE_OK)
         lobe_renderer_destroy(renderer);
@@ -59,13 +59,13 @@ lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
 }
 
 static void forget_scene(lobe_renderer *renderer) {
-    device_scene_destroy(&renderer->scene);
+    passes_device_scene_destroy(&renderer->scene);
     lobe_release(renderer->appearances);
     lobe_release(renderer->filtered_images);
     renderer->appearances = NULL;
     renderer->filtered_images = NULL;
     renderer->warned = NULL;
-    environment_light_forget(&renderer->environment);
+    passes_environment_light_forget(&renderer->environment);
 }
 
 void lobe_renderer_destroy(lobe_renderer **renderer) {
@@ -84,30 +84,30 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     lobe_result result = lobe_graph_create(renderer->device, &renderer->graph);
     if (result != LOBE_OK || !scene)
         return result;
-    result = device_scene_create(renderer->device, scene, &renderer->log, &renderer->scene);
+    result = passes_device_scene_create(renderer->device, scene, &renderer->host, &renderer->scene);
     if (result != LOBE_OK)
         return result;
-    renderer->appearances = lobe_allocate(renderer->log.allocator, scene->instance_count,
+    renderer->appearances = lobe_allocate(renderer->host.allocator, scene->instance_count,
                                           sizeof *renderer->appearances);
-    renderer->filtered_images = lobe_allocate(renderer->log.allocator, scene->image_count + 1,
+    renderer->filtered_images = lobe_allocate(renderer->host.allocator, scene->image_count + 1,
                                               sizeof *renderer->filtered_images);
     if (renderer->appearances && renderer->filtered_images)
         return LOBE_OK;
-    lobe_log_print(&renderer->log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
+    lobe_host_log(&renderer->host, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
     forget_scene(renderer);
     return LOBE_ERROR_OUT_OF_MEMORY;
 }
 
 lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes) {
     if (!renderer->scene)
-        return lobe_log_fail(&renderer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "update: no scene is set");
+        return lobe_host_fail(&renderer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "update: no scene is set");
     lobe_result result =
-        device_scene_update(renderer->device, renderer->scene, changes, &renderer->log);
+        passes_device_scene_update(renderer->device, renderer->scene, changes, &renderer->host);
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->warned = NULL;
     if (result == LOBE_OK && changes->environment)
-        environment_light_change(&renderer->environment);
+        passes_environment_light_change(&renderer->environment);
     if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
         result != LOBE_ERROR_MALFORMED)
         forget_scene(renderer);
@@ -137,9 +137,9 @@ static void warn_of_limits(rendering *r) {
     for (size_t i = 0; i < scene->material_count; ++i) {
         const char *limit = filter->ignores(&scene->materials[i]);
         if (limit)
-            lobe_log_print(&r->renderer->log, LOBE_LOG_WARNING,
-                           "%s: material '%s', filter '%s': %s", scene->name,
-                           scene->materials[i].name, filter->name, limit);
+            lobe_host_log(&r->renderer->host, LOBE_LOG_WARNING,
+                          "%s: material '%s', filter '%s': %s", scene->name,
+                          scene->materials[i].name, filter->name, limit);
     }
     r->renderer->warned = filter;
 }
@@ -186,39 +186,40 @@ static lobe_result take_image(const rendering *r, lobe_resource resource, lobe_f
                               lobe_image *image) {
     size_t size = 0;
     const void *data = lobe_graph_data(r->renderer->graph, resource, &size);
-    lobe_result result = lobe_image_allocate(image, format, r->width, r->height, &r->renderer->log);
+    lobe_result result =
+        lobe_image_allocate(image, format, r->width, r->height, &r->renderer->host);
     if (result != LOBE_OK)
         return result;
     // Passes of the host may have put another image here.
     if (!data || size != (size_t)r->width * r->height * lobe_format_size(format))
-        return lobe_log_fail(&r->renderer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "render: an image to deliver has another extent or format than %ux%u "
-                             "%s",
-                             r->width, r->height, lobe_format_name(format));
+        return lobe_host_fail(&r->renderer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "render: an image to deliver has another extent or format than %ux%u "
+                              "%s",
+                              r->width, r->height, lobe_format_name(format));
     memcpy(image->texels, data, size);
     return LOBE_OK;
 }
 
 static void want(const rendering *r, lobe_resource resource) {
-    if (!host_frame_delivers(r->parameters))
+    if (!passes_host_frame_delivers(r->parameters))
         lobe_graph_output(r->renderer->graph, resource);
     else
         lobe_graph_read_back(r->renderer->graph, resource, (lobe_range){0});
 }
 
 static lobe_result out_of_memory(const rendering *r) {
-    lobe_log_print(&r->renderer->log, LOBE_LOG_ERROR, "%s: out of memory",
-                   r->context.scene->scene->name);
+    lobe_host_log(&r->renderer->host, LOBE_LOG_ERROR, "%s: out of memory",
+                  r->context.scene->scene->name);
     return LOBE_ERROR_OUT_OF_MEMORY;
 }
 
 static lobe_result execute(rendering *r, lobe_frame *frame) {
-    lobe_result result = host_frame_run(r->renderer->graph, r->parameters);
+    lobe_result result = passes_host_frame_run(r->renderer->graph, r->parameters);
     if (result != LOBE_OK || r->parameters->submission)
         return result;
-    environment_light_keep(&r->context);
-    return pass_times_add(frame, lobe_graph_describe(r->renderer->graph),
-                          r->renderer->log.allocator)
+    passes_environment_light_save(&r->context);
+    return passes_pass_times_add(frame, lobe_graph_describe(r->renderer->graph),
+                                 r->renderer->host.allocator)
                ? LOBE_OK
                : out_of_memory(r);
 }
@@ -229,7 +230,7 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
 /// Into the host's images where it lends some, and in their extent.
 static lobe_result import_target(rendering *r, shading_targets *imported) {
     lobe_result result =
-        host_frame_import(r->renderer->graph, r->parameters, r->context.log, imported);
+        passes_host_frame_import(r->renderer->graph, r->parameters, r->context.host, imported);
     if (result == LOBE_OK && imported->width > 0) {
         r->width = r->context.width = imported->width;
         r->height = r->context.height = imported->height;
@@ -241,12 +242,12 @@ static void draw_once(rendering *r, bool outputs, const shading_targets *importe
                       shading_targets *targets) {
     static const shading_sample centre = {.position = {0.5f, 0.5f}};
     lobe_graph *graph = r->renderer->graph;
-    *targets = shading_targets_declare(graph, r->width, r->height, outputs);
-    host_frame_replace(imported, targets);
-    host_frame_before(graph, r->parameters, targets);
-    shading_light light = shading_light_prepare(&r->context);
-    shading(&r->context, r->renderer->appearances, &light, &centre, targets);
-    host_frame_after(graph, r->parameters, targets);
+    *targets = passes_shading_targets_declare(graph, r->width, r->height, outputs);
+    passes_host_frame_replace(imported, targets);
+    passes_host_frame_before(graph, r->parameters, targets);
+    shading_light light = passes_shading_light_prepare(&r->context);
+    passes_shading(&r->context, r->renderer->appearances, &light, &centre, targets);
+    passes_host_frame_after(graph, r->parameters, targets);
 }
 
 static lobe_result take_images(const rendering *r, bool outputs, const shading_targets *targets,
@@ -281,7 +282,7 @@ static lobe_result render_once(rendering *r, bool outputs, lobe_frame *frame) {
         want(r, targets.lobes_level);
     }
     result = execute(r, frame);
-    return result == LOBE_OK && host_frame_delivers(r->parameters)
+    return result == LOBE_OK && passes_host_frame_delivers(r->parameters)
                ? take_images(r, outputs, &targets, frame)
                : result;
 }
@@ -291,9 +292,9 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     lobe_graph *graph = r->renderer->graph;
     lobe_graph_begin(graph);
     build_maps(r, frame);
-    shading_targets targets = shading_targets_declare(graph, r->width, r->height, false);
+    shading_targets targets = passes_shading_targets_declare(graph, r->width, r->height, false);
     targets.without_background = r->without_background;
-    shading_light light = shading_light_prepare(&r->context);
+    shading_light light = passes_shading_light_prepare(&r->context);
     lobe_resource sum =
         lobe_graph_image(graph, &(lobe_image_description){.name = "sum of samples",
                                                           .format = LOBE_FORMAT_RGBA32_FLOAT,
@@ -303,10 +304,10 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     sum = lobe_pass_fill(clear, sum, (lobe_range){0}, (float[4]){0});
     for (uint32_t i = 0; i < count; ++i) {
         shading_sample sample = {.number = first + i, .pattern = r->pattern};
-        sample_position(sample.number, r->samples, sample.position);
-        sample_position_in_pattern(r->pattern, sample.position);
-        shading(&r->context, r->renderer->appearances, &light, &sample, &targets);
-        sum = accumulation(graph, targets.radiance, sum, r->width, r->height);
+        passes_sample_position(sample.number, r->samples, sample.position);
+        passes_sample_position_in_pattern(r->pattern, sample.position);
+        passes_shading(&r->context, r->renderer->appearances, &light, &sample, &targets);
+        sum = passes_accumulation(graph, targets.radiance, sum, r->width, r->height);
     }
     want(r, sum);
     lobe_result result = execute(r, frame);
@@ -325,7 +326,7 @@ static bool progress(const rendering *r, double part) {
 
 static lobe_result take_mean(rendering *r, lobe_frame *frame) {
     lobe_result result = lobe_image_allocate(&frame->radiance, LOBE_FORMAT_RGBA32_FLOAT, r->width,
-                                             r->height, &r->renderer->log);
+                                             r->height, &r->renderer->host);
     float *texels = frame->radiance.texels;
     for (size_t i = 0; result == LOBE_OK && i < (size_t)r->width * r->height * 4; ++i)
         texels[i] = (float)(r->sum[i] / r->samples);
@@ -335,7 +336,7 @@ static lobe_result take_mean(rendering *r, lobe_frame *frame) {
 static lobe_result render_reference(rendering *r, lobe_frame *frame) {
     lobe_result result = LOBE_OK;
     if (!r->parameters->discard) {
-        r->sum = lobe_allocate(r->renderer->log.allocator, (size_t)r->width * r->height,
+        r->sum = lobe_allocate(r->renderer->host.allocator, (size_t)r->width * r->height,
                                4 * sizeof *r->sum);
         if (!r->sum)
             return out_of_memory(r);
@@ -385,9 +386,9 @@ static lobe_result draw_mean(rendering *r, lobe_frame *frame) {
     if (result != LOBE_OK)
         return result;
     build_maps(r, frame);
-    (void)shading_light_prepare(&r->context);
-    host_frame_replace(&imported, &targets);
-    picture_drawing(graph, frame->radiance.texels, &targets);
+    (void)passes_shading_light_prepare(&r->context);
+    passes_host_frame_replace(&imported, &targets);
+    passes_picture_drawing(graph, frame->radiance.texels, &targets);
     lobe_graph_output(graph, targets.radiance);
     lobe_image_free(&frame->radiance);
     return execute(r, frame);
@@ -420,8 +421,8 @@ static lobe_result render(rendering *r, lobe_frame *frame) {
 // ---------------------------------------------------------------------------------------------
 // Preparation
 
-static lobe_result refuse(const lobe_log *log, lobe_result result, const char *why) {
-    lobe_log_print(log, LOBE_LOG_ERROR, "render: %s", why);
+static lobe_result refuse(const lobe_host *host, lobe_result result, const char *why) {
+    lobe_host_log(host, LOBE_LOG_ERROR, "render: %s", why);
     return result;
 }
 
@@ -433,21 +434,21 @@ static bool asks_for_one_submission(const lobe_render_parameters *parameters) {
 }
 
 static lobe_result check(const rendering *r) {
-    const lobe_log *log = &r->renderer->log;
+    const lobe_host *host = &r->renderer->host;
     uint32_t limit = lobe_device_describe(r->renderer->device)->maximum_image_extent;
     if (!r->renderer->scene)
-        return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set");
+        return refuse(host, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set");
     if (r->parameters->filter && lobe_filter_supersamples(r->parameters->filter) &&
         asks_for_one_submission(r->parameters))
-        return refuse(log, LOBE_ERROR_UNSUPPORTED,
+        return refuse(host, LOBE_ERROR_UNSUPPORTED,
                       "the reference takes many submissions, of which the last alone draws into "
                       "the target's radiance: there is no depth and no pass of the host's in it");
     if (r->samples > LOBE_MAXIMUM_SAMPLES)
-        return refuse(log, LOBE_ERROR_INVALID_ARGUMENT, "more than 4096 samples a pixel");
+        return refuse(host, LOBE_ERROR_INVALID_ARGUMENT, "more than 4096 samples a pixel");
     if (r->width > limit || r->height > limit) {
-        lobe_log_print(log, LOBE_LOG_ERROR,
-                       "render: %ux%u pixels are more than the device's limit of %ux%u", r->width,
-                       r->height, limit, limit);
+        lobe_host_log(host, LOBE_LOG_ERROR,
+                      "render: %ux%u pixels are more than the device's limit of %ux%u", r->width,
+                      r->height, limit, limit);
         return LOBE_ERROR_LIMIT;
     }
     return LOBE_OK;
@@ -475,13 +476,13 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         return result;
     const lobe_filter *filter = parameters->filter;
     if (!filter)
-        result = lobe_filter_find("lobes", &renderer->log, &filter);
+        result = lobe_filter_find("lobes", &renderer->host, &filter);
     if (result != LOBE_OK)
         return result;
     lobe_settings_default(filter, &r->settings);
     if (parameters->settings)
         r->settings = *parameters->settings;
-    result = settings_check(filter, &r->settings, &renderer->log);
+    result = passes_settings_check(filter, &r->settings, &renderer->host);
     if (result != LOBE_OK)
         return result;
     r->images.resources = renderer->filtered_images;
@@ -498,7 +499,7 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .environment_parts = parameters->environment_parts,
         .environment_cache = parameters->environment_cache,
         .keeps_environment = keeps_environment(parameters),
-        .log = &renderer->log,
+        .host = &renderer->host,
     };
     return LOBE_OK;
 }
@@ -511,9 +512,10 @@ static lobe_result tend_environment(rendering *r) {
     if (state->reads_back)
         result = lobe_graph_wait(r->context.graph);
     if (result == LOBE_OK && r->context.keeps_environment)
-        environment_light_keep(&r->context);
+        passes_environment_light_save(&r->context);
     state->reads_back = false;
-    return result == LOBE_OK ? environment_light_look(&r->context, r->renderer->device) : result;
+    return result == LOBE_OK ? passes_environment_light_load(&r->context, r->renderer->device)
+                             : result;
 }
 
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,

@@ -10,7 +10,7 @@ static float radical_inverse(uint32_t index) {
     return result;
 }
 
-void sample_position(uint32_t index, uint32_t count, float position[2]) {
+void passes_sample_position(uint32_t index, uint32_t count, float position[2]) {
     // Half a stratum, so that the points' mean is the centre.
     uint32_t strata = 1;
     while (strata < count)
@@ -19,7 +19,7 @@ void sample_position(uint32_t index, uint32_t count, float position[2]) {
     position[1] = radical_inverse(index) + 0.5f / (float)strata;
 }
 
-void sample_position_in_pattern(uint32_t pattern, float position[2]) {
+void passes_sample_position_in_pattern(uint32_t pattern, float position[2]) {
     // Powers of the root of x^3 = x + 1, the plane's golden ratio: patterns keep apart.
     static const double step[2] = {0.7548776662466927, 0.5698402909980532};
     const float below_one = 0x1.fffffep-1f;

@@ -28,8 +28,8 @@ static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_fo
                                 .name = name, .format = format, .width = width, .height = height});
 }
 
-shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                        bool arbitrary_output_variables) {
+shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
+                                               bool arbitrary_output_variables) {
     shading_targets targets = {.width = width, .height = height};
     targets.radiance = declare_target(graph, "radiance", LOBE_FORMAT_RGBA32_FLOAT, width, height);
     targets.depth = declare_target(graph, "depth", LOBE_FORMAT_D32_FLOAT, width, height);
@@ -71,7 +71,7 @@ static lobe_resource upload_lights(const filter_context *context) {
                                             LOBE_LIGHT_SPOT};
     const lobe_scene *scene = context->scene->scene;
     size_t size = (scene->light_count ? scene->light_count : 1) * sizeof(struct light);
-    struct light *lights = lobe_allocate(lobe_log_allocator(context->log), 1, size);
+    struct light *lights = lobe_allocate(lobe_host_allocator(context->host), 1, size);
     if (!lights) {
         lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory for lights",
                         scene->name);
@@ -89,9 +89,9 @@ static lobe_resource upload_lights(const filter_context *context) {
     return resource;
 }
 
-shading_light shading_light_prepare(const filter_context *context) {
+shading_light passes_shading_light_prepare(const filter_context *context) {
     return (shading_light){.punctual = upload_lights(context),
-                           .environment = environment_light_build(context)};
+                           .environment = passes_environment_light_build(context)};
 }
 
 static lobe_resource upload_frame(const filter_context *context, const float sample[2],
@@ -103,18 +103,18 @@ static lobe_resource upload_frame(const filter_context *context, const float sam
         .spot_count = count_lights(scene, LOBE_LIGHT_SPOT),
     };
     mat4 matrix;
-    camera_projection(context->camera, targets->width, targets->height, sample, scene->minimum,
-                      scene->maximum, matrix);
+    passes_camera_projection(context->camera, targets->width, targets->height, sample,
+                             scene->minimum, scene->maximum, matrix);
     memcpy(frame.world_to_clip, matrix, sizeof matrix);
     mat3 rotation;
-    camera_rotation(context->camera, rotation);
+    passes_camera_rotation(context->camera, rotation);
     glm_mat4_identity(matrix);
     glm_mat4_ins3(rotation, matrix);
     memcpy(frame.world_to_camera, matrix, sizeof matrix);
     vec4 vector;
-    camera_eye(context->camera, vector);
+    passes_camera_eye(context->camera, vector);
     memcpy(frame.eye, vector, sizeof vector);
-    camera_axis(context->camera, vector);
+    passes_camera_axis(context->camera, vector);
     memcpy(frame.axis, vector, sizeof vector);
     return lobe_graph_upload(context->graph, "frame", &frame, sizeof frame);
 }
@@ -146,20 +146,23 @@ static void specialise_draw(const filter_context *context, const environment_lig
                             specialisation_list *list) {
     const lobe_scene *scene = context->scene->scene;
     const device_instance *drawn = &context->scene->instances[instance];
-    material_specialise(&context->scene->materials[drawn->material], list);
-    specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
-    specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
-    specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS,
-               count_lights(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
-    specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
-    specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
+    passes_material_specialise(&context->scene->materials[drawn->material], list);
+    passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
+    passes_specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
+    passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS,
+                      count_lights(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
+    passes_specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
+    passes_specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
     uint32_t lights = (uint32_t)scene->light_count;
-    specialise(list, SPECIALISE_LIGHTS_AT_ONCE, environment_light_lights_at_once(light, lights));
-    environment_light_specialise(light, context, list);
-    specialise(list, SPECIALISE_VIEW, (uint32_t)filter_setting(context, "view"));
-    specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
+    passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
+                      passes_environment_light_lights_at_once(light, lights));
+    passes_environment_light_specialise(light, context, list);
+    passes_specialise(list, SPECIALISE_VIEW, (uint32_t)passes_filter_setting(context, "view"));
+    passes_specialise(list, SPECIALISE_BASE_AS_LOBE,
+                      (uint32_t)passes_filter_setting(context, "base"));
     for (size_t i = 0; i < appearance->specialisation_count; ++i)
-        specialise(list, appearance->specialisation[i].id, appearance->specialisation[i].bits);
+        passes_specialise(list, appearance->specialisation[i].id,
+                          appearance->specialisation[i].bits);
 }
 
 static size_t bind_draw(const filter_context *context, const environment_light *light,
@@ -175,11 +178,11 @@ static size_t bind_draw(const filter_context *context, const environment_light *
     bindings[count++] = (lobe_binding){
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
     for (uint32_t map = 0; map < MAP_COUNT; ++map)
-        bindings[count++] =
-            (lobe_binding){.name = map_names[map],
-                           .resource = device_map_import(graph, context->scene, material, map),
-                           .sampler = device_map_sampler(material, map)};
-    bindings[count++] = environment_light_albedo(light, context, material->material);
+        bindings[count++] = (lobe_binding){
+            .name = map_names[map],
+            .resource = passes_device_map_import(graph, context->scene, material, map),
+            .sampler = passes_device_map_sampler(material, map)};
+    bindings[count++] = passes_environment_light_albedo(light, context, material->material);
     for (size_t i = 0; i < appearance->binding_count; ++i)
         bindings[count++] = appearance->bindings[i];
     return count;
@@ -220,18 +223,19 @@ static void draw_instance(const filter_context *context, const environment_light
               });
 }
 
-void shading(const filter_context *context, const filtered_appearance *appearances,
-             const shading_light *light, const shading_sample *sample, shading_targets *targets) {
+void passes_shading(const filter_context *context, const filtered_appearance *appearances,
+                    const shading_light *light, const shading_sample *sample,
+                    shading_targets *targets) {
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "shading");
     lobe_resource frame = upload_frame(context, sample->position, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
-    environment_light_read(&light->environment, context, pass, sample);
+    passes_environment_light_read(&light->environment, context, pass, sample);
     bool outputs = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
-        background(pass, context, light->environment.cube, sample->position, outputs);
+        passes_background(pass, context, light->environment.cube, sample->position, outputs);
     char fragment_shader[64];
     snprintf(fragment_shader, sizeof fragment_shader, "shading/shading_%s%s%s.frag",
              context->filter->shading, light->environment.present ? "_environment" : "",

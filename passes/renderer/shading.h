@@ -4,8 +4,8 @@
 #include "passes/environment/light.h"
 #include "passes/filters/filter.h"
 
-/// What the shading pass draws into. Images are declared by shading_targets_declare; each shading
-/// pass clears them and leaves new versions here.
+/// What the shading pass draws into. Images are declared by passes_shading_targets_declare; each
+/// shading pass clears them and leaves new versions here.
 typedef struct shading_targets {
     uint32_t width, height;
     lobe_resource radiance;     ///< RGBA32_FLOAT: linear RGB radiance, coverage
@@ -18,8 +18,8 @@ typedef struct shading_targets {
     bool without_background;
 } shading_targets;
 
-shading_targets shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                        bool arbitrary_output_variables);
+shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
+                                               bool arbitrary_output_variables);
 
 /// All that lights the scene, once for all shading passes of a frame.
 typedef struct shading_light {
@@ -27,10 +27,11 @@ typedef struct shading_light {
     environment_light environment;
 } shading_light;
 
-shading_light shading_light_prepare(const filter_context *context);
+shading_light passes_shading_light_prepare(const filter_context *context);
 
 /// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
-void shading(const filter_context *context, const filtered_appearance *appearances,
-             const shading_light *light, const shading_sample *sample, shading_targets *targets);
+void passes_shading(const filter_context *context, const filtered_appearance *appearances,
+                    const shading_light *light, const shading_sample *sample,
+                    shading_targets *targets);
 
 #endif

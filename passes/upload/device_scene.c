@@ -22,8 +22,8 @@ ONE_PLACE(tangent);
 ONE_PLACE(texture_coordinates);
 ONE_PLACE(colour);
 
-const lobe_texture_use *device_scene_map(const lobe_scene *scene, const lobe_material *material,
-                                         uint32_t map) {
+const lobe_texture_use *passes_device_scene_map(const lobe_scene *scene,
+                                                const lobe_material *material, uint32_t map) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_texture_use *use = NULL;
     switch (map) {
@@ -54,7 +54,7 @@ static float luminance(const float colour[3]) {
     return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
 }
 
-float material_lobe_share(const lobe_material *material, uint32_t lobe) {
+float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
     float sum = 0;
     for (uint32_t i = 0; i < material->lobe_count; ++i)
         sum += luminance(material->lobes[i].colour);
@@ -68,7 +68,7 @@ static void fill_lobes(const lobe_material *material, struct material_constants 
         memcpy(constants->lobe_direction[i], lobe->direction, sizeof lobe->direction);
         constants->lobe_direction[i][3] = lobe->width;
         memcpy(constants->lobe_colour[i], lobe->colour, sizeof lobe->colour);
-        constants->lobe_colour[i][3] = material_lobe_share(material, i);
+        constants->lobe_colour[i][3] = passes_material_lobe_share(material, i);
     }
 }
 
@@ -94,11 +94,11 @@ static void fill_constants(const device_material *material, struct material_cons
 }
 
 static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     if (result->images[index])
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
-    lobe_result status = scene_check_image(result->scene, (size_t)index, log);
+    lobe_result status = passes_scene_check_image(result->scene, (size_t)index, host);
     if (status != LOBE_OK)
         return status;
     return lobe_texture_create(
@@ -119,11 +119,11 @@ static bool lobe_widths_differ(const lobe_material *material) {
 /// Whether a metallic-roughness map has one metallic value; if so, gives it.
 static bool metallic_is_constant(const lobe_image *image, float *metallic) {
     float first[4], texel[4];
-    if (!image_texel(image, 0, 0, first))
+    if (!passes_image_texel(image, 0, 0, first))
         return false;
     for (uint32_t y = 0; y < image->height; ++y) {
         for (uint32_t x = 0; x < image->width; ++x) {
-            image_texel(image, x, y, texel);
+            passes_image_texel(image, x, y, texel);
             if (texel[2] != first[2])
                 return false;
         }
@@ -145,12 +145,13 @@ static void measure_metallic(const lobe_scene *scene, device_material *material)
 }
 
 static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
-                             const lobe_log *log) {
+                             const lobe_host *host) {
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = device_scene_map(result->scene, material->material, map);
+        const lobe_texture_use *use =
+            passes_device_scene_map(result->scene, material->material, map);
         if (!use)
             continue;
-        lobe_result status = upload_image(device, result, use->image, log);
+        lobe_result status = upload_image(device, result, use->image, host);
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
@@ -193,41 +194,43 @@ static lobe_result store_constants(lobe_device *device, device_material *materia
                                      : store(device, name, &constants, &material->map_constants);
 }
 
-lobe_result device_scene_upload_material(lobe_device *device, device_scene *scene, uint32_t index,
-                                         const lobe_log *log) {
+lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
+                                                uint32_t index, const lobe_host *host) {
     device_material *material = &scene->materials[index];
     // But for its buffers all is made anew.
     *material = (device_material){.material = &scene->scene->materials[index],
                                   .constants = material->constants,
                                   .map_constants = material->map_constants,
                                   .map_values = material->map_values};
-    lobe_result status = find_maps(device, scene, material, log);
+    lobe_result status = find_maps(device, scene, material, host);
     if (status != LOBE_OK)
         return status;
     measure_metallic(scene->scene, material);
     material->widths_differ = lobe_widths_differ(material->material);
     if (material->maps[MAP_NORMAL].use || material->maps[MAP_WIDTH].use)
-        material->subdivision = subdivision_choose(scene->scene, material);
+        material->subdivision = passes_subdivision_choose(scene->scene, material);
     return store_constants(device, material);
 }
 
 static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
-                                   const lobe_log *log) {
+                                   const lobe_host *host) {
     if (result->materials[index].constants)
         return LOBE_OK;
-    lobe_result status = scene_check_material(result->scene, index, log);
-    return status == LOBE_OK ? device_scene_upload_material(device, result, index, log) : status;
+    lobe_result status = passes_scene_check_material(result->scene, index, host);
+    return status == LOBE_OK ? passes_device_scene_upload_material(device, result, index, host)
+                             : status;
 }
 
 static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32_t index,
-                               const lobe_log *log) {
+                               const lobe_host *host) {
     if (result->vertices[index])
         return LOBE_OK;
-    lobe_result status = scene_check_mesh(result->scene, index, log);
-    return status == LOBE_OK ? device_scene_upload_mesh(device, result, index) : status;
+    lobe_result status = passes_scene_check_mesh(result->scene, index, host);
+    return status == LOBE_OK ? passes_device_scene_upload_mesh(device, result, index) : status;
 }
 
-lobe_result device_scene_upload_mesh(lobe_device *device, device_scene *scene, uint32_t index) {
+lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
+                                            uint32_t index) {
     const lobe_mesh *mesh = &scene->scene->meshes[index];
     lobe_result status = lobe_buffer_create(
         device,
@@ -237,7 +240,7 @@ lobe_result device_scene_upload_mesh(lobe_device *device, device_scene *scene, u
         &scene->vertices[index]);
     if (status != LOBE_OK)
         return status;
-    scene->densities[index] = mesh_density_measure(mesh);
+    scene->densities[index] = passes_mesh_density_measure(mesh);
     char name[128];
     snprintf(name, sizeof name, "indices of %s", mesh->name);
     return lobe_buffer_create(
@@ -299,18 +302,18 @@ static bool keeps_angles(const float transform[16]) {
            fabsf(dot(x, y)) <= slack && fabsf(dot(y, z)) <= slack && fabsf(dot(z, x)) <= slack;
 }
 
-lobe_result device_scene_check_instance(const lobe_scene *scene, size_t index,
-                                        const lobe_log *log) {
+lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
+                                               const lobe_host *host) {
     const lobe_instance *instance = &scene->instances[index];
     if (instance->mesh < scene->mesh_count && instance->material < scene->material_count)
         return LOBE_OK;
-    return lobe_log_fail(log, LOBE_ERROR_MALFORMED,
-                         "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
-                         index, instance->mesh, scene->mesh_count, instance->material,
-                         scene->material_count);
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                          "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
+                          index, instance->mesh, scene->mesh_count, instance->material,
+                          scene->material_count);
 }
 
-void device_scene_measure_instance(device_scene *scene, size_t index) {
+void passes_device_scene_measure_instance(device_scene *scene, size_t index) {
     const lobe_instance *source = &scene->scene->instances[index];
     const device_material *material = &scene->materials[source->material];
     const lobe_texture_use *use = material->maps[MAP_NORMAL].use ? material->maps[MAP_NORMAL].use
@@ -324,16 +327,16 @@ void device_scene_measure_instance(device_scene *scene, size_t index) {
     };
 }
 
-lobe_result device_scene_upload_instance(lobe_device *device, device_scene *scene, size_t index,
-                                         const lobe_log *log) {
+lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
+                                                size_t index, const lobe_host *host) {
     const lobe_instance *source = &scene->scene->instances[index];
-    lobe_result status = device_scene_check_instance(scene->scene, index, log);
+    lobe_result status = passes_device_scene_check_instance(scene->scene, index, host);
     if (status == LOBE_OK)
-        status = upload_mesh(device, scene, source->mesh, log);
+        status = upload_mesh(device, scene, source->mesh, host);
     if (status == LOBE_OK)
-        status = upload_material(device, scene, source->material, log);
+        status = upload_material(device, scene, source->material, host);
     if (status == LOBE_OK)
-        device_scene_measure_instance(scene, index);
+        passes_device_scene_measure_instance(scene, index);
     return status;
 }
 
@@ -344,7 +347,7 @@ static lobe_result upload_white(lobe_device *device, device_scene *result) {
                                &result->white);
 }
 
-lobe_result device_scene_upload_environment(lobe_device *device, device_scene *result) {
+lobe_result passes_device_scene_upload_environment(lobe_device *device, device_scene *result) {
     const lobe_environment *environment = result->scene->environment;
     if (!environment)
         return LOBE_OK;
@@ -371,8 +374,8 @@ static bool allocate_tables(device_scene *result) {
            result->densities && result->instances;
 }
 
-lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
-                                device_scene **result) {
+lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
+                                       const lobe_host *host, device_scene **result) {
     lobe_result status = LOBE_ERROR_OUT_OF_MEMORY;
     const lobe_allocator *allocator = lobe_device_allocator(device);
     *result = lobe_allocate(allocator, 1, sizeof **result);
@@ -381,29 +384,29 @@ lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, co
         (*result)->allocator = allocator;
     }
     if (!*result || !allocate_tables(*result)) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
         goto fail;
     }
     if (scene->instance_count == 0) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: there is nothing to draw", scene->name);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: there is nothing to draw", scene->name);
         status = LOBE_ERROR_MALFORMED;
         goto fail;
     }
     status = upload_white(device, *result);
     if (status == LOBE_OK)
-        status = scene_check_environment(scene, log);
+        status = passes_scene_check_environment(scene, host);
     if (status == LOBE_OK)
-        status = device_scene_upload_environment(device, *result);
+        status = passes_device_scene_upload_environment(device, *result);
     for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; ++i)
-        status = device_scene_upload_instance(device, *result, i, log);
+        status = passes_device_scene_upload_instance(device, *result, i, host);
     if (status == LOBE_OK)
         return LOBE_OK;
 fail:
-    device_scene_destroy(result);
+    passes_device_scene_destroy(result);
     return status;
 }
 
-void device_scene_destroy(device_scene **scene) {
+void passes_device_scene_destroy(device_scene **scene) {
     device_scene *s = scene ? *scene : NULL;
     if (!s)
         return;
@@ -429,8 +432,8 @@ void device_scene_destroy(device_scene **scene) {
     *scene = NULL;
 }
 
-lobe_resource device_map_import(lobe_graph *graph, const device_scene *scene,
-                                const device_material *material, uint32_t map) {
+lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
+                                       const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;
     return lobe_graph_import_texture(graph, use ? scene->images[use->image] : scene->white);
 }
@@ -446,7 +449,7 @@ static lobe_wrap_mode wrap_mode(lobe_scene_wrap wrap) {
     }
 }
 
-lobe_sampler device_map_sampler(const device_material *material, uint32_t map) {
+lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;
     if (!use)
         return (lobe_sampler){0};

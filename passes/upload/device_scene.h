@@ -58,23 +58,23 @@ typedef struct device_scene {
 } device_scene;
 
 /// Uploads. `scene` must live as long as the copy. Errors: as lobe_renderer_set_scene.
-lobe_result device_scene_create(lobe_device *device, const lobe_scene *scene, const lobe_log *log,
-                                device_scene **result);
+lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
+                                       const lobe_host *host, device_scene **result);
 /// Takes over what changed of the scene. Errors: as lobe_renderer_update_scene;
 /// LOBE_ERROR_MALFORMED and _INVALID_ARGUMENT are found before anything is changed, after others
 /// the copy is no more than good for being destroyed.
-lobe_result device_scene_update(lobe_device *device, device_scene *scene,
-                                const lobe_scene_changes *changes, const lobe_log *log);
+lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
+                                       const lobe_scene_changes *changes, const lobe_host *host);
 /// Clears the pointer; NULL is fine.
-void device_scene_destroy(device_scene **scene);
+void passes_device_scene_destroy(device_scene **scene);
 
 /// What part of a half-vector material's reflectance is one lobe's, by luminance [0, 1].
-float material_lobe_share(const lobe_material *material, uint32_t lobe);
+float passes_material_lobe_share(const lobe_material *material, uint32_t lobe);
 
 /// The texture of a material's map, or the white one.
-lobe_resource device_map_import(lobe_graph *graph, const device_scene *scene,
-                                const device_material *material, uint32_t map);
+lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
+                                       const device_material *material, uint32_t map);
 /// How a map's texels are read, levels apart.
-lobe_sampler device_map_sampler(const device_material *material, uint32_t map);
+lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map);
 
 #endif

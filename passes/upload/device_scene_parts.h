@@ -7,26 +7,28 @@
 /// part needs and the device lacks is uploaded, too.
 
 /// How a material uses a map (MAP_...); NULL: it has none, or the scene does not need it.
-const lobe_texture_use *device_scene_map(const lobe_scene *scene, const lobe_material *material,
-                                         uint32_t map);
+const lobe_texture_use *passes_device_scene_map(const lobe_scene *scene,
+                                                const lobe_material *material, uint32_t map);
 
 /// Describes a material from the scene and its maps, and stores its constants: in new buffers, or
 /// those it has. The material must have been checked.
-lobe_result device_scene_upload_material(lobe_device *device, device_scene *scene, uint32_t index,
-                                         const lobe_log *log);
+lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
+                                                uint32_t index, const lobe_host *host);
 
 /// Buffers of a mesh, which has none. It must have been checked.
-lobe_result device_scene_upload_mesh(lobe_device *device, device_scene *scene, uint32_t index);
+lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
+                                            uint32_t index);
 
 /// The texture of the scene's environment, if it has one and there is none yet.
-lobe_result device_scene_upload_environment(lobe_device *device, device_scene *scene);
+lobe_result passes_device_scene_upload_environment(lobe_device *device, device_scene *scene);
 
 /// LOBE_ERROR_MALFORMED: its mesh or its material does not exist.
-lobe_result device_scene_check_instance(const lobe_scene *scene, size_t index, const lobe_log *log);
+lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
+                                               const lobe_host *host);
 /// Checks and uploads what the instance needs and the device lacks, then measures it.
-lobe_result device_scene_upload_instance(lobe_device *device, device_scene *scene, size_t index,
-                                         const lobe_log *log);
+lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
+                                                size_t index, const lobe_host *host);
 /// What follows from its transform, its mesh and its maps.
-void device_scene_measure_instance(device_scene *scene, size_t index);
+void passes_device_scene_measure_instance(device_scene *scene, size_t index);
 
 #endif

@@ -7,7 +7,7 @@ typedef struct scene_update {
     lobe_device *device;
     device_scene *scene;
     const lobe_scene_changes *changes;
-    const lobe_log *log;
+    const lobe_host *host;
     bool *materials; ///< to be described again
     bool *instances; ///< to be measured again
 } scene_update;
@@ -19,9 +19,9 @@ static lobe_result check_indices(const scene_update *update, const char *what,
                                  const uint32_t *indices, size_t count, size_t limit) {
     for (size_t i = 0; i < count; ++i)
         if (indices[i] >= limit)
-            return lobe_log_fail(update->log, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "%s: %s %u of %zu cannot have changed", update->scene->scene->name,
-                                 what, indices[i], limit);
+            return lobe_host_fail(update->host, LOBE_ERROR_INVALID_ARGUMENT,
+                                  "%s: %s %u of %zu cannot have changed",
+                                  update->scene->scene->name, what, indices[i], limit);
     return LOBE_OK;
 }
 
@@ -45,11 +45,11 @@ static lobe_result check_all_indices(const scene_update *update) {
 /// The material, and those of its images that the device does not have yet.
 static lobe_result check_material(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
-    lobe_result result = scene_check_material(scene, index, update->log);
+    lobe_result result = passes_scene_check_material(scene, index, update->host);
     for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = device_scene_map(scene, &scene->materials[index], map);
+        const lobe_texture_use *use = passes_device_scene_map(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
-            result = scene_check_image(scene, (size_t)use->image, update->log);
+            result = passes_scene_check_image(scene, (size_t)use->image, update->host);
     }
     return result;
 }
@@ -57,12 +57,12 @@ static lobe_result check_material(const scene_update *update, uint32_t index) {
 /// The instance, and what it needs that the device does not have yet.
 static lobe_result check_instance(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
-    lobe_result result = device_scene_check_instance(scene, index, update->log);
+    lobe_result result = passes_device_scene_check_instance(scene, index, update->host);
     if (result != LOBE_OK)
         return result;
     uint32_t mesh = scene->instances[index].mesh, material = scene->instances[index].material;
     if (!update->scene->vertices[mesh])
-        result = scene_check_mesh(scene, mesh, update->log);
+        result = passes_scene_check_mesh(scene, mesh, update->host);
     if (result == LOBE_OK && !update->scene->materials[material].constants)
         result = check_material(update, material);
     return result;
@@ -74,17 +74,17 @@ static lobe_result check_content(const scene_update *update) {
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < changes->image_count; ++i)
         if (scene->images[changes->images[i]])
-            result = scene_check_image(scene->scene, changes->images[i], update->log);
+            result = passes_scene_check_image(scene->scene, changes->images[i], update->host);
     for (size_t i = 0; result == LOBE_OK && i < changes->material_count; ++i)
         if (scene->materials[changes->materials[i]].constants)
             result = check_material(update, changes->materials[i]);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
         if (scene->vertices[changes->meshes[i]])
-            result = scene_check_mesh(scene->scene, changes->meshes[i], update->log);
+            result = passes_scene_check_mesh(scene->scene, changes->meshes[i], update->host);
     for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; ++i)
         result = check_instance(update, changes->instances[i]);
     if (result == LOBE_OK && changes->environment)
-        result = scene_check_environment(scene->scene, update->log);
+        result = passes_scene_check_environment(scene->scene, update->host);
     return result;
 }
 
@@ -149,7 +149,7 @@ static lobe_result update_mesh(const scene_update *update, uint32_t index) {
         return LOBE_OK;
     lobe_buffer_destroy(&scene->vertices[index]);
     lobe_buffer_destroy(&scene->indices[index]);
-    return device_scene_upload_mesh(update->device, scene, index);
+    return passes_device_scene_upload_mesh(update->device, scene, index);
 }
 
 static lobe_result update_environment(const scene_update *update) {
@@ -159,7 +159,7 @@ static lobe_result update_environment(const scene_update *update) {
         lobe_texture_takes(scene->environment, &environment->image))
         return lobe_texture_update(scene->environment, &environment->image);
     lobe_texture_destroy(&scene->environment);
-    return device_scene_upload_environment(update->device, scene);
+    return passes_device_scene_upload_environment(update->device, scene);
 }
 
 static lobe_result apply(const scene_update *update) {
@@ -170,29 +170,30 @@ static lobe_result apply(const scene_update *update) {
         result = update_image(update, changes->images[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->material_count; ++i)
         if (update->materials[i])
-            result = device_scene_upload_material(update->device, update->scene, (uint32_t)i,
-                                                  update->log);
+            result = passes_device_scene_upload_material(update->device, update->scene, (uint32_t)i,
+                                                         update->host);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
         result = update_mesh(update, changes->meshes[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; ++i)
         if (update->instances[i])
-            result = device_scene_upload_instance(update->device, update->scene, i, update->log);
+            result =
+                passes_device_scene_upload_instance(update->device, update->scene, i, update->host);
     if (result == LOBE_OK && changes->environment)
         result = update_environment(update);
     return result;
 }
 
-lobe_result device_scene_update(lobe_device *device, device_scene *scene,
-                                const lobe_scene_changes *changes, const lobe_log *log) {
-    scene_update update = {.device = device, .scene = scene, .changes = changes, .log = log};
+lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
+                                       const lobe_scene_changes *changes, const lobe_host *host) {
+    scene_update update = {.device = device, .scene = scene, .changes = changes, .host = host};
     lobe_result result = check_all_indices(&update);
     if (result == LOBE_OK)
         result = check_content(&update);
     if (result != LOBE_OK)
         return result;
-    update.materials = lobe_allocate(lobe_log_allocator(log), scene->scene->material_count + 1,
+    update.materials = lobe_allocate(lobe_host_allocator(host), scene->scene->material_count + 1,
                                      sizeof *update.materials);
-    update.instances = lobe_allocate(lobe_log_allocator(log), scene->scene->instance_count + 1,
+    update.instances = lobe_allocate(lobe_host_allocator(host), scene->scene->instance_count + 1,
                                      sizeof *update.instances);
     if (update.materials && update.instances) {
         mark_materials(&update);
@@ -200,7 +201,7 @@ lobe_result device_scene_update(lobe_device *device, device_scene *scene,
         result = apply(&update);
     } else {
         result =
-            lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->scene->name);
+            lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->scene->name);
     }
     lobe_release(update.materials);
     lobe_release(update.instances);

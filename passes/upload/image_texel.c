@@ -34,7 +34,7 @@ static bool is_readable(lobe_format format) {
     }
 }
 
-bool image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
+bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
     if (!is_readable(image->format))
         return false;
     const unsigned char *texel = (const unsigned char *)image->texels +

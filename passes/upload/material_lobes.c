@@ -8,8 +8,8 @@
 static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,
                       uint32_t width, uint32_t height, float value[4]) {
     const lobe_image *image = &scene->images[map->use->image].image;
-    return image_texel(image, (uint32_t)((uint64_t)x * image->width / width),
-                       (uint32_t)((uint64_t)y * image->height / height), value);
+    return passes_image_texel(image, (uint32_t)((uint64_t)x * image->width / width),
+                              (uint32_t)((uint64_t)y * image->height / height), value);
 }
 
 static bool texel_normal(const lobe_scene *scene, const device_material *material, uint32_t x,
@@ -33,7 +33,7 @@ static bool texel_normal(const lobe_scene *scene, const device_material *materia
 static double convolved(lobe_distribution distribution, double kappa, double within) {
     if (distribution != LOBE_DISTRIBUTION_VMF)
         return kappa * within / (kappa + within);
-    double r = mean_resultant_length(kappa) * mean_resultant_length(within);
+    double r = passes_mean_resultant_length(kappa) * passes_mean_resultant_length(within);
     return r * (3 - r * r) / (1 - r * r);
 }
 
@@ -53,18 +53,20 @@ static double base_concentration(const lobe_material *material, uint32_t i, doub
     return fmin(within > 0 ? convolved(material->distribution, kappa, within) : kappa, 1e6);
 }
 
-void material_lobe_extent(const device_material *material, uint32_t *width, uint32_t *height) {
+void passes_material_lobe_extent(const device_material *material, uint32_t *width,
+                                 uint32_t *height) {
     const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
     *width = normal->width > widths->width ? normal->width : widths->width;
     *height = normal->height > widths->height ? normal->height : widths->height;
 }
 
-uint32_t material_lobes_read(const lobe_scene *scene, const device_material *material, uint32_t x,
-                             uint32_t y, material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
+uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
+                                    uint32_t x, uint32_t y,
+                                    material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
     const lobe_material *source = material->material;
     bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
     uint32_t width, height, count = microfacet ? 1 : source->lobe_count;
-    material_lobe_extent(material, &width, &height);
+    passes_material_lobe_extent(material, &width, &height);
     double normal[3];
     float widths[4] = {1, 1, 1, 1};
     if (!texel_normal(scene, material, x, y, width, height, normal) ||
@@ -75,14 +77,14 @@ uint32_t material_lobes_read(const lobe_scene *scene, const device_material *mat
         double pole[3] = {0, 0, 1};
         for (int axis = 0; !microfacet && axis < 3; ++axis)
             pole[axis] = source->lobes[i].direction[axis];
-        material_lobe_rotate(normal, pole, lobes[i].axis);
+        passes_material_lobe_rotate(normal, pole, lobes[i].axis);
         lobes[i].concentration = base_concentration(source, i, widths[microfacet ? 1 : 0]);
-        lobes[i].weight = microfacet ? 1 : material_lobe_share(source, i);
+        lobes[i].weight = microfacet ? 1 : passes_material_lobe_share(source, i);
     }
     return count;
 }
 
-void material_lobe_rotate(const double normal[3], const double local[3], double result[3]) {
+void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]) {
     double product = normal[0] * local[0] + normal[1] * local[1];
     double quotient = product / (1 + fmax(normal[2], -0.999999));
     result[0] = local[0] + normal[0] * (local[2] - quotient);

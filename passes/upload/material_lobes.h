@@ -12,14 +12,16 @@ typedef struct material_lobe {
 } material_lobe;
 
 /// Texels of the grid that the lobes come from: the larger of the normal and the width map.
-void material_lobe_extent(const device_material *material, uint32_t *width, uint32_t *height);
+void passes_material_lobe_extent(const device_material *material, uint32_t *width,
+                                 uint32_t *height);
 
 /// The lobes of a texel of that grid, at most LOBE_MATERIAL_MAXIMUM_LOBES; how many. 0 where a map
 /// has a format that hosts do not read.
-uint32_t material_lobes_read(const lobe_scene *scene, const device_material *material, uint32_t x,
-                             uint32_t y, material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
+uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
+                                    uint32_t x, uint32_t y,
+                                    material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
 
 /// As rotate_from_pole in shaders/lib/lobe/half_vector_lobe.glsl, above the equator.
-void material_lobe_rotate(const double normal[3], const double local[3], double result[3]);
+void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]);
 
 #endif

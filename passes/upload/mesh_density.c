@@ -21,7 +21,7 @@ static double coordinates_area(const lobe_scene_vertex *corners[3], int set) {
                       ((double)b[1] - a[1]) * ((double)c[0] - a[0]));
 }
 
-mesh_density mesh_density_measure(const lobe_mesh *mesh) {
+mesh_density passes_mesh_density_measure(const lobe_mesh *mesh) {
     mesh_density density = {{INFINITY, INFINITY}};
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         const lobe_scene_vertex *corners[3];

@@ -9,6 +9,6 @@ typedef struct mesh_density {
     float least[2];
 } mesh_density;
 
-mesh_density mesh_density_measure(const lobe_mesh *mesh);
+mesh_density passes_mesh_density_measure(const lobe_mesh *mesh);
 
 #endif

@@ -19,7 +19,7 @@ static uint32_t exponent_bits(lobe_format format) {
     }
 }
 
-lobe_result scene_check_image(const lobe_scene *scene, size_t index, const lobe_log *log) {
+lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_image *image = &scene->images[index].image;
     uint32_t exponent = exponent_bits(image->format);
     size_t channels = lobe_format_channels(image->format);
@@ -31,9 +31,9 @@ lobe_result scene_check_image(const lobe_scene *scene, size_t index, const lobe_
         if ((bits & exponent) != exponent)
             continue;
         size_t texel = i / channels;
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: image '%s': texel %zu, %zu is not finite",
-                       scene->name, scene->images[index].name, texel % image->width,
-                       texel / image->width);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: image '%s': texel %zu, %zu is not finite",
+                      scene->name, scene->images[index].name, texel % image->width,
+                      texel / image->width);
         return LOBE_ERROR_MALFORMED;
     }
     return LOBE_OK;
@@ -48,24 +48,24 @@ static bool all_finite(const lobe_scene_vertex *vertex) {
     return true;
 }
 
-lobe_result scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_log *log) {
+lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_mesh *mesh = &scene->meshes[index];
     if (mesh->vertex_count == 0 || mesh->index_count < 3) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s' has no triangles", scene->name,
-                       mesh->name);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s' has no triangles", scene->name,
+                      mesh->name);
         return LOBE_ERROR_MALFORMED;
     }
     for (size_t i = 0; i < mesh->index_count; ++i) {
         if (mesh->indices[i] >= mesh->vertex_count) {
-            lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
-                           scene->name, mesh->name, i, mesh->indices[i], mesh->vertex_count);
+            lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
+                          scene->name, mesh->name, i, mesh->indices[i], mesh->vertex_count);
             return LOBE_ERROR_MALFORMED;
         }
     }
     for (size_t i = 0; i < mesh->vertex_count; ++i) {
         if (!all_finite(&mesh->vertices[i])) {
-            lobe_log_print(log, LOBE_LOG_ERROR, "%s: mesh '%s': vertex %zu is not finite",
-                           scene->name, mesh->name, i);
+            lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': vertex %zu is not finite",
+                          scene->name, mesh->name, i);
             return LOBE_ERROR_MALFORMED;
         }
     }
@@ -73,24 +73,25 @@ lobe_result scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_l
 }
 
 static lobe_result check_texture(const lobe_scene *scene, const char *material,
-                                 const lobe_texture_use *use, const lobe_log *log) {
+                                 const lobe_texture_use *use, const lobe_host *host) {
     if (use->image < 0)
         return LOBE_OK;
     if ((size_t)use->image >= scene->image_count) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: material '%s' uses image %d of %zu", scene->name,
-                       material, use->image, scene->image_count);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: material '%s' uses image %d of %zu", scene->name,
+                      material, use->image, scene->image_count);
         return LOBE_ERROR_MALFORMED;
     }
     if (use->texture_coordinates > 1) {
-        lobe_log_print(log, LOBE_LOG_ERROR,
-                       "%s: material '%s' uses set %u of texture coordinates; there are 0 and 1",
-                       scene->name, material, use->texture_coordinates);
+        lobe_host_log(host, LOBE_LOG_ERROR,
+                      "%s: material '%s' uses set %u of texture coordinates; there are 0 and 1",
+                      scene->name, material, use->texture_coordinates);
         return LOBE_ERROR_MALFORMED;
     }
     return LOBE_OK;
 }
 
-lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lobe_log *log) {
+lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
+                                        const lobe_host *host) {
     const lobe_material *material = &scene->materials[index];
     const lobe_texture_use *uses[] = {
         &material->base_colour_map, &material->normal_map,
@@ -99,7 +100,7 @@ lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lo
         &material->height_map,
     };
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
-        lobe_result result = check_texture(scene, material->name, uses[i], log);
+        lobe_result result = check_texture(scene, material->name, uses[i], host);
         if (result != LOBE_OK)
             return result;
     }
@@ -108,8 +109,8 @@ lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lo
         (material->lobe_count >= 1 && material->lobe_count <= LOBE_MATERIAL_MAXIMUM_LOBES);
     if (counted)
         return LOBE_OK;
-    lobe_log_print(log, LOBE_LOG_ERROR, "%s: material '%s' has %u lobes; there may be 1 to %d",
-                   scene->name, material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
+    lobe_host_log(host, LOBE_LOG_ERROR, "%s: material '%s' has %u lobes; there may be 1 to %d",
+                  scene->name, material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
     return LOBE_ERROR_MALFORMED;
 }
 
@@ -136,11 +137,11 @@ static const char *fault_of_environment(const lobe_environment *environment) {
     return NULL;
 }
 
-lobe_result scene_check_environment(const lobe_scene *scene, const lobe_log *log) {
+lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_host *host) {
     const char *fault = scene->environment ? fault_of_environment(scene->environment) : NULL;
     if (!fault)
         return LOBE_OK;
-    lobe_log_print(log, LOBE_LOG_ERROR, "%s: environment '%s' %s", scene->name,
-                   scene->environment->name, fault);
+    lobe_host_log(host, LOBE_LOG_ERROR, "%s: environment '%s' %s", scene->name,
+                  scene->environment->name, fault);
     return LOBE_ERROR_MALFORMED;
 }

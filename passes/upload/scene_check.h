@@ -7,12 +7,13 @@
 /// show nonsense or worse. One line and LOBE_ERROR_MALFORMED for the first fault.
 
 /// Texels are finite.
-lobe_result scene_check_image(const lobe_scene *scene, size_t index, const lobe_log *log);
+lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host);
 /// There are triangles, of vertices that exist and are finite.
-lobe_result scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_log *log);
+lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_host *host);
 /// Counts and indices are in range.
-lobe_result scene_check_material(const lobe_scene *scene, size_t index, const lobe_log *log);
+lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
+                                        const lobe_host *host);
 /// Where there is one: texels are RGBA32_FLOAT, finite and not negative; its rotation is one.
-lobe_result scene_check_environment(const lobe_scene *scene, const lobe_log *log);
+lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_host *host);
 
 #endif

@@ -26,44 +26,46 @@ static bool is_absent(const char *path) {
     return access(path, F_OK) != 0 && errno != EACCES;
 }
 
-static lobe_result read_file(const asset_mesh *wanted, const char *path, const lobe_log *log,
+static lobe_result read_file(const asset_mesh *wanted, const char *path, const lobe_host *host,
                              uint8_t **bytes, size_t *size) {
     if (is_absent(path))
-        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND,
-                             "scene '%s': %s: no such file; the folder of assets must hold it (%s)",
-                             wanted->scene, path, HOW_TO_GIVE);
+        return lobe_host_fail(
+            host, LOBE_ERROR_NOT_FOUND,
+            "scene '%s': %s: no such file; the folder of assets must hold it (%s)", wanted->scene,
+            path, HOW_TO_GIVE);
     uint8_t *packed = NULL;
-    lobe_result status = lobe_file_read(path, NULL, log, &packed, size);
+    lobe_result status = lobe_file_read(path, NULL, host, &packed, size);
     *bytes = packed;
-    if (status || !gzip_recognise(packed, *size))
+    if (status || !third_party_gzip_recognise(packed, *size))
         return status;
     char message[GZIP_MESSAGE_SIZE];
-    library_memory memory = scene_library_memory(log);
-    bool done = gzip_unpack(packed, *size, MAXIMUM_UNPACKED, &memory, bytes, size, message);
+    library_memory memory = scenes_library_memory(host);
+    bool done =
+        third_party_gzip_unpack(packed, *size, MAXIMUM_UNPACKED, &memory, bytes, size, message);
     lobe_release(packed);
     const lobe_result failure = memory.failed ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_MALFORMED;
-    return done ? LOBE_OK : lobe_log_fail(log, failure, "%s: %s", path, message);
+    return done ? LOBE_OK : lobe_host_fail(host, failure, "%s: %s", path, message);
 }
 
 static lobe_result read_mesh(const char *path, const uint8_t *bytes, size_t size,
-                             const lobe_log *log, lobe_mesh *mesh) {
+                             const lobe_host *host, lobe_mesh *mesh) {
     bool is_ply =
         size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r');
-    return is_ply ? ply_read(bytes, size, path, log, mesh)
-                  : javascript_mesh_read((const char *)bytes, size, path, log, mesh);
+    return is_ply ? scenes_ply_read(bytes, size, path, host, mesh)
+                  : scenes_javascript_mesh_read((const char *)bytes, size, path, host, mesh);
 }
 
-static lobe_result load_file(const asset_mesh *wanted, const char *assets, const lobe_log *log,
+static lobe_result load_file(const asset_mesh *wanted, const char *assets, const lobe_host *host,
                              lobe_mesh *mesh) {
-    char *path = path_in_folder(assets, wanted->file, log);
+    char *path = scenes_path_in_folder(assets, wanted->file, host);
     uint8_t *bytes = NULL;
     size_t size = 0;
     if (!path)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory",
-                             wanted->scene);
-    lobe_result status = read_file(wanted, path, log, &bytes, &size);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory",
+                              wanted->scene);
+    lobe_result status = read_file(wanted, path, host, &bytes, &size);
     if (!status)
-        status = read_mesh(path, bytes, size, log, mesh);
+        status = read_mesh(path, bytes, size, host, mesh);
     lobe_release(bytes);
     lobe_release(path);
     return status;
@@ -71,7 +73,7 @@ static lobe_result load_file(const asset_mesh *wanted, const char *assets, const
 
 // A mesh that has an area may still be flat and lie: then its height cannot be changed.
 static void stand_up(const asset_mesh *wanted, lobe_mesh *mesh) {
-    mesh_compute_bounds(mesh);
+    scenes_mesh_compute_bounds(mesh);
     const float *low = mesh->minimum, *high = mesh->maximum;
     double height = (double)high[1] - low[1];
     double scale = height > 0 ? wanted->height / height : 1;
@@ -84,19 +86,19 @@ static void stand_up(const asset_mesh *wanted, lobe_mesh *mesh) {
         }
 }
 
-lobe_result asset_mesh_load(const asset_mesh *wanted, const char *assets, const lobe_log *log,
-                            lobe_mesh *mesh) {
+lobe_result scenes_asset_mesh_load(const asset_mesh *wanted, const char *assets,
+                                   const lobe_host *host, lobe_mesh *mesh) {
     *mesh = (lobe_mesh){0};
     if (!assets)
-        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND,
-                             "scene '%s': no folder of assets was given, which must hold %s (%s)",
-                             wanted->scene, wanted->file, HOW_TO_GIVE);
-    lobe_result status = load_file(wanted, assets, log, mesh);
+        return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
+                              "scene '%s': no folder of assets was given, which must hold %s (%s)",
+                              wanted->scene, wanted->file, HOW_TO_GIVE);
+    lobe_result status = load_file(wanted, assets, host, mesh);
     if (status)
         return status;
     stand_up(wanted, mesh);
-    status = box_projection_apply(mesh, wanted->tile, log);
+    status = scenes_box_projection_apply(mesh, wanted->tile, host);
     if (status)
-        mesh_free(mesh);
+        scenes_mesh_free(mesh);
     return status;
 }

@@ -1,7 +1,7 @@
 #ifndef SCENES_BUILTIN_ASSET_MESH_H
 #define SCENES_BUILTIN_ASSET_MESH_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -19,7 +19,7 @@ typedef struct asset_mesh {
 /// `assets`: the folder; NULL: none. On failure `mesh` is empty. Errors: LOBE_ERROR_NOT_FOUND (no
 /// folder, or it lacks the file; the line says how to give it), _READ, _MALFORMED, _UNSUPPORTED,
 /// _LIMIT, _OUT_OF_MEMORY.
-lobe_result asset_mesh_load(const asset_mesh *wanted, const char *assets, const lobe_log *log,
-                            lobe_mesh *mesh);
+lobe_result scenes_asset_mesh_load(const asset_mesh *wanted, const char *assets,
+                                   const lobe_host *host, lobe_mesh *mesh);
 
 #endif

@@ -155,10 +155,10 @@ static bool split_and_project(const lobe_allocator *allocator, lobe_mesh *mesh, 
     return done;
 }
 
-lobe_result box_projection_apply(lobe_mesh *mesh, double tile, const lobe_log *log) {
-    if (!split_and_project(lobe_log_allocator(log), mesh, tile))
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "mesh '%s': out of memory for texture coordinates", mesh->name);
+lobe_result scenes_box_projection_apply(lobe_mesh *mesh, double tile, const lobe_host *host) {
+    if (!split_and_project(lobe_host_allocator(host), mesh, tile))
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "mesh '%s': out of memory for texture coordinates", mesh->name);
     mesh->has_texture_coordinates[0] = true;
-    return mesh_compute_tangents(mesh, NULL, log);
+    return scenes_mesh_compute_tangents(mesh, NULL, host);
 }

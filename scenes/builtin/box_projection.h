@@ -1,7 +1,7 @@
 #ifndef SCENES_BUILTIN_BOX_PROJECTION_H
 #define SCENES_BUILTIN_BOX_PROJECTION_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -11,6 +11,6 @@
 /// and 2. No map is mirrored. Vertices between triangles of different axes are split: maps do not
 /// fit together there, as at the seams of clothing. The mesh must have normals; tangents are
 /// computed. LOBE_ERROR_OUT_OF_MEMORY leaves the mesh unspecified, to be freed.
-lobe_result box_projection_apply(lobe_mesh *mesh, double tile, const lobe_log *log);
+lobe_result scenes_box_projection_apply(lobe_mesh *mesh, double tile, const lobe_host *host);
 
 #endif

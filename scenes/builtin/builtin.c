@@ -7,28 +7,28 @@
 
 static const builtin_scene table[] = {
     {{"checkerboard", "a plane of two lobe widths in fine squares, seen into the distance", false},
-     builtin_checkerboard,
+     scenes_builtin_checkerboard,
      NULL},
     {{"bumps", "a plane of hemispherical bumps, each of its own metal and roughness", false},
-     builtin_bumps,
+     scenes_builtin_bumps,
      NULL},
     {{"tablecloth", "a draped cloth with two lobes at 45 degrees and a noise normal map", false},
-     builtin_tablecloth,
+     scenes_builtin_tablecloth,
      NULL},
     {{"pillow", "a cushion of brocade, woven of sharp silk one way and broad gold the other",
       false},
-     builtin_pillow,
+     scenes_builtin_pillow,
      NULL},
     {{"hall", "a colonnade of five materials: wet floor, masonry, marble, bronze and banners",
       false},
-     builtin_hall,
+     scenes_builtin_hall,
      NULL},
     {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true},
      NULL,
-     builtin_bunny},
+     scenes_builtin_bunny},
     {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true},
      NULL,
-     builtin_dragon},
+     scenes_builtin_dragon},
 };
 
 size_t lobe_builtin_scene_count(void) {
@@ -39,51 +39,51 @@ const lobe_builtin_scene *lobe_builtin_scene_get(size_t index) {
     return index < lobe_builtin_scene_count() ? &table[index].description : NULL;
 }
 
-const builtin_scene *builtin_scene_find(const char *name) {
+const builtin_scene *scenes_builtin_find(const char *name) {
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++)
         if (strcmp(table[i].description.name, name) == 0)
             return &table[i];
     return NULL;
 }
 
-lobe_result builtin_scene_assemble(const char *name, const builtin_step *steps, const lobe_log *log,
-                                   lobe_scene **scene) {
+lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
+                                    const lobe_host *host, lobe_scene **scene) {
     *scene = NULL;
-    lobe_result status = scene_allocate(name, log, scene);
+    lobe_result status = scenes_allocate(name, host, scene);
     for (; !status && *steps; steps++)
-        status = (*steps)(*scene, log);
+        status = (*steps)(*scene, host);
     if (!status)
-        status = scene_complete(*scene, log);
+        status = scenes_complete(*scene, host);
     if (status)
         lobe_scene_destroy(scene);
     return status;
 }
 
-lobe_result builtin_scene_assemble_asset(const asset_mesh *wanted, const char *assets,
-                                         const builtin_step *steps, const lobe_log *log,
-                                         lobe_scene **scene) {
+lobe_result scenes_builtin_assemble_asset(const asset_mesh *wanted, const char *assets,
+                                          const builtin_step *steps, const lobe_host *host,
+                                          lobe_scene **scene) {
     lobe_mesh mesh;
     *scene = NULL;
-    lobe_result status = asset_mesh_load(wanted, assets, log, &mesh);
+    lobe_result status = scenes_asset_mesh_load(wanted, assets, host, &mesh);
     if (!status)
-        status = scene_allocate(wanted->scene, log, scene);
+        status = scenes_allocate(wanted->scene, host, scene);
     for (; !status && *steps; steps++)
-        status = (*steps)(*scene, log);
+        status = (*steps)(*scene, host);
     if (!status)
-        status = scene_place_mesh(*scene, &mesh, 0, log);
+        status = scenes_place_mesh(*scene, &mesh, 0, host);
     if (!status)
-        status = scene_complete(*scene, log);
-    mesh_free(&mesh);
+        status = scenes_complete(*scene, host);
+    scenes_mesh_free(&mesh);
     if (status)
         lobe_scene_destroy(scene);
     return status;
 }
 
-lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lobe_log *log,
-                            int32_t *index) {
+lobe_result scenes_builtin_add_map(lobe_scene *scene, const builtin_map *map, const lobe_host *host,
+                                   int32_t *index) {
     lobe_image image;
     uint32_t added;
-    lobe_result status = lobe_image_allocate(&image, map->format, map->width, map->height, log);
+    lobe_result status = lobe_image_allocate(&image, map->format, map->width, map->height, host);
     if (status)
         return status;
     uint8_t *texel = image.texels;
@@ -92,21 +92,22 @@ lobe_result builtin_add_map(lobe_scene *scene, const builtin_map *map, const lob
             map->fill(column, row, texel);
             texel += lobe_format_size(map->format);
         }
-    status = scene_add_image(scene, map->name, &image, log, &added);
+    status = scenes_add_image(scene, map->name, &image, host, &added);
     *index = status ? -1 : (int32_t)added;
     return status;
 }
 
-lobe_result builtin_add_metal_rough(lobe_scene *scene, const char *name, const builtin_map *normals,
-                                    const builtin_map *colours, const builtin_map *roughness,
-                                    const lobe_log *log) {
+lobe_result scenes_builtin_add_metal_rough(lobe_scene *scene, const char *name,
+                                           const builtin_map *normals, const builtin_map *colours,
+                                           const builtin_map *roughness, const lobe_host *host) {
     lobe_material material;
     lobe_material_default(&material);
     material.metallic = 1;
-    lobe_result status = builtin_add_map(scene, normals, log, &material.normal_map.image);
+    lobe_result status = scenes_builtin_add_map(scene, normals, host, &material.normal_map.image);
     if (!status)
-        status = builtin_add_map(scene, colours, log, &material.base_colour_map.image);
+        status = scenes_builtin_add_map(scene, colours, host, &material.base_colour_map.image);
     if (!status)
-        status = builtin_add_map(scene, roughness, log, &material.metallic_roughness_map.image);
-    return status ? status : scene_add_material(scene, name, &material, log, NULL);
+        status =
+            scenes_builtin_add_map(scene, roughness, host, &material.metallic_roughness_map.image);
+    return status ? status : scenes_add_material(scene, name, &material, host, NULL);
 }

@@ -31,17 +31,17 @@ static bump make_bump(const bump_style *style, uint32_t column, uint32_t row,
                       random_sequence *sequence) {
     bump made;
     made.column = (column + (row % 2 ? 0.75 : 0.25)) * column_pitch +
-                  random_between(sequence, -0.06, 0.06) * column_pitch;
-    made.row = (row + 0.5) * row_pitch + random_between(sequence, -0.06, 0.06) * row_pitch;
-    made.radius = random_between(sequence, 0.42, 0.54) * column_pitch;
-    uint8_t roughness = (uint8_t)random_between(sequence, 64, 144);
-    made.matter = style->kinds[random_bits(sequence) >> 30];
+                  scenes_random_between(sequence, -0.06, 0.06) * column_pitch;
+    made.row = (row + 0.5) * row_pitch + scenes_random_between(sequence, -0.06, 0.06) * row_pitch;
+    made.radius = scenes_random_between(sequence, 0.42, 0.54) * column_pitch;
+    uint8_t roughness = (uint8_t)scenes_random_between(sequence, 64, 144);
+    made.matter = style->kinds[scenes_random_bits(sequence) >> 30];
     made.matter.roughness = roughness;
     return made;
 }
 
 static void make_bumps(bump_maps *maps) {
-    random_sequence sequence = random_start(maps->style->seed);
+    random_sequence sequence = scenes_random_start(maps->style->seed);
     for (uint32_t row = 0; row < BUMP_ROWS; row++)
         for (uint32_t column = 0; column < BUMP_COLUMNS; column++)
             maps->bumps[row][column] = make_bump(maps->style, column, row, &sequence);
@@ -82,7 +82,8 @@ static void fill_texel(const bump_maps *maps, uint32_t column, uint32_t row) {
     size_t offset = ((size_t)row * MAP_EXTENT + column) * 4;
     double normal[3];
     const bump *top = find_bump(maps, column + 0.5, row + 0.5, normal);
-    normal_map_store((uint8_t *)maps->normals.texels + offset, normal[0], normal[1], normal[2]);
+    scenes_normal_map_store((uint8_t *)maps->normals.texels + offset, normal[0], normal[1],
+                            normal[2]);
     const bump_matter *matter = top ? &top->matter : &maps->style->ground;
     uint8_t *colour = (uint8_t *)maps->colours.texels + offset;
     uint8_t *roughness = (uint8_t *)maps->roughness.texels + offset;
@@ -93,15 +94,15 @@ static void fill_texel(const bump_maps *maps, uint32_t column, uint32_t row) {
     colour[3] = roughness[3] = 255;
 }
 
-static lobe_result make_maps(bump_maps *maps, const lobe_log *log) {
+static lobe_result make_maps(bump_maps *maps, const lobe_host *host) {
     lobe_result status =
-        lobe_image_allocate(&maps->normals, LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT, MAP_EXTENT, log);
+        lobe_image_allocate(&maps->normals, LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT, MAP_EXTENT, host);
     if (!status)
         status = lobe_image_allocate(&maps->colours, LOBE_FORMAT_RGBA8_SRGB, MAP_EXTENT, MAP_EXTENT,
-                                     log);
+                                     host);
     if (!status)
         status = lobe_image_allocate(&maps->roughness, LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT,
-                                     MAP_EXTENT, log);
+                                     MAP_EXTENT, host);
     if (status)
         return status;
     make_bumps(maps);
@@ -111,14 +112,14 @@ static lobe_result make_maps(bump_maps *maps, const lobe_log *log) {
     return LOBE_OK;
 }
 
-static lobe_result hand_over(bump_maps *maps, lobe_scene *scene, const lobe_log *log,
+static lobe_result hand_over(bump_maps *maps, lobe_scene *scene, const lobe_host *host,
                              lobe_material *material) {
     uint32_t normal_map, colour_map, roughness_map;
-    lobe_result status = scene_add_image(scene, "bump normals", &maps->normals, log, &normal_map);
+    lobe_result status = scenes_add_image(scene, "bump normals", &maps->normals, host, &normal_map);
     if (!status)
-        status = scene_add_image(scene, "bump colours", &maps->colours, log, &colour_map);
+        status = scenes_add_image(scene, "bump colours", &maps->colours, host, &colour_map);
     if (!status)
-        status = scene_add_image(scene, "bump roughness", &maps->roughness, log, &roughness_map);
+        status = scenes_add_image(scene, "bump roughness", &maps->roughness, host, &roughness_map);
     if (status)
         return status;
     material->metallic = material->roughness = 1;
@@ -128,12 +129,12 @@ static lobe_result hand_over(bump_maps *maps, lobe_scene *scene, const lobe_log 
     return LOBE_OK;
 }
 
-lobe_result bump_maps_add(lobe_scene *scene, const bump_style *style, const lobe_log *log,
-                          lobe_material *material) {
+lobe_result scenes_bump_maps_add(lobe_scene *scene, const bump_style *style, const lobe_host *host,
+                                 lobe_material *material) {
     bump_maps maps = {.style = style};
-    lobe_result status = make_maps(&maps, log);
+    lobe_result status = make_maps(&maps, host);
     if (!status)
-        status = hand_over(&maps, scene, log, material);
+        status = hand_over(&maps, scene, host, material);
     lobe_image_free(&maps.normals);
     lobe_image_free(&maps.colours);
     lobe_image_free(&maps.roughness);

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -29,7 +29,7 @@ typedef struct bump_style {
 } bump_style;
 
 /// Adds the three maps to the scene and makes the material use them.
-lobe_result bump_maps_add(lobe_scene *scene, const bump_style *style, const lobe_log *log,
-                          lobe_material *material);
+lobe_result scenes_bump_maps_add(lobe_scene *scene, const bump_style *style, const lobe_host *host,
+                                 lobe_material *material);
 
 #endif

@@ -9,7 +9,7 @@
 // bumps with microfacet BRDFs that change quickly. Each bump is a metal of its own colour and
 // roughness.
 
-static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const bump_style style = {
         .seed = 2017,
         .ground = {{234, 203, 180}, 128, true},
@@ -20,17 +20,17 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     };
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = bump_maps_add(scene, &style, log, &material);
-    return status ? status : scene_add_material(scene, "bumps", &material, log, NULL);
+    lobe_result status = scenes_bump_maps_add(scene, &style, host, &material);
+    return status ? status : scenes_add_material(scene, "bumps", &material, host, NULL);
 }
 
-static lobe_result add_plane(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_plane(lobe_scene *scene, const lobe_host *host) {
     lobe_mesh mesh;
-    lobe_result status = shape_plane(48, 48, 0.22f, log, &mesh);
-    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
+    lobe_result status = scenes_shape_plane(48, 48, 0.22f, host, &mesh);
+    return status ? status : scenes_place_mesh(scene, &mesh, 0, host);
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {-0.3f, -0.6f, 0.7416198f},
@@ -38,12 +38,12 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
         {.type = LOBE_LIGHT_POINT, .position = {1.8f, 1.6f, -2.6f}, .intensity = {9, 6, 3.6f}},
         {.type = LOBE_LIGHT_POINT, .position = {-2.6f, 2.2f, -6}, .intensity = {6, 11, 18}},
     };
-    scene_look(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
+    scenes_look(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_bumps(const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_bumps(const lobe_host *host, lobe_scene **scene) {
     static const builtin_step steps[] = {add_material, add_plane, add_view, NULL};
-    return builtin_scene_assemble("bumps", steps, log, scene);
+    return scenes_builtin_assemble("bumps", steps, host, scene);
 }

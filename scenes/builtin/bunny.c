@@ -8,7 +8,7 @@
 // hemispherical bumps and a material map, 1024 x 1024 texels each. Bumps are metal or lacquer, so
 // that what reflects without colour lies beside what reflects with it.
 
-static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const bump_style style = {
         .seed = 1994,
         .ground = {{222, 214, 204}, 110, true},
@@ -19,11 +19,11 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     };
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = bump_maps_add(scene, &style, log, &material);
-    return status ? status : scene_add_material(scene, "bumps", &material, log, NULL);
+    lobe_result status = scenes_bump_maps_add(scene, &style, host, &material);
+    return status ? status : scenes_add_material(scene, "bumps", &material, host, NULL);
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {-0.48f, -0.64f, -0.6f},
@@ -35,14 +35,14 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
          .position = {0.3f, 0.45f, -0.4f},
          .intensity = {0.5f, 0.4f, 0.3f}},
     };
-    scene_look(scene, (float[]){0.05f, 0.24f, 0.5f}, (float[]){0, 0.1f, 0}, 26);
+    scenes_look(scene, (float[]){0.05f, 0.24f, 0.5f}, (float[]){0, 0.1f, 0}, 26);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_bunny(const char *assets, const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_bunny(const char *assets, const lobe_host *host, lobe_scene **scene) {
     static const asset_mesh mesh = {
         .scene = "bunny", .file = "models/npm_bunny.js", .height = 0.2, .tile = 0.06};
     static const builtin_step steps[] = {add_material, add_view, NULL};
-    return builtin_scene_assemble_asset(&mesh, assets, steps, log, scene);
+    return scenes_builtin_assemble_asset(&mesh, assets, steps, host, scene);
 }

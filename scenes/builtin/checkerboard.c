@@ -29,16 +29,16 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     memcpy(texel, square_is_sharp(column, row) ? sharp_colour : broad_colour, 4);
 }
 
-static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map widths = {"checkerboard widths", LOBE_FORMAT_R32_FLOAT, MAP_EXTENT,
                                        MAP_EXTENT, fill_width};
     static const builtin_map colours = {"checkerboard colours", LOBE_FORMAT_RGBA8_SRGB, MAP_EXTENT,
                                         MAP_EXTENT, fill_colour};
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = builtin_add_map(scene, &widths, log, &material.width_map.image);
+    lobe_result status = scenes_builtin_add_map(scene, &widths, host, &material.width_map.image);
     if (!status)
-        status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+        status = scenes_builtin_add_map(scene, &colours, host, &material.base_colour_map.image);
     if (status)
         return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
@@ -48,16 +48,16 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     material.lobe_count = 1;
     // Two BRDFs and none between them.
     material.width_map.nearest = material.base_colour_map.nearest = true;
-    return scene_add_material(scene, "checkerboard", &material, log, NULL);
+    return scenes_add_material(scene, "checkerboard", &material, host, NULL);
 }
 
-static lobe_result add_plane(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_plane(lobe_scene *scene, const lobe_host *host) {
     lobe_mesh mesh;
-    lobe_result status = shape_plane(160, 160, 1.5f, log, &mesh);
-    return status ? status : scene_place_mesh(scene, &mesh, 0, log);
+    lobe_result status = scenes_shape_plane(160, 160, 1.5f, host, &mesh);
+    return status ? status : scenes_place_mesh(scene, &mesh, 0, host);
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {-0.24f, -0.36f, 0.9015542f},
@@ -65,12 +65,12 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
         {.type = LOBE_LIGHT_POINT, .position = {2.6f, 1.4f, -4.2f}, .intensity = {8, 5.2f, 3.2f}},
         {.type = LOBE_LIGHT_POINT, .position = {-5, 3.5f, -13}, .intensity = {16, 26, 40}},
     };
-    scene_look(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
+    scenes_look(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_checkerboard(const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_checkerboard(const lobe_host *host, lobe_scene **scene) {
     static const builtin_step steps[] = {add_material, add_plane, add_view, NULL};
-    return builtin_scene_assemble("checkerboard", steps, log, scene);
+    return scenes_builtin_assemble("checkerboard", steps, host, scene);
 }

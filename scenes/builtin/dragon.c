@@ -21,8 +21,8 @@ static const double rounding = 0.55, overlap = 0.35;
 // Where the scale of this row and column has its middle, in pitches of columns and rows; each a
 // little out of its place.
 static void place_scale(int column, int row, double centre[2]) {
-    uint32_t bits = random_lattice((uint32_t)(column & (SCALE_COLUMNS - 1)),
-                                   (uint32_t)(row & (SCALE_ROWS - 1)), 31);
+    uint32_t bits = scenes_random_lattice((uint32_t)(column & (SCALE_COLUMNS - 1)),
+                                          (uint32_t)(row & (SCALE_ROWS - 1)), 31);
     centre[0] = column + (row & 1 ? 0.5 : 0) + ((bits & 0xffff) / 65535.0 - 0.5) * 0.12;
     centre[1] = row + ((bits >> 16) / 65535.0 - 0.5) * 0.2;
 }
@@ -51,9 +51,9 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     double slope[2], grain[2];
     scale_slope((column + 0.5) * SCALE_COLUMNS / NORMAL_EXTENT,
                 (row + 0.5) * SCALE_ROWS / NORMAL_EXTENT, slope);
-    noise_gradient((column + 0.5) / 4, (row + 0.5) / 4, NORMAL_EXTENT / 4, 5, grain);
-    normal_map_store_slope(texel, slope[0] * 0.6 + grain[0] * 0.08,
-                           slope[1] * 0.6 + grain[1] * 0.08);
+    scenes_noise_gradient((column + 0.5) / 4, (row + 0.5) / 4, NORMAL_EXTENT / 4, 5, grain);
+    scenes_normal_map_store_slope(texel, slope[0] * 0.6 + grain[0] * 0.08,
+                                  slope[1] * 0.6 + grain[1] * 0.08);
 }
 
 // How much patina there is [0, 1]: none on most of the surface, and quickly much of it.
@@ -61,8 +61,9 @@ static double patina(uint32_t column, uint32_t row) {
     static const uint32_t periods[] = {6, 17, 49};
     double sum = 0;
     for (uint32_t i = 0; i < sizeof periods / sizeof *periods; i++)
-        sum += noise_gradient((column + 0.5) * periods[i] / BRDF_WIDTH,
-                              (row + 0.5) * periods[i] / BRDF_HEIGHT, periods[i], 40 + i, NULL) /
+        sum += scenes_noise_gradient((column + 0.5) * periods[i] / BRDF_WIDTH,
+                                     (row + 0.5) * periods[i] / BRDF_HEIGHT, periods[i], 40 + i,
+                                     NULL) /
                (i + 1);
     return fmin(fmax((sum - 0.05) * 5, 0), 1);
 }
@@ -80,8 +81,8 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
 // Bronze is polished in fine, irregular strokes; patina is dull and no metal.
 static void fill_roughness(uint32_t column, uint32_t row, void *texel) {
     double amount = patina(column, row);
-    double strokes = noise_gradient((column + 0.5) * 120 / BRDF_WIDTH,
-                                    (row + 0.5) * 120 / BRDF_HEIGHT, 120, 50, NULL);
+    double strokes = scenes_noise_gradient((column + 0.5) * 120 / BRDF_WIDTH,
+                                           (row + 0.5) * 120 / BRDF_HEIGHT, 120, 50, NULL);
     double bare = 0.3 + 0.25 * strokes;
     uint8_t *channels = texel;
     channels[0] = channels[3] = 255;
@@ -89,7 +90,7 @@ static void fill_roughness(uint32_t column, uint32_t row, void *texel) {
     channels[2] = (uint8_t)((1 - amount) * 255 + 0.5);
 }
 
-static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map normals = {"dragon normals", LOBE_FORMAT_RGBA8_UNORM, NORMAL_EXTENT,
                                         NORMAL_EXTENT, fill_normal};
     static const builtin_map colours = {"dragon colours", LOBE_FORMAT_RGBA8_SRGB, BRDF_WIDTH,
@@ -99,15 +100,16 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     lobe_material material;
     lobe_material_default(&material);
     material.metallic = 1;
-    lobe_result status = builtin_add_map(scene, &normals, log, &material.normal_map.image);
+    lobe_result status = scenes_builtin_add_map(scene, &normals, host, &material.normal_map.image);
     if (!status)
-        status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+        status = scenes_builtin_add_map(scene, &colours, host, &material.base_colour_map.image);
     if (!status)
-        status = builtin_add_map(scene, &roughness, log, &material.metallic_roughness_map.image);
-    return status ? status : scene_add_material(scene, "scales", &material, log, NULL);
+        status =
+            scenes_builtin_add_map(scene, &roughness, host, &material.metallic_roughness_map.image);
+    return status ? status : scenes_add_material(scene, "scales", &material, host, NULL);
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {0.48f, -0.64f, -0.6f},
@@ -117,16 +119,16 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
          .position = {-0.4f, 0.5f, -0.4f},
          .intensity = {0.8f, 0.6f, 0.4f}},
     };
-    scene_look(scene, (float[]){-0.08f, 0.2f, 0.55f}, (float[]){0, 0.088f, 0}, 24);
+    scenes_look(scene, (float[]){-0.08f, 0.2f, 0.55f}, (float[]){0, 0.088f, 0}, 24);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_dragon(const char *assets, const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_dragon(const char *assets, const lobe_host *host, lobe_scene **scene) {
     static const asset_mesh mesh = {.scene = "dragon",
                                     .file = "models/npm_dragon_vrip_res3.ply.gz",
                                     .height = 0.18,
                                     .tile = 0.14};
     static const builtin_step steps[] = {add_material, add_view, NULL};
-    return builtin_scene_assemble_asset(&mesh, assets, steps, log, scene);
+    return scenes_builtin_assemble_asset(&mesh, assets, steps, host, scene);
 }

@@ -7,7 +7,7 @@
 // A ramp through 0 at each lattice point. Its two slopes are uniform over a square, so that
 // neither a direction nor a steepness is preferred and no root is needed.
 static double ramp(uint32_t x, uint32_t y, uint32_t seed, double dx, double dy, double slope[2]) {
-    uint32_t bits = random_lattice(x, y, seed);
+    uint32_t bits = scenes_random_lattice(x, y, seed);
     slope[0] = (double)(bits & 0xffff) / 32767.5 - 1;
     slope[1] = (double)(bits >> 16) / 32767.5 - 1;
     return slope[0] * dx + slope[1] * dy;
@@ -33,7 +33,7 @@ static uint32_t wrap(double cell, uint32_t period) {
     return (uint32_t)(cell - floor(cell / period) * period);
 }
 
-double noise_gradient(double x, double y, uint32_t period, uint32_t seed, double slope[2]) {
+double scenes_noise_gradient(double x, double y, uint32_t period, uint32_t seed, double slope[2]) {
     double column = floor(x), row = floor(y), dx = x - column, dy = y - row;
     uint32_t x0 = wrap(column, period), x1 = x0 + 1 < period ? x0 + 1 : 0;
     uint32_t y0 = wrap(row, period), y1 = y0 + 1 < period ? y0 + 1 : 0;

@@ -6,6 +6,6 @@
 /// Smooth noise over the plane that repeats after `period` units in both directions; its features
 /// are about one unit wide. Returns a height, about [-0.7, 0.7], of mean 0; `slope`, where not
 /// NULL, receives its exact derivatives along x and y. Negative coordinates are fine.
-double noise_gradient(double x, double y, uint32_t period, uint32_t seed, double slope[2]);
+double scenes_noise_gradient(double x, double y, uint32_t period, uint32_t seed, double slope[2]);
 
 #endif

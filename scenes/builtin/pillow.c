@@ -62,7 +62,7 @@ static thread_point find_thread(uint32_t column, uint32_t row) {
     static const double crown[PITCH] = {0.72, 1, 1, 0.72};
     uint32_t warp = column / PITCH, weft = row / PITCH;
     bool on_top = warp_is_on_top(warp, weft);
-    uint32_t bits = random_lattice(on_top ? warp : weft, on_top, 17);
+    uint32_t bits = scenes_random_lattice(on_top ? warp : weft, on_top, 17);
     return (thread_point){.kind = on_top ? &silk : &gold,
                           .shade = crown[(on_top ? column : row) % PITCH],
                           .vary = bits / 2147483648.0 - 1};
@@ -89,7 +89,7 @@ static void fill_exponent(uint32_t column, uint32_t row, void *texel) {
     *(float *)texel = (float)(thread.kind->exponent * (1 + 0.25 * thread.vary));
 }
 
-static lobe_result add_brocade(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_brocade(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map diffuse = {"brocade diffuse colours", LOBE_FORMAT_RGBA8_SRGB,
                                         MAP_WIDTH, MAP_HEIGHT, fill_diffuse};
     static const builtin_map specular = {"brocade specular colours", LOBE_FORMAT_RGBA8_SRGB,
@@ -98,11 +98,12 @@ static lobe_result add_brocade(lobe_scene *scene, const lobe_log *log) {
                                           MAP_HEIGHT, fill_exponent};
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = builtin_add_map(scene, &diffuse, log, &material.base_colour_map.image);
+    lobe_result status =
+        scenes_builtin_add_map(scene, &diffuse, host, &material.base_colour_map.image);
     if (!status)
-        status = builtin_add_map(scene, &specular, log, &material.specular_map.image);
+        status = scenes_builtin_add_map(scene, &specular, host, &material.specular_map.image);
     if (!status)
-        status = builtin_add_map(scene, &exponents, log, &material.width_map.image);
+        status = scenes_builtin_add_map(scene, &exponents, host, &material.width_map.image);
     if (status)
         return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
@@ -110,7 +111,7 @@ static lobe_result add_brocade(lobe_scene *scene, const lobe_log *log) {
     material.lobes[0] =
         (lobe_base_lobe){.direction = {0, 0, 1}, .width = 1, .colour = {0.10f, 0.10f, 0.10f}};
     material.lobe_count = 1;
-    return scene_add_material(scene, "brocade", &material, log, NULL);
+    return scenes_add_material(scene, "brocade", &material, host, NULL);
 }
 
 // The pillow's frame: it lies in the plane of x and z, its middle at the origin.
@@ -140,9 +141,9 @@ static double corner_factor(double s, double t) {
 static double wrinkle(double s, double t, double across, const double plane[2]) {
     double round = place_round(s, t) + 8,
            gather = 1 - 4 * (across - 0.62) * (across - 0.62) / 0.5776;
-    double gathers = noise_gradient(round * 4, across * 1.6, 32, 1, NULL) +
-                     0.35 * noise_gradient(round * 9, across * 3, 72, 2, NULL);
-    double crease = noise_gradient(plane[0] * 1.7 + 8, plane[1] * 2.3 + 8, 32, 3, NULL);
+    double gathers = scenes_noise_gradient(round * 4, across * 1.6, 32, 1, NULL) +
+                     0.35 * scenes_noise_gradient(round * 9, across * 3, 72, 2, NULL);
+    double crease = scenes_noise_gradient(plane[0] * 1.7 + 8, plane[1] * 2.3 + 8, 32, 3, NULL);
     double inside = 1 - across * across;
     return 0.011 * fmax(gather, 0) * gathers + inside * (0.012 * crease - 0.02 * fabs(crease));
 }
@@ -153,8 +154,8 @@ static double wrinkle(double s, double t, double across, const double plane[2]) 
 static vector3 pillow_point(double s, double t, int side, float coordinates[2]) {
     static const double bend = 0.22; // of a turn
     double across = fmax(fabs(s), fabs(t)), factor = corner_factor(s, t), arc[2], seam[2];
-    circle_point(across * bend, arc);
-    circle_point(bend, seam);
+    scenes_circle_point(across * bend, arc);
+    scenes_circle_point(bend, seam);
     double spread = across > 0 ? arc[1] / (across * seam[1]) : 6.283185307179586 * bend / seam[1];
     double swell = (arc[0] - seam[0]) / (1 - seam[0]);
     spread *= factor;
@@ -169,23 +170,23 @@ static vector3 pillow_point(double s, double t, int side, float coordinates[2]) 
     return (vector3){x * half_side, side ? -height : height, z * half_side};
 }
 
-static lobe_result finish_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_log *log) {
+static lobe_result finish_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_host *host) {
     // Turned by 0.48 about the vertical axis.
     static const float placed[16] = {0.88699f, 0, -0.46178f, 0, 0, 1,           0, 0,
                                      0.46178f, 0, 0.88699f,  0, 0, seam_height, 0, 1};
     uint32_t index;
-    lobe_result status = mesh_compute_tangents(mesh, NULL, log);
+    lobe_result status = scenes_mesh_compute_tangents(mesh, NULL, host);
     if (!status)
-        status = scene_add_mesh(scene, mesh, log, &index);
+        status = scenes_add_mesh(scene, mesh, host, &index);
     if (!status)
-        status = scene_add_instance(scene, index, 0, placed, log);
+        status = scenes_add_instance(scene, index, 0, placed, host);
     return status;
 }
 
-static lobe_result add_sheet(lobe_scene *scene, const char *name, int side, const lobe_log *log) {
+static lobe_result add_sheet(lobe_scene *scene, const char *name, int side, const lobe_host *host) {
     lobe_mesh mesh;
-    lobe_result status =
-        mesh_allocate(&mesh, name, (size_t)(GRID + 1) * (GRID + 1), (size_t)GRID * GRID * 6, log);
+    lobe_result status = scenes_mesh_allocate(&mesh, name, (size_t)(GRID + 1) * (GRID + 1),
+                                              (size_t)GRID * GRID * 6, host);
     if (status)
         return status;
     mesh.has_texture_coordinates[0] = true;
@@ -196,20 +197,20 @@ static lobe_result add_sheet(lobe_scene *scene, const char *name, int side, cons
         vector3_store(pillow_point(side ? -s : s, t, side, vertex->texture_coordinates[0]),
                       vertex->position);
     }
-    shape_grid_indices(GRID, GRID, mesh.indices);
-    status = mesh_compute_normals(&mesh, log);
+    scenes_shape_grid_indices(GRID, GRID, mesh.indices);
+    status = scenes_mesh_compute_normals(&mesh, host);
     if (!status)
-        status = finish_mesh(scene, &mesh, log);
-    mesh_free(&mesh);
+        status = finish_mesh(scene, &mesh, host);
+    scenes_mesh_free(&mesh);
     return status;
 }
 
-static lobe_result add_upper_sheet(lobe_scene *scene, const lobe_log *log) {
-    return add_sheet(scene, "upper sheet", 0, log);
+static lobe_result add_upper_sheet(lobe_scene *scene, const lobe_host *host) {
+    return add_sheet(scene, "upper sheet", 0, host);
 }
 
-static lobe_result add_lower_sheet(lobe_scene *scene, const lobe_log *log) {
-    return add_sheet(scene, "lower sheet", 1, log);
+static lobe_result add_lower_sheet(lobe_scene *scene, const lobe_host *host) {
+    return add_sheet(scene, "lower sheet", 1, host);
 }
 
 // A point of the seam; `place` is what place_round tells of it.
@@ -235,7 +236,7 @@ static void place_on_piping(double place, double turns, lobe_scene_vertex *verte
     vector3 up = {0, 1, 0}, outwards = vector3_cross(up, ahead);
     vector3_normalise(&outwards, 0);
     double circle[2];
-    circle_point(turns, circle);
+    scenes_circle_point(turns, circle);
     vector3 normal = vector3_add(vector3_scale(outwards, circle[0]), vector3_scale(up, circle[1]));
     vector3_store(normal, vertex->normal);
     vector3_store(vector3_add(seam_point(place), vector3_scale(normal, piping_radius)),
@@ -244,11 +245,12 @@ static void place_on_piping(double place, double turns, lobe_scene_vertex *verte
     vertex->texture_coordinates[0][1] = (float)(turns * -0.3);
 }
 
-static lobe_result add_piping(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_piping(lobe_scene *scene, const lobe_host *host) {
     enum { LENGTHS = 4 * GRID };
     lobe_mesh mesh;
-    lobe_result status = mesh_allocate(&mesh, "piping", (size_t)(PIPING_SIDES + 1) * (LENGTHS + 1),
-                                       (size_t)PIPING_SIDES * LENGTHS * 6, log);
+    lobe_result status =
+        scenes_mesh_allocate(&mesh, "piping", (size_t)(PIPING_SIDES + 1) * (LENGTHS + 1),
+                             (size_t)PIPING_SIDES * LENGTHS * 6, host);
     if (status)
         return status;
     mesh.has_texture_coordinates[0] = true;
@@ -257,9 +259,9 @@ static lobe_result add_piping(lobe_scene *scene, const lobe_log *log) {
         place_on_piping(8 - column * (8.0 / LENGTHS), 0.5 - row / (double)PIPING_SIDES,
                         &mesh.vertices[i]);
     }
-    shape_grid_indices(PIPING_SIDES, LENGTHS, mesh.indices);
-    status = finish_mesh(scene, &mesh, log);
-    mesh_free(&mesh);
+    scenes_shape_grid_indices(PIPING_SIDES, LENGTHS, mesh.indices);
+    status = finish_mesh(scene, &mesh, host);
+    scenes_mesh_free(&mesh);
     return status;
 }
 
@@ -277,26 +279,28 @@ static void fill_ground(uint32_t column, uint32_t row, void *texel) {
     double s = (0.88699 * x - 0.46178 * z) / half_side, t = (0.46178 * x + 0.88699 * z) / half_side;
     double square = sqrt(s * s * s * s + t * t * t * t);
     double shade = 1 - 0.8 / (1 + square * square * square * 0.5);
-    double grain = 1 + 0.06 * noise_gradient(column / 4.0, row / 4.0, GROUND_EXTENT / 4, 5, NULL);
+    double grain =
+        1 + 0.06 * scenes_noise_gradient(column / 4.0, row / 4.0, GROUND_EXTENT / 4, 5, NULL);
     store_colour(texel, plain, shade * grain);
 }
 
-static lobe_result add_ground(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_ground(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map colours = {"ground colours", LOBE_FORMAT_RGBA8_SRGB, GROUND_EXTENT,
                                         GROUND_EXTENT, fill_ground};
     lobe_material material;
     lobe_material_default(&material);
     lobe_mesh mesh;
     uint32_t index;
-    lobe_result status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+    lobe_result status =
+        scenes_builtin_add_map(scene, &colours, host, &material.base_colour_map.image);
     if (!status)
-        status = scene_add_material(scene, "ground", &material, log, &index);
+        status = scenes_add_material(scene, "ground", &material, host, &index);
     if (!status)
-        status = shape_plane(ground_side, ground_side, ground_side, log, &mesh);
-    return status ? status : scene_place_mesh(scene, &mesh, index, log);
+        status = scenes_shape_plane(ground_side, ground_side, ground_side, host, &mesh);
+    return status ? status : scenes_place_mesh(scene, &mesh, index, host);
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {-0.36f, -0.8f, 0.48f},
@@ -306,13 +310,13 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
          .intensity = {0.4f, 0.5f, 0.65f}},
         {.type = LOBE_LIGHT_POINT, .position = {0.5f, 0.9f, 0.6f}, .intensity = {0.6f, 0.5f, 0.4f}},
     };
-    scene_look(scene, (float[]){0, 0.60f, 0.72f}, (float[]){0, 0.075f, 0.02f}, 32);
+    scenes_look(scene, (float[]){0, 0.60f, 0.72f}, (float[]){0, 0.075f, 0.02f}, 32);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.3f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_pillow(const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_pillow(const lobe_host *host, lobe_scene **scene) {
     static const builtin_step steps[] = {
         add_brocade, add_upper_sheet, add_lower_sheet, add_piping, add_ground, add_view, NULL};
-    return builtin_scene_assemble("pillow", steps, log, scene);
+    return scenes_builtin_assemble("pillow", steps, host, scene);
 }

@@ -6,12 +6,12 @@
 static const uint64_t multiplier = 6364136223846793005u;
 static const uint64_t increment = 1442695040888963407u;
 
-random_sequence random_start(uint64_t seed) {
+random_sequence scenes_random_start(uint64_t seed) {
     random_sequence sequence = {(seed + increment) * multiplier + increment};
     return sequence;
 }
 
-uint32_t random_bits(random_sequence *sequence) {
+uint32_t scenes_random_bits(random_sequence *sequence) {
     uint64_t state = sequence->state;
     sequence->state = state * multiplier + increment;
     uint32_t shifted = (uint32_t)(((state >> 18) ^ state) >> 27);
@@ -19,8 +19,8 @@ uint32_t random_bits(random_sequence *sequence) {
     return shifted >> turn | shifted << (-turn & 31);
 }
 
-double random_between(random_sequence *sequence, double low, double high) {
-    return low + (high - low) * (random_bits(sequence) / 4294967296.0);
+double scenes_random_between(random_sequence *sequence, double low, double high) {
+    return low + (high - low) * (scenes_random_bits(sequence) / 4294967296.0);
 }
 
 // Jarzynski and Olano 2020, "Hash Functions for GPU Rendering": the 32-bit PCG as a hash.
@@ -30,6 +30,6 @@ static uint32_t hash(uint32_t value) {
     return word >> 22 ^ word;
 }
 
-uint32_t random_lattice(uint32_t x, uint32_t y, uint32_t seed) {
+uint32_t scenes_random_lattice(uint32_t x, uint32_t y, uint32_t seed) {
     return hash(x + hash(y + hash(seed)));
 }

@@ -10,15 +10,15 @@ typedef struct random_sequence {
     uint64_t state;
 } random_sequence;
 
-random_sequence random_start(uint64_t seed);
+random_sequence scenes_random_start(uint64_t seed);
 
 /// 32 uniform bits.
-uint32_t random_bits(random_sequence *sequence);
+uint32_t scenes_random_bits(random_sequence *sequence);
 
 /// Uniform in [low, high), in steps of (high - low) / 2^32.
-double random_between(random_sequence *sequence, double low, double high);
+double scenes_random_between(random_sequence *sequence, double low, double high);
 
 /// 32 bits for a point of a lattice, without a sequence.
-uint32_t random_lattice(uint32_t x, uint32_t y, uint32_t seed);
+uint32_t scenes_random_lattice(uint32_t x, uint32_t y, uint32_t seed);
 
 #endif

@@ -33,11 +33,12 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     double sum[2] = {0, 0};
     for (uint32_t i = 0; i < sizeof octaves / sizeof *octaves; i++) {
         double scale = (double)octaves[i].period / MAP_EXTENT, slope[2];
-        noise_gradient((column + 0.5) * scale, (row + 0.5) * scale, octaves[i].period, i, slope);
+        scenes_noise_gradient((column + 0.5) * scale, (row + 0.5) * scale, octaves[i].period, i,
+                              slope);
         sum[0] += slope[0] * octaves[i].slope;
         sum[1] += slope[1] * octaves[i].slope;
     }
-    normal_map_store_slope(texel, sum[0], sum[1]);
+    scenes_normal_map_store_slope(texel, sum[0], sum[1]);
 }
 
 // A check of two blended bands, as woven from threads of two colours.
@@ -45,7 +46,8 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     static const double plain[3] = {206, 196, 178}, dyed[3] = {150, 52, 48}; // sRGB
     bool warp = column >= COLOUR_EXTENT / 2, weft = row >= COLOUR_EXTENT / 2;
     bool warp_on_top = (column / 2 + row / 2) % 2 != 0;
-    double grain = 1 + 0.2 * noise_gradient(column / 8.0, row / 8.0, COLOUR_EXTENT / 8, 7, NULL);
+    double grain =
+        1 + 0.2 * scenes_noise_gradient(column / 8.0, row / 8.0, COLOUR_EXTENT / 8, 7, NULL);
     const double *colour = (warp_on_top ? warp : weft) ? dyed : plain;
     uint8_t *channels = texel;
     for (int channel = 0; channel < 3; channel++)
@@ -53,7 +55,7 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     channels[3] = 255;
 }
 
-static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map normals = {"tablecloth normals", LOBE_FORMAT_RGBA8_UNORM, MAP_EXTENT,
                                         MAP_EXTENT, fill_normal};
     static const builtin_map colours = {"tablecloth colours", LOBE_FORMAT_RGBA8_SRGB, COLOUR_EXTENT,
@@ -61,9 +63,9 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
     const float half_root = 0.70710678f;
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = builtin_add_map(scene, &normals, log, &material.normal_map.image);
+    lobe_result status = scenes_builtin_add_map(scene, &normals, host, &material.normal_map.image);
     if (!status)
-        status = builtin_add_map(scene, &colours, log, &material.base_colour_map.image);
+        status = scenes_builtin_add_map(scene, &colours, host, &material.base_colour_map.image);
     if (status)
         return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
@@ -75,7 +77,7 @@ static lobe_result add_material(lobe_scene *scene, const lobe_log *log) {
                              .colour = {0.25f, 0.25f, 0.25f}};
     material.lobe_count = 2;
     material.double_sided = true;
-    return scene_add_material(scene, "tablecloth", &material, log, NULL);
+    return scenes_add_material(scene, "tablecloth", &material, host, NULL);
 }
 
 // How far cloth bends outwards in its folds, between 0 and 1, around the table.
@@ -100,7 +102,7 @@ static void drape(double x, double z, float position[3]) {
         return;
     double hanging = distance - flat, quarter = rim_radius * 1.5707963267948966;
     double bent = fmin(hanging, quarter), edge[2];
-    circle_point(0.25 * bent / quarter, edge);
+    scenes_circle_point(0.25 * bent / quarter, edge);
     double radius = flat + rim_radius * edge[1], drop = rim_radius * (1 - edge[0]);
     double fall = hanging - bent;
     radius += 0.3 * fall * fall / (fall + 0.08) * fold(x / distance, z / distance);
@@ -110,10 +112,10 @@ static void drape(double x, double z, float position[3]) {
     position[2] = (float)(z / distance * radius);
 }
 
-static lobe_result add_cloth(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_cloth(lobe_scene *scene, const lobe_host *host) {
     lobe_mesh mesh;
-    lobe_result status = mesh_allocate(&mesh, "cloth", (size_t)(GRID + 1) * (GRID + 1),
-                                       (size_t)GRID * GRID * 6, log);
+    lobe_result status = scenes_mesh_allocate(&mesh, "cloth", (size_t)(GRID + 1) * (GRID + 1),
+                                              (size_t)GRID * GRID * 6, host);
     if (status)
         return status;
     mesh.has_texture_coordinates[0] = true;
@@ -123,17 +125,17 @@ static lobe_result add_cloth(lobe_scene *scene, const lobe_log *log) {
         mesh.vertices[i].texture_coordinates[0][0] = (float)(u * tiles);
         mesh.vertices[i].texture_coordinates[0][1] = (float)(v * tiles);
     }
-    shape_grid_indices(GRID, GRID, mesh.indices);
-    status = mesh_compute_normals(&mesh, log);
+    scenes_shape_grid_indices(GRID, GRID, mesh.indices);
+    status = scenes_mesh_compute_normals(&mesh, host);
     if (!status)
-        status = mesh_compute_tangents(&mesh, NULL, log);
+        status = scenes_mesh_compute_tangents(&mesh, NULL, host);
     if (!status)
-        status = scene_place_mesh(scene, &mesh, 0, log);
-    mesh_free(&mesh);
+        status = scenes_place_mesh(scene, &mesh, 0, host);
+    scenes_mesh_free(&mesh);
     return status;
 }
 
-static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
     static const lobe_light lights[] = {
         {.type = LOBE_LIGHT_DIRECTIONAL,
          .direction = {0.36f, -0.8f, -0.48f},
@@ -145,12 +147,12 @@ static lobe_result add_view(lobe_scene *scene, const lobe_log *log) {
          .position = {-1.3f, 1.7f, -1.2f},
          .intensity = {1.4f, 2.2f, 3.2f}},
     };
-    scene_look(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
+    scenes_look(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.4f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result builtin_tablecloth(const lobe_log *log, lobe_scene **scene) {
+lobe_result scenes_builtin_tablecloth(const lobe_host *host, lobe_scene **scene) {
     static const builtin_step steps[] = {add_material, add_cloth, add_view, NULL};
-    return builtin_scene_assemble("tablecloth", steps, log, scene);
+    return scenes_builtin_assemble("tablecloth", steps, host, scene);
 }

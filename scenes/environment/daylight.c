@@ -20,7 +20,7 @@ static void rgb_of_yxy(const double colour[3], double rgb[3]) {
     }
 }
 
-double daylight_luminance(const double rgb[3]) {
+double scenes_daylight_luminance(const double rgb[3]) {
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
@@ -78,7 +78,7 @@ static void normalise(daylight *light, double angle) {
         light->zenith[k] /= perez(light->distribution[k], 1, angle, light->sun.y);
 }
 
-void daylight_sky(const daylight *light, vector3 direction, double rgb[3]) {
+void scenes_daylight_sky(const daylight *light, vector3 direction, double rgb[3]) {
     const double cosine = fmax(direction.y, 1e-3);
     const double cosine_sun = fmin(fmax(vector3_dot(direction, light->sun), -1), 1);
     const double angle = acos(cosine_sun);
@@ -110,7 +110,7 @@ static void set_sun(daylight *light, double turbidity) {
         light->sun_irradiance[i] *= transmittance(micrometres[i], mass, turbidity);
 }
 
-daylight daylight_of(vector3 sun, double turbidity) {
+daylight scenes_daylight_of(vector3 sun, double turbidity) {
     daylight light = {.sun = sun};
     const double angle = acos(fmin(sun.y, 1));
     set_distribution(&light, turbidity);
@@ -120,7 +120,7 @@ daylight daylight_of(vector3 sun, double turbidity) {
     return light;
 }
 
-void daylight_ground_irradiance(const daylight *light, double rgb[3]) {
+void scenes_daylight_ground_irradiance(const daylight *light, double rgb[3]) {
     // The middles of bands of equal projected solid angle, which the cosine is part of.
     enum { HEIGHTS = 64, TURNS = 128 };
     for (int i = 0; i < 3; i++)
@@ -130,7 +130,7 @@ void daylight_ground_irradiance(const daylight *light, double rgb[3]) {
         for (int k = 0; k < TURNS; k++) {
             const double turn = 2 * M_PI * (k + 0.5) / TURNS;
             double sky[3];
-            daylight_sky(light, (vector3){sine * sin(turn), cosine, sine * cos(turn)}, sky);
+            scenes_daylight_sky(light, (vector3){sine * sin(turn), cosine, sine * cos(turn)}, sky);
             for (int c = 0; c < 3; c++)
                 rgb[c] += M_PI / (HEIGHTS * TURNS) * sky[c];
         }

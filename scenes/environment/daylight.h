@@ -16,16 +16,16 @@ typedef struct daylight {
 
 /// `sun` has unit length and is above the horizon (its y above 0). Turbidity [2, 10]: the haze, 2
 /// is very clear, 6 hazy.
-daylight daylight_of(vector3 sun, double turbidity);
+daylight scenes_daylight_of(vector3 sun, double turbidity);
 
 /// The radiance of the sky, without the sun's disc, in a direction of unit length; below the
 /// horizon that of the horizon.
-void daylight_sky(const daylight *light, vector3 direction, double rgb[3]);
+void scenes_daylight_sky(const daylight *light, vector3 direction, double rgb[3]);
 
 /// The irradiance of sky and sun on the ground.
-void daylight_ground_irradiance(const daylight *light, double rgb[3]);
+void scenes_daylight_ground_irradiance(const daylight *light, double rgb[3]);
 
 /// Its luminance.
-double daylight_luminance(const double rgb[3]);
+double scenes_daylight_luminance(const double rgb[3]);
 
 #endif

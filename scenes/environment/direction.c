@@ -28,7 +28,7 @@ static const environment_face horizontal_cross_faces[ENVIRONMENT_FACE_COUNT] = {
     {1, 1, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}}, {3, 1, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
 };
 
-const environment_face *environment_faces(lobe_environment_layout layout) {
+const environment_face *scenes_environment_faces(lobe_environment_layout layout) {
     switch (layout) {
     case LOBE_ENVIRONMENT_CUBE_COLUMN:
         return column_faces;
@@ -44,8 +44,8 @@ const environment_face *environment_faces(lobe_environment_layout layout) {
     return NULL;
 }
 
-void environment_grid(lobe_environment_layout layout, uint32_t grid[2]) {
-    const environment_face *faces = environment_faces(layout);
+void scenes_environment_grid(lobe_environment_layout layout, uint32_t grid[2]) {
+    const environment_face *faces = scenes_environment_faces(layout);
     grid[0] = grid[1] = 1;
     for (int i = 0; faces && i < ENVIRONMENT_FACE_COUNT; i++) {
         grid[0] = faces[i].column + 1 > grid[0] ? faces[i].column + 1 : grid[0];
@@ -53,11 +53,12 @@ void environment_grid(lobe_environment_layout layout, uint32_t grid[2]) {
     }
 }
 
-bool environment_layout_fits(lobe_environment_layout layout, uint32_t width, uint32_t height) {
+bool scenes_environment_layout_fits(lobe_environment_layout layout, uint32_t width,
+                                    uint32_t height) {
     if (layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE)
         return width > 0 && height > 0;
     uint32_t grid[2];
-    environment_grid(layout, grid);
+    scenes_environment_grid(layout, grid);
     return width > 0 && width % grid[0] == 0 && (uint64_t)width / grid[0] * grid[1] == height;
 }
 
@@ -78,9 +79,9 @@ static const environment_face *face_of_direction(const environment_face *faces,
     return &faces[2 * axis + (direction[axis] < 0)];
 }
 
-void environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                          const double direction[3], double position[2]) {
-    const environment_face *faces = environment_faces(layout);
+void scenes_environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                                 const double direction[3], double position[2]) {
+    const environment_face *faces = scenes_environment_faces(layout);
     if (!faces) {
         double latitude = atan2(direction[1], hypot(direction[0], direction[2]));
         position[0] = (0.5 - atan2(direction[0], direction[2]) / (2 * M_PI)) * width;
@@ -88,7 +89,7 @@ void environment_position(lobe_environment_layout layout, uint32_t width, uint32
         return;
     }
     uint32_t grid[2];
-    environment_grid(layout, grid);
+    scenes_environment_grid(layout, grid);
     const environment_face *face = face_of_direction(faces, direction);
     const double size = (double)width / grid[0], depth = dot(direction, face->forward);
     position[0] = size * (face->column + 0.5 + 0.5 * dot(direction, face->right) / depth);
@@ -102,7 +103,7 @@ void environment_position(lobe_environment_layout layout, uint32_t width, uint32
 static const environment_face *face_of_position(lobe_environment_layout layout, uint32_t width,
                                                 const double position[2], double point[2]) {
     uint32_t grid[2], place[2];
-    environment_grid(layout, grid);
+    scenes_environment_grid(layout, grid);
     const double size = (double)width / grid[0];
     for (int i = 0; i < 2; i++) {
         if (!(position[i] >= 0 && position[i] <= size * grid[i]))
@@ -111,7 +112,7 @@ static const environment_face *face_of_position(lobe_environment_layout layout, 
         place[i] = (uint32_t)face;
         point[i] = 2 * (position[i] / size - face) - 1;
     }
-    const environment_face *faces = environment_faces(layout);
+    const environment_face *faces = scenes_environment_faces(layout);
     for (int i = 0; i < ENVIRONMENT_FACE_COUNT; i++) {
         if (faces[i].column == place[0] && faces[i].row == place[1])
             return &faces[i];
@@ -119,8 +120,8 @@ static const environment_face *face_of_position(lobe_environment_layout layout, 
     return NULL;
 }
 
-bool environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                           const double position[2], double direction[3]) {
+bool scenes_environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                                  const double position[2], double direction[3]) {
     if (layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE) {
         const double longitude = (0.5 - position[0] / width) * 2 * M_PI;
         const double latitude = (0.5 - position[1] / height) * M_PI;
@@ -150,8 +151,9 @@ static double from_middle(double s, double t) {
     return atan2(s * t, sqrt(1 + s * s + t * t));
 }
 
-double environment_solid_angle(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                               double left, double top, double right, double bottom) {
+double scenes_environment_solid_angle(lobe_environment_layout layout, uint32_t width,
+                                      uint32_t height, double left, double top, double right,
+                                      double bottom) {
     if (layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE) {
         // cos(a) - cos(b) of the polar angles as a product, which keeps its digits.
         const double middle = 0.5 * M_PI * (top + bottom) / height;
@@ -163,7 +165,7 @@ double environment_solid_angle(lobe_environment_layout layout, uint32_t width, u
     if (!face_of_position(layout, width, middle, point))
         return 0;
     uint32_t grid[2];
-    environment_grid(layout, grid);
+    scenes_environment_grid(layout, grid);
     const double size = (double)width / grid[0];
     const double s[2] = {point[0] - (right - left) / size, point[0] + (right - left) / size};
     const double t[2] = {point[1] - (bottom - top) / size, point[1] + (bottom - top) / size};

@@ -47,26 +47,28 @@ typedef struct environment_face {
 #define ENVIRONMENT_FACE_COUNT 6
 
 /// The six faces in the order +X -X +Y -Y +Z -Z; NULL for latitude and longitude.
-const environment_face *environment_faces(lobe_environment_layout layout);
+const environment_face *scenes_environment_faces(lobe_environment_layout layout);
 
 /// Into how many columns and rows of equal regions the layout divides the image: of faces, or one.
-void environment_grid(lobe_environment_layout layout, uint32_t grid[2]);
+void scenes_environment_grid(lobe_environment_layout layout, uint32_t grid[2]);
 
 /// Whether an image of this extent can have the layout: whole square faces, of one texel at least.
-bool environment_layout_fits(lobe_environment_layout layout, uint32_t width, uint32_t height);
+bool scenes_environment_layout_fits(lobe_environment_layout layout, uint32_t width,
+                                    uint32_t height);
 
 /// The position of a direction of any length but 0, for an image that the layout fits. A direction
 /// on an edge lies on one of the faces that meet there.
-void environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                          const double direction[3], double position[2]);
+void scenes_environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                                 const double direction[3], double position[2]);
 
 /// The unit direction of a position; false where a cross is empty, or outside the image.
-bool environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                           const double position[2], double direction[3]);
+bool scenes_environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
+                                  const double position[2], double direction[3]);
 
 /// The solid angle, in steradian, of the rectangle from (left, top) to (right, bottom), which lies
 /// within one face (or anywhere on latitude and longitude); 0 where a cross is empty.
-double environment_solid_angle(lobe_environment_layout layout, uint32_t width, uint32_t height,
-                               double left, double top, double right, double bottom);
+double scenes_environment_solid_angle(lobe_environment_layout layout, uint32_t width,
+                                      uint32_t height, double left, double top, double right,
+                                      double bottom);
 
 #endif

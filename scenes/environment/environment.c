@@ -11,14 +11,14 @@
 #define LARGEST_FACE  2048
 #define LARGEST_WIDTH (4 * LARGEST_FACE)
 
-lobe_result environment_allocate(const char *name, const lobe_log *log,
-                                 lobe_environment **environment) {
-    *environment = lobe_allocate(lobe_log_allocator(log), 1, sizeof **environment);
+lobe_result scenes_environment_allocate(const char *name, const lobe_host *host,
+                                        lobe_environment **environment) {
+    *environment = lobe_allocate(lobe_host_allocator(host), 1, sizeof **environment);
     if (*environment)
-        (*environment)->name = lobe_copy_text(lobe_log_allocator(log), name);
+        (*environment)->name = lobe_copy_text(lobe_host_allocator(host), name);
     if (!*environment || !(*environment)->name) {
         lobe_environment_destroy(environment);
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
     }
     (*environment)->intensity = 1;
     for (int i = 0; i < 3; i++)
@@ -28,7 +28,7 @@ lobe_result environment_allocate(const char *name, const lobe_log *log,
 
 static bool is_finer_than_needed(const lobe_environment *environment) {
     uint32_t grid[2];
-    environment_grid(environment->layout, grid);
+    scenes_environment_grid(environment->layout, grid);
     const bool faces = environment->layout != LOBE_ENVIRONMENT_LATITUDE_LONGITUDE;
     const lobe_image *image = &environment->image;
     return image->width / grid[0] > (faces ? LARGEST_FACE : LARGEST_WIDTH) ||
@@ -40,22 +40,24 @@ static bool is_larger_than(const lobe_environment *environment, uint32_t extent)
 }
 
 void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent) {
-    while (is_larger_than(environment, maximum_extent) && environment_can_be_halved(environment))
-        environment_halve(environment);
+    while (is_larger_than(environment, maximum_extent) &&
+           scenes_environment_can_be_halved(environment))
+        scenes_environment_halve(environment);
 }
 
-lobe_result environment_complete(lobe_environment *environment, const lobe_log *log) {
+lobe_result scenes_environment_complete(lobe_environment *environment, const lobe_host *host) {
     const uint32_t width = environment->image.width, height = environment->image.height;
-    lobe_result result = environment_repair(environment, log);
+    lobe_result result = scenes_environment_repair(environment, host);
     if (result != LOBE_OK)
         return result;
     while (is_finer_than_needed(environment))
-        environment_halve(environment);
+        scenes_environment_halve(environment);
     lobe_environment_shrink(environment, LOBE_ENVIRONMENT_MAXIMUM_EXTENT);
     if (environment->image.width != width || environment->image.height != height)
-        lobe_log_print(
-            log, LOBE_LOG_NOTICE, "%s: %u x %u texels are finer than lobe needs; halved to %u x %u",
-            environment->name, width, height, environment->image.width, environment->image.height);
+        lobe_host_log(host, LOBE_LOG_NOTICE,
+                      "%s: %u x %u texels are finer than lobe needs; halved to %u x %u",
+                      environment->name, width, height, environment->image.width,
+                      environment->image.height);
     return LOBE_OK;
 }
 
@@ -74,9 +76,10 @@ void lobe_environment_turn(lobe_environment *environment, double degrees) {
 bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
                                double position[2]) {
     const lobe_image *image = &environment->image;
-    if (!environment_layout_fits(environment->layout, image->width, image->height))
+    if (!scenes_environment_layout_fits(environment->layout, image->width, image->height))
         return false;
-    environment_position(environment->layout, image->width, image->height, direction, position);
+    scenes_environment_position(environment->layout, image->width, image->height, direction,
+                                position);
     return true;
 }
 

@@ -20,7 +20,7 @@ static bool find_cube(const lobe_image *image, lobe_environment_layout *layout) 
         LOBE_ENVIRONMENT_CUBE_COLUMN, LOBE_ENVIRONMENT_CUBE_ROW, LOBE_ENVIRONMENT_VERTICAL_CROSS,
         LOBE_ENVIRONMENT_HORIZONTAL_CROSS};
     for (size_t i = 0; i < sizeof cubes / sizeof *cubes; i++) {
-        if (environment_layout_fits(cubes[i], image->width, image->height)) {
+        if (scenes_environment_layout_fits(cubes[i], image->width, image->height)) {
             *layout = cubes[i];
             return true;
         }
@@ -39,21 +39,22 @@ static bool is_twice_as_wide(const lobe_image *image) {
 }
 
 static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environment said,
-                                 const lobe_log *log) {
+                                 const lobe_host *host) {
     const lobe_image *image = &environment->image;
     environment->layout = LOBE_ENVIRONMENT_LATITUDE_LONGITUDE;
     if (said == LOBE_EXR_LATITUDE_LONGITUDE || find_cube(image, &environment->layout))
         return LOBE_OK;
     if (said == LOBE_EXR_CUBE || !may_be_latitude_longitude(image))
-        return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
-                             "%s: %u x %u texels are no environment of a known shape: latitude and "
-                             "longitude (2:1), columns and rows of six faces (1:6, 6:1), crosses "
-                             "(3:4, 4:3)",
-                             environment->name, image->width, image->height);
+        return lobe_host_fail(
+            host, LOBE_ERROR_UNSUPPORTED,
+            "%s: %u x %u texels are no environment of a known shape: latitude and "
+            "longitude (2:1), columns and rows of six faces (1:6, 6:1), crosses "
+            "(3:4, 4:3)",
+            environment->name, image->width, image->height);
     if (!is_twice_as_wide(image))
-        lobe_log_print(log, LOBE_LOG_NOTICE,
-                       "%s: taken as latitude and longitude, though %u x %u texels are not 2:1",
-                       environment->name, image->width, image->height);
+        lobe_host_log(host, LOBE_LOG_NOTICE,
+                      "%s: taken as latitude and longitude, though %u x %u texels are not 2:1",
+                      environment->name, image->width, image->height);
     return LOBE_OK;
 }
 
@@ -61,9 +62,10 @@ static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environ
 // Files
 
 static lobe_result decode_exr(const char *name, const uint8_t *bytes, size_t size,
-                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
+                              const lobe_host *host, lobe_image *image,
+                              lobe_exr_environment *said) {
     lobe_exr_contents contents;
-    lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, log, &contents);
+    lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, host, &contents);
     if (result != LOBE_OK)
         return result;
     *said = contents.environment;
@@ -73,57 +75,59 @@ static lobe_result decode_exr(const char *name, const uint8_t *bytes, size_t siz
     return LOBE_OK;
 }
 
-static lobe_result decode(const char *name, const uint8_t *bytes, size_t size, const lobe_log *log,
-                          lobe_image *image, lobe_exr_environment *said) {
+static lobe_result decode(const char *name, const uint8_t *bytes, size_t size,
+                          const lobe_host *host, lobe_image *image, lobe_exr_environment *said) {
     static const uint8_t exr[4] = {0x76, 0x2f, 0x31, 0x01};
     *said = LOBE_EXR_NO_ENVIRONMENT;
     if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0)
-        return decode_exr(name, bytes, size, log, image, said);
-    if (radiance_hdr_recognise(bytes, size))
-        return radiance_hdr_decode(bytes, size, name, log, image);
-    return lobe_log_fail(log, size < sizeof exr ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
-                         "%s: neither an OpenEXR file nor a Radiance picture", name);
+        return decode_exr(name, bytes, size, host, image, said);
+    if (scenes_radiance_hdr_recognise(bytes, size))
+        return scenes_radiance_hdr_decode(bytes, size, name, host, image);
+    return lobe_host_fail(host, size < sizeof exr ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                          "%s: neither an OpenEXR file nor a Radiance picture", name);
 }
 
 static lobe_result read_image(const lobe_environment_open_parameters *parameters,
-                              const lobe_log *log, lobe_image *image, lobe_exr_environment *said) {
+                              const lobe_host *host, lobe_image *image,
+                              lobe_exr_environment *said) {
     const char *name = parameters->environment;
     uint8_t *bytes;
     size_t size;
     if (parameters->data)
-        return decode(name, parameters->data, parameters->size, log, image, said);
-    lobe_result result = scene_file_read(parameters->files, name, NULL, log, &bytes, &size);
+        return decode(name, parameters->data, parameters->size, host, image, said);
+    lobe_result result = scenes_file_read(parameters->files, name, NULL, host, &bytes, &size);
     if (result == LOBE_OK)
-        result = decode(name, bytes, size, log, image, said);
+        result = decode(name, bytes, size, host, image, said);
     lobe_release(bytes);
     return result;
 }
 
 static lobe_result open_file(const lobe_environment_open_parameters *parameters,
-                             const lobe_log *log, lobe_environment **environment) {
+                             const lobe_host *host, lobe_environment **environment) {
     lobe_exr_environment said;
-    lobe_result result = environment_allocate(parameters->environment, log, environment);
+    lobe_result result = scenes_environment_allocate(parameters->environment, host, environment);
     if (result == LOBE_OK)
-        result = read_image(parameters, log, &(*environment)->image, &said);
+        result = read_image(parameters, host, &(*environment)->image, &said);
     if (result == LOBE_OK)
-        result = choose_layout(*environment, said, log);
+        result = choose_layout(*environment, said, host);
     if (result == LOBE_OK)
-        result = environment_complete(*environment, log);
+        result = scenes_environment_complete(*environment, host);
     if (result != LOBE_OK)
         lobe_environment_destroy(environment);
     return result;
 }
 
 lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
-                                       const lobe_log *log, lobe_environment **environment) {
+                                       const lobe_host *host, lobe_environment **environment) {
     *environment = NULL;
     if (!parameters->data && strcmp(parameters->environment, "sky") == 0)
-        return environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, log, environment);
-    return open_file(parameters, log, environment);
+        return scenes_environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, host,
+                                      environment);
+    return open_file(parameters, host, environment);
 }
 
-lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
+lobe_result lobe_environment_open(const char *file_or_sky, const lobe_host *host,
                                   lobe_environment **environment) {
     return lobe_environment_open_with(
-        &(lobe_environment_open_parameters){.environment = file_or_sky}, log, environment);
+        &(lobe_environment_open_parameters){.environment = file_or_sky}, host, environment);
 }

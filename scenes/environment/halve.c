@@ -40,9 +40,9 @@ static double solid_angle(const reduction *work, double left, const strip *strip
     const lobe_environment *environment = work->environment;
     if (environment->layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE)
         return (right - left) * strip->angle;
-    return environment_solid_angle(environment->layout, environment->image.width,
-                                   environment->image.height, left, strip->top, right,
-                                   strip->bottom);
+    return scenes_environment_solid_angle(environment->layout, environment->image.width,
+                                          environment->image.height, left, strip->top, right,
+                                          strip->bottom);
 }
 
 static void cut_strips(reduction *work, double top, double bottom) {
@@ -51,9 +51,9 @@ static void cut_strips(reduction *work, double top, double bottom) {
         strip *strip = &work->strips[work->strip_count];
         strip->top = top;
         strip->bottom = top = fmin(floor(top) + 1, bottom);
-        strip->angle =
-            environment_solid_angle(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, environment->image.width,
-                                    environment->image.height, 0, strip->top, 1, strip->bottom);
+        strip->angle = scenes_environment_solid_angle(
+            LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, environment->image.width,
+            environment->image.height, 0, strip->top, 1, strip->bottom);
     }
 }
 
@@ -76,17 +76,17 @@ static void mean_texel(const reduction *work, double from, double to, float out[
     out[3] = 1;
 }
 
-bool environment_can_be_halved(const lobe_environment *environment) {
+bool scenes_environment_can_be_halved(const lobe_environment *environment) {
     uint32_t grid[2];
-    environment_grid(environment->layout, grid);
+    scenes_environment_grid(environment->layout, grid);
     return environment->image.width > grid[0] || environment->image.height > grid[1];
 }
 
 // Texels are written in order, each no later than the first of those that it is made of.
-void environment_halve(lobe_environment *environment) {
+void scenes_environment_halve(lobe_environment *environment) {
     lobe_image *image = &environment->image;
     uint32_t grid[2];
-    environment_grid(environment->layout, grid);
+    scenes_environment_grid(environment->layout, grid);
     reduction work = {.environment = environment,
                       .columns = halve(image->width / grid[0]),
                       .rows = halve(image->height / grid[1])};

@@ -96,42 +96,43 @@ static void clear_empty_parts(repair *work) {
     for (uint32_t y = 0; y < image->height; y++) {
         for (uint32_t x = 0; x < image->width; x += work->face[0]) {
             double direction[3];
-            if (!environment_direction(environment->layout, image->width, image->height,
-                                       (double[2]){x + 0.5, y + 0.5}, direction))
+            if (!scenes_environment_direction(environment->layout, image->width, image->height,
+                                              (double[2]){x + 0.5, y + 0.5}, direction))
                 memset(row_of(work, y) + 4 * (size_t)x, 0, 4 * sizeof(float) * work->face[0]);
         }
     }
 }
 
-static void report(const repair *work, const lobe_log *log) {
+static void report(const repair *work, const lobe_host *host) {
     const environment_faults *faults = &work->faults;
     if (faults->negative > 0 || faults->not_a_number > 0 || faults->infinite > 0)
-        lobe_log_print(log, LOBE_LOG_WARNING,
-                       "%s: repaired texels with numbers that no light has: %zu negative, %zu NaN, "
-                       "%zu infinite",
-                       work->environment->name, faults->negative, faults->not_a_number,
-                       faults->infinite);
+        lobe_host_log(host, LOBE_LOG_WARNING,
+                      "%s: repaired texels with numbers that no light has: %zu negative, %zu NaN, "
+                      "%zu infinite",
+                      work->environment->name, faults->negative, faults->not_a_number,
+                      faults->infinite);
 }
 
-lobe_result environment_repair(lobe_environment *environment, const lobe_log *log) {
+lobe_result scenes_environment_repair(lobe_environment *environment, const lobe_host *host) {
     const lobe_image *image = &environment->image;
     repair work = {.environment = environment};
     uint32_t grid[2];
-    environment_grid(environment->layout, grid);
+    scenes_environment_grid(environment->layout, grid);
     work.face[0] = image->width / grid[0];
     work.face[1] = image->height / grid[1];
-    work.above = lobe_allocate(lobe_log_allocator(log), 4 * (size_t)image->width, sizeof(float));
-    work.current = lobe_allocate(lobe_log_allocator(log), 4 * (size_t)image->width, sizeof(float));
+    work.above = lobe_allocate(lobe_host_allocator(host), 4 * (size_t)image->width, sizeof(float));
+    work.current =
+        lobe_allocate(lobe_host_allocator(host), 4 * (size_t)image->width, sizeof(float));
     const bool room = work.above && work.current;
     if (room) {
         clear_empty_parts(&work);
         for (uint32_t y = 0; y < image->height; y++)
             mend_row(&work, y);
-        report(&work, log);
+        report(&work, host);
     }
     lobe_release(work.above);
     lobe_release(work.current);
     return room ? LOBE_OK
-                : lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                                environment->name);
+                : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                                 environment->name);
 }

@@ -2,7 +2,7 @@
 #define SCENES_ENVIRONMENT_REPAIR_H
 
 #include <lobe/environment.h>
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 /// Makes every number of the image finite and at least 0: negative numbers become 0; one that is
@@ -10,6 +10,6 @@
 /// same face, negative ones as 0), or 0 without any. One warning counts the texels of each kind.
 /// The empty parts of crosses become 0, unsaid; alpha becomes 1. `image` is RGBA32_FLOAT and fits
 /// the layout. Errors: LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result environment_repair(lobe_environment *environment, const lobe_log *log);
+lobe_result scenes_environment_repair(lobe_environment *environment, const lobe_host *host);
 
 #endif

@@ -30,7 +30,7 @@ static size_t texel_of(const lobe_environment *environment, vector3 direction) {
     const lobe_image *image = &environment->image;
     const double to[3] = {direction.x, direction.y, direction.z};
     double position[2];
-    environment_position(environment->layout, image->width, image->height, to, position);
+    scenes_environment_position(environment->layout, image->width, image->height, to, position);
     const double x = fmin(floor(position[0]), image->width - 1.0);
     const double y = fmin(floor(position[1]), image->height - 1.0);
     return (size_t)y * image->width + (size_t)x;
@@ -45,16 +45,16 @@ static void add_light(lobe_environment *environment, size_t index, double part,
                       const double irradiance[3]) {
     const lobe_image *image = &environment->image;
     const double x = (double)(index % image->width), y = (double)(index / image->width);
-    const double angle = environment_solid_angle(environment->layout, image->width, image->height,
-                                                 x, y, x + 1, y + 1);
+    const double angle = scenes_environment_solid_angle(environment->layout, image->width,
+                                                        image->height, x, y, x + 1, y + 1);
     float *texel = (float *)image->texels + 4 * index;
     for (int i = 0; i < 3; i++)
         texel[i] = (float)(texel[i] + part * irradiance[i] / angle);
 }
 
 // Points are counted before they are added: a sum of thousands in single precision would drift.
-void environment_add_disc(lobe_environment *environment, vector3 direction, double radius,
-                          const double irradiance[3]) {
+void scenes_environment_add_disc(lobe_environment *environment, vector3 direction, double radius,
+                                 const double irradiance[3]) {
     enum { COUNT = DISC_POINTS * DISC_POINTS };
     size_t texels[COUNT];
     const vector3 aside = fabs(direction.y) < 0.9 ? (vector3){0, 1, 0} : (vector3){1, 0, 0};
@@ -81,8 +81,8 @@ typedef struct sky_scale {
 
 static sky_scale scale_of(const daylight *light) {
     double irradiance[3];
-    daylight_ground_irradiance(light, irradiance);
-    sky_scale scale = {.factor = M_PI / daylight_luminance(irradiance)};
+    scenes_daylight_ground_irradiance(light, irradiance);
+    sky_scale scale = {.factor = M_PI / scenes_daylight_luminance(irradiance)};
     for (int i = 0; i < 3; i++)
         scale.ground[i] = scale.factor * GROUND * irradiance[i] / M_PI;
     return scale;
@@ -98,7 +98,7 @@ static void add_point_of_sky(const daylight *light, const sky_scale *scale, cons
                              double sum[3]) {
     double sky[3];
     if (d[1] > 0)
-        daylight_sky(light, (vector3){d[0], d[1], d[2]}, sky);
+        scenes_daylight_sky(light, (vector3){d[0], d[1], d[2]}, sky);
     for (int i = 0; i < 3; i++)
         sum[i] += d[1] > 0 ? scale->factor * sky[i] : scale->ground[i];
 }
@@ -112,8 +112,8 @@ static void paint_texel(const lobe_image *image, const daylight *light, const sk
         const double position[2] = {x + (i % points + 0.5) / points,
                                     y + (i / points + 0.5) / points};
         double d[3];
-        environment_direction(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, image->width, image->height,
-                              position, d);
+        scenes_environment_direction(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, image->width,
+                                     image->height, position, d);
         add_point_of_sky(light, scale, d, sum);
     }
     for (int i = 0; i < 3; i++)
@@ -124,7 +124,7 @@ static void paint_texel(const lobe_image *image, const daylight *light, const sk
 static void paint(lobe_environment *environment) {
     const vector3 sun = {sin(SUN_TURN) * cos(SUN_HEIGHT), sin(SUN_HEIGHT),
                          cos(SUN_TURN) * cos(SUN_HEIGHT)};
-    const daylight light = daylight_of(sun, TURBIDITY);
+    const daylight light = scenes_daylight_of(sun, TURBIDITY);
     const sky_scale scale = scale_of(&light);
     const lobe_image *image = &environment->image;
     for (uint32_t y = 0; y < image->height; y++) {
@@ -134,15 +134,15 @@ static void paint(lobe_environment *environment) {
     double irradiance[3];
     for (int i = 0; i < 3; i++)
         irradiance[i] = scale.factor * light.sun_irradiance[i];
-    environment_add_disc(environment, sun, SUN_RADIUS, irradiance);
+    scenes_environment_add_disc(environment, sun, SUN_RADIUS, irradiance);
 }
 
-lobe_result environment_sky(uint32_t width, uint32_t height, const lobe_log *log,
-                            lobe_environment **environment) {
-    lobe_result result = environment_allocate("sky", log, environment);
+lobe_result scenes_environment_sky(uint32_t width, uint32_t height, const lobe_host *host,
+                                   lobe_environment **environment) {
+    lobe_result result = scenes_environment_allocate("sky", host, environment);
     if (result == LOBE_OK)
         result = lobe_image_allocate(&(*environment)->image, LOBE_FORMAT_RGBA32_FLOAT, width,
-                                     height, log);
+                                     height, host);
     if (result == LOBE_OK)
         paint(*environment);
     else

@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include <lobe/environment.h>
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #include "scenes/mesh/vector.h"
@@ -15,13 +15,13 @@
 /// The environment "sky": a clear sky with the sun, 40 degrees high, to the left behind somebody
 /// who looks along -Z; grey ground below the horizon. A white level surface under it has a
 /// luminance of 1. Latitude and longitude of any size. Errors: LOBE_ERROR_LIMIT, _OUT_OF_MEMORY.
-lobe_result environment_sky(uint32_t width, uint32_t height, const lobe_log *log,
-                            lobe_environment **environment);
+lobe_result scenes_environment_sky(uint32_t width, uint32_t height, const lobe_host *host,
+                                   lobe_environment **environment);
 
 /// Adds a disc of this angular radius (radians) about a direction of unit length, which brings this
 /// irradiance to a surface that faces it. Its light is all there however few texels it takes: the
 /// sum of radiance times solid angle grows by `irradiance`.
-void environment_add_disc(lobe_environment *environment, vector3 direction, double radius,
-                          const double irradiance[3]);
+void scenes_environment_add_disc(lobe_environment *environment, vector3 direction, double radius,
+                                 const double irradiance[3]);
 
 #endif

@@ -26,19 +26,20 @@ static image_file_kind recognise(const void *bytes, size_t size) {
 
 // Before memory is taken for what a header of a few bytes promises.
 static lobe_result check_extent(const image_codec_extent *extent, size_t size, const char *name,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     uint32_t width = extent->width, height = extent->height;
     uint64_t texels = (uint64_t)width * height;
     if (width > LOBE_IMAGE_MAXIMUM_EXTENT || height > LOBE_IMAGE_MAXIMUM_EXTENT ||
         texels > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
-                             "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
-                             "all)",
-                             name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
-                             SCENE_IMAGE_MAXIMUM_TEXELS);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
+                              "all)",
+                              name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
+                              SCENE_IMAGE_MAXIMUM_TEXELS);
     if (texels > (uint64_t)size * MAXIMUM_TEXELS_PER_BYTE)
-        return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %zu bytes cannot hold %u x %u texels",
-                             name, size, width, height);
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: %zu bytes cannot hold %u x %u texels", name, size, width,
+                              height);
     return LOBE_OK;
 }
 
@@ -49,51 +50,51 @@ static lobe_format choose_format(const image_codec_extent *extent, scene_image_u
 }
 
 static lobe_result fail(const library_memory *memory, const char *name, const char *message,
-                        const lobe_log *log) {
+                        const lobe_host *host) {
     if (memory->failed)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
-    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %s", name, message);
 }
 
-lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
-                               scene_image_use use, const lobe_log *log, lobe_image *image) {
+lobe_result scenes_image_decode(const void *bytes, size_t size, const char *name,
+                                scene_image_use use, const lobe_host *host, lobe_image *image) {
     *image = (lobe_image){0};
     image_file_kind kind = recognise(bytes, size);
     if (kind == IMAGE_FILE_OTHER)
-        return lobe_log_fail(log, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
-                             "%s: neither PNG nor JPEG", name);
+        return lobe_host_fail(host, size < 8 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+                              "%s: neither PNG nor JPEG", name);
     char message[IMAGE_CODEC_MESSAGE_SIZE] = "";
-    library_memory memory = scene_library_memory(log);
+    library_memory memory = scenes_library_memory(host);
     image_codec_extent extent = {0};
     bool png = kind == IMAGE_FILE_PNG;
-    bool done = png ? png_measure(bytes, size, &memory, &extent, message)
-                    : jpeg_measure(bytes, size, &extent, message);
+    bool done = png ? third_party_png_measure(bytes, size, &memory, &extent, message)
+                    : third_party_jpeg_measure(bytes, size, &extent, message);
     if (!done || memory.failed)
-        return fail(&memory, name, message, log);
-    lobe_result result = check_extent(&extent, size, name, log);
+        return fail(&memory, name, message, host);
+    lobe_result result = check_extent(&extent, size, name, host);
     if (result != LOBE_OK)
         return result;
     lobe_format format = choose_format(&extent, use);
-    result = lobe_image_allocate(image, format, extent.width, extent.height, log);
+    result = lobe_image_allocate(image, format, extent.width, extent.height, host);
     if (result != LOBE_OK)
         return result;
-    done = png ? png_decode(bytes, size, &memory, &extent, format == LOBE_FORMAT_RGBA16_UNORM,
-                            image->texels, message)
-               : jpeg_decode(bytes, size, &extent, image->texels, message);
+    done = png ? third_party_png_decode(bytes, size, &memory, &extent,
+                                        format == LOBE_FORMAT_RGBA16_UNORM, image->texels, message)
+               : third_party_jpeg_decode(bytes, size, &extent, image->texels, message);
     if (done && !memory.failed)
         return LOBE_OK;
     lobe_image_free(image);
-    return fail(&memory, name, message, log);
+    return fail(&memory, name, message, host);
 }
 
-lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
-                             lobe_image *image) {
+lobe_result scenes_image_load(const char *path, scene_image_use use, const lobe_host *host,
+                              lobe_image *image) {
     *image = (lobe_image){0};
     uint8_t *bytes = NULL;
     size_t size = 0;
-    lobe_result result = lobe_file_read(path, NULL, log, &bytes, &size);
+    lobe_result result = lobe_file_read(path, NULL, host, &bytes, &size);
     if (result == LOBE_OK)
-        result = scene_image_decode(bytes, size, path, use, log, image);
+        result = scenes_image_decode(bytes, size, path, use, host, image);
     lobe_release(bytes);
     return result;
 }

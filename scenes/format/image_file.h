@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// What an image file's numbers mean, which neither PNG nor JPEG says reliably.
@@ -20,11 +20,11 @@ typedef enum scene_image_use {
 /// colour profiles are ignored. `name` is for messages. On failure `image` is empty. Errors:
 /// LOBE_ERROR_UNSUPPORTED (another format), _MALFORMED, _LIMIT (extent above
 /// LOBE_IMAGE_MAXIMUM_EXTENT, or too many texels), _OUT_OF_MEMORY.
-lobe_result scene_image_decode(const void *bytes, size_t size, const char *name,
-                               scene_image_use use, const lobe_log *log, lobe_image *image);
+lobe_result scenes_image_decode(const void *bytes, size_t size, const char *name,
+                                scene_image_use use, const lobe_host *host, lobe_image *image);
 
 /// The same for a file; also LOBE_ERROR_NOT_FOUND and LOBE_ERROR_READ.
-lobe_result scene_image_load(const char *path, scene_image_use use, const lobe_log *log,
-                             lobe_image *image);
+lobe_result scenes_image_load(const char *path, scene_image_use use, const lobe_host *host,
+                              lobe_image *image);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -12,7 +12,7 @@
 /// (`exports.cells = [...]`, `"cells": [...]`). Nothing is run, and what else there is is passed
 /// over. `name` is for messages. The mesh has smooth normals and no texture coordinates. On
 /// failure it is empty. Errors: LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result javascript_mesh_read(const char *text, size_t size, const char *name,
-                                 const lobe_log *log, lobe_mesh *mesh);
+lobe_result scenes_javascript_mesh_read(const char *text, size_t size, const char *name,
+                                        const lobe_host *host, lobe_mesh *mesh);
 
 #endif

@@ -10,7 +10,7 @@
 
 typedef struct ply_reader {
     const char *name;
-    const lobe_log *log;
+    const lobe_host *host;
     text_cursor cursor; // in the data; of text or of bytes
     ply_header header;
     polygon_mesh polygons;
@@ -19,8 +19,8 @@ typedef struct ply_reader {
 } ply_reader;
 
 static lobe_result fail(const ply_reader *reader, lobe_result result, const char *cause) {
-    return lobe_log_fail(reader->log, result, "%s: %s %zu: %s", reader->name, reader->kind,
-                         reader->item, cause);
+    return lobe_host_fail(reader->host, result, "%s: %s %zu: %s", reader->name, reader->kind,
+                          reader->item, cause);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -53,12 +53,12 @@ static lobe_result read_value(ply_reader *reader, ply_type type, double *value) 
         [PLY_INT] = 4,  [PLY_UINT] = 4,  [PLY_FLOAT] = 4, [PLY_DOUBLE] = 8};
     text_cursor *cursor = &reader->cursor;
     if (reader->header.ascii)
-        text_cursor_skip_space(cursor);
+        scenes_text_cursor_skip_space(cursor);
     size_t left = (size_t)(cursor->end - cursor->at);
     if (left < (reader->header.ascii ? 1 : sizes[type]))
         return fail(reader, LOBE_ERROR_MALFORMED, "the file ends early");
     if (reader->header.ascii)
-        return text_cursor_number(cursor, value)
+        return scenes_text_cursor_number(cursor, value)
                    ? LOBE_OK
                    : fail(reader, LOBE_ERROR_MALFORMED, "not a number that lobe takes");
     uint64_t bits = 0;
@@ -92,7 +92,7 @@ static lobe_result read_polygon(ply_reader *reader, ply_type type, uint32_t coun
             return status;
         if (i == 0)
             first = corner;
-        if (i >= 2 && !polygon_mesh_add_triangle(&reader->polygons, first, previous, corner))
+        if (i >= 2 && !scenes_polygon_mesh_add_triangle(&reader->polygons, first, previous, corner))
             return fail(reader, LOBE_ERROR_OUT_OF_MEMORY, "out of memory");
         previous = corner;
     }
@@ -123,7 +123,7 @@ static lobe_result read_item(ply_reader *reader, const ply_element *element) {
     for (int axis = 0; axis < 3; axis++)
         if (!(fabs(position[axis]) <= (double)FLT_MAX))
             return fail(reader, LOBE_ERROR_MALFORMED, "its position is not finite");
-    if (!polygon_mesh_add_position(&reader->polygons, position))
+    if (!scenes_polygon_mesh_add_position(&reader->polygons, position))
         return fail(reader, LOBE_ERROR_OUT_OF_MEMORY, "out of memory");
     return LOBE_OK;
 }
@@ -141,19 +141,19 @@ static lobe_result read_data(ply_reader *reader) {
     return status;
 }
 
-lobe_result ply_read(const void *bytes, size_t size, const char *name, const lobe_log *log,
-                     lobe_mesh *mesh) {
+lobe_result scenes_ply_read(const void *bytes, size_t size, const char *name, const lobe_host *host,
+                            lobe_mesh *mesh) {
     const char *begin = bytes;
     ply_reader reader = {.name = name,
-                         .log = log,
-                         .polygons.allocator = lobe_log_allocator(log),
+                         .host = host,
+                         .polygons.allocator = lobe_host_allocator(host),
                          .cursor = {begin, begin + size}};
     *mesh = (lobe_mesh){0};
-    lobe_result status = ply_header_read(&reader.cursor, name, log, &reader.header);
+    lobe_result status = scenes_ply_header_read(&reader.cursor, name, host, &reader.header);
     if (!status)
         status = read_data(&reader);
     if (!status)
-        status = polygon_mesh_finish(&reader.polygons, name, log, mesh);
-    polygon_mesh_free(&reader.polygons);
+        status = scenes_polygon_mesh_finish(&reader.polygons, name, host, mesh);
+    scenes_polygon_mesh_free(&reader.polygons);
     return status;
 }

@@ -7,7 +7,7 @@ enum { MAXIMUM_LINE = 256, MAXIMUM_WORDS = 5 };
 
 typedef struct header_reader {
     const char *name;
-    const lobe_log *log;
+    const lobe_host *host;
     text_cursor *cursor;
     ply_header *header;
     size_t line;
@@ -18,8 +18,8 @@ typedef struct header_reader {
 } header_reader;
 
 static lobe_result fail(const header_reader *reader, lobe_result result, const char *cause) {
-    return lobe_log_fail(reader->log, result, "%s: header, line %zu: %s", reader->name,
-                         reader->line, cause);
+    return lobe_host_fail(reader->host, result, "%s: header, line %zu: %s", reader->name,
+                          reader->line, cause);
 }
 
 // Words beyond the last that any statement has are not kept; comments may have them.
@@ -78,7 +78,7 @@ static lobe_result read_element(header_reader *reader) {
     ply_element *element = &header->elements[header->element_count];
     const char *text = reader->word_count == 3 ? reader->words[2] : "";
     text_cursor number = {text, text + strlen(text)};
-    if (!text_cursor_integer(&number, UINT32_MAX, &element->count))
+    if (!scenes_text_cursor_integer(&number, UINT32_MAX, &element->count))
         return fail(reader, LOBE_ERROR_MALFORMED, "not 'element NAME COUNT'");
     element->vertices = word_is(reader, 1, "vertex");
     element->polygons = word_is(reader, 1, "face");
@@ -179,9 +179,9 @@ static lobe_result check_header(header_reader *reader) {
     return LOBE_OK;
 }
 
-lobe_result ply_header_read(text_cursor *cursor, const char *name, const lobe_log *log,
-                            ply_header *header) {
-    header_reader reader = {.name = name, .log = log, .cursor = cursor, .header = header};
+lobe_result scenes_ply_header_read(text_cursor *cursor, const char *name, const lobe_host *host,
+                                   ply_header *header) {
+    header_reader reader = {.name = name, .host = host, .cursor = cursor, .header = header};
     *header = (ply_header){0};
     lobe_result status = next_line(&reader);
     if (!status && !(reader.word_count == 1 && word_is(&reader, 0, "ply")))

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #include "scenes/format/text_cursor.h"
@@ -49,10 +49,10 @@ typedef struct ply_header {
     size_t element_count;
 } ply_header;
 
-/// Reads the header and moves behind it. `name` is for messages. Errors: as for ply_read. No
+/// Reads the header and moves behind it. `name` is for messages. Errors: as for scenes_ply_read. No
 /// element promises more than the bytes behind the header can hold; one has vertices, one
 /// polygons.
-lobe_result ply_header_read(text_cursor *cursor, const char *name, const lobe_log *log,
-                            ply_header *header);
+lobe_result scenes_ply_header_read(text_cursor *cursor, const char *name, const lobe_host *host,
+                                   ply_header *header);
 
 #endif

@@ -11,7 +11,7 @@
 
 typedef struct hdr_reader {
     const char *name;
-    const lobe_log *log;
+    const lobe_host *host;
     const uint8_t *at, *end;
     bool xyz;
     double scale[3]; // undoes exposures and colour corrections
@@ -22,14 +22,14 @@ typedef struct hdr_reader {
 } hdr_reader;
 
 static lobe_result fail(const hdr_reader *reader, const char *cause) {
-    return lobe_log_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: broken Radiance picture: %s",
-                         reader->name, cause);
+    return lobe_host_fail(reader->host, LOBE_ERROR_MALFORMED, "%s: broken Radiance picture: %s",
+                          reader->name, cause);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Header
 
-bool radiance_hdr_recognise(const void *bytes, size_t size) {
+bool scenes_radiance_hdr_recognise(const void *bytes, size_t size) {
     return size >= 2 && memcmp(bytes, "#?", 2) == 0;
 }
 
@@ -54,16 +54,16 @@ static bool take_key(text_cursor *line, const char *key) {
 }
 
 static lobe_result read_format(hdr_reader *reader, text_cursor *line) {
-    text_cursor_skip_space(line);
+    scenes_text_cursor_skip_space(line);
     if (take_key(line, "32-bit_rle_rgbe"))
         reader->xyz = false;
     else if (take_key(line, "32-bit_rle_xyze"))
         reader->xyz = true;
     else
-        return lobe_log_fail(reader->log, LOBE_ERROR_UNSUPPORTED,
-                             "%s: Radiance picture of a format other than 32-bit_rle_rgbe and "
-                             "32-bit_rle_xyze",
-                             reader->name);
+        return lobe_host_fail(reader->host, LOBE_ERROR_UNSUPPORTED,
+                              "%s: Radiance picture of a format other than 32-bit_rle_rgbe and "
+                              "32-bit_rle_xyze",
+                              reader->name);
     return LOBE_OK;
 }
 
@@ -71,7 +71,7 @@ static lobe_result read_format(hdr_reader *reader, text_cursor *line) {
 static lobe_result read_factors(hdr_reader *reader, text_cursor *line, bool one_for_all) {
     double factor = 0;
     for (int i = 0; i < 3; i++) {
-        if ((i == 0 || !one_for_all) && !text_cursor_number(line, &factor))
+        if ((i == 0 || !one_for_all) && !scenes_text_cursor_number(line, &factor))
             factor = 0;
         reader->scale[i] /= factor;
         if (!(factor > 0) || !(reader->scale[i] > 0) || !isfinite(reader->scale[i]))
@@ -101,7 +101,7 @@ static lobe_result read_variables(hdr_reader *reader) {
 
 // "-Y" and the like, and a number.
 static bool take_axis(text_cursor *line, char *axis, bool *minus, uint32_t *count) {
-    text_cursor_skip_space(line);
+    scenes_text_cursor_skip_space(line);
     size_t number;
     if (line->end - line->at < 2 || (line->at[0] != '-' && line->at[0] != '+') ||
         (line->at[1] != 'X' && line->at[1] != 'Y'))
@@ -109,7 +109,7 @@ static bool take_axis(text_cursor *line, char *axis, bool *minus, uint32_t *coun
     *minus = line->at[0] == '-';
     *axis = line->at[1];
     line->at += 2;
-    if (!text_cursor_integer(line, LOBE_IMAGE_MAXIMUM_EXTENT, &number) || number == 0)
+    if (!scenes_text_cursor_integer(line, LOBE_IMAGE_MAXIMUM_EXTENT, &number) || number == 0)
         return false;
     *count = (uint32_t)number;
     return true;
@@ -129,10 +129,10 @@ static lobe_result read_resolution(hdr_reader *reader) {
     reader->lines_reversed = line_minus == reader->lines_are_columns;
     reader->texels_reversed = texel_minus != reader->lines_are_columns;
     if ((uint64_t)reader->line_count * reader->length > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return lobe_log_fail(reader->log, LOBE_ERROR_LIMIT,
-                             "%s: %u x %u texels are more than lobe takes (%zu in all)",
-                             reader->name, reader->length, reader->line_count,
-                             SCENE_IMAGE_MAXIMUM_TEXELS);
+        return lobe_host_fail(reader->host, LOBE_ERROR_LIMIT,
+                              "%s: %u x %u texels are more than lobe takes (%zu in all)",
+                              reader->name, reader->length, reader->line_count,
+                              SCENE_IMAGE_MAXIMUM_TEXELS);
     // However well it is packed, a line takes four bytes.
     if ((uint64_t)(reader->end - reader->at) < 4 * (uint64_t)reader->line_count)
         return fail(reader, "ends early");
@@ -247,13 +247,13 @@ static lobe_result decode(hdr_reader *reader) {
     const bool columns = reader->lines_are_columns;
     lobe_result result = lobe_image_allocate(
         reader->image, LOBE_FORMAT_RGBA32_FLOAT, columns ? reader->line_count : reader->length,
-        columns ? reader->length : reader->line_count, reader->log);
+        columns ? reader->length : reader->line_count, reader->host);
     if (result != LOBE_OK)
         return result;
-    uint8_t *line = lobe_allocate(lobe_log_allocator(reader->log), reader->length, 4);
+    uint8_t *line = lobe_allocate(lobe_host_allocator(reader->host), reader->length, 4);
     if (!line)
-        return lobe_log_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                             reader->name);
+        return lobe_host_fail(reader->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              reader->name);
     const char *cause = NULL;
     for (uint32_t i = 0; i < reader->line_count && !cause; i++) {
         cause = unpack_line(reader, line);
@@ -264,16 +264,16 @@ static lobe_result decode(hdr_reader *reader) {
     return cause ? fail(reader, cause) : LOBE_OK;
 }
 
-lobe_result radiance_hdr_decode(const void *bytes, size_t size, const char *name,
-                                const lobe_log *log, lobe_image *image) {
+lobe_result scenes_radiance_hdr_decode(const void *bytes, size_t size, const char *name,
+                                       const lobe_host *host, lobe_image *image) {
     *image = (lobe_image){0};
     hdr_reader reader = {.name = name,
-                         .log = log,
+                         .host = host,
                          .at = bytes,
                          .end = (const uint8_t *)bytes + size,
                          .scale = {1, 1, 1},
                          .image = image};
-    if (!radiance_hdr_recognise(bytes, size))
+    if (!scenes_radiance_hdr_recognise(bytes, size))
         return fail(&reader, "does not begin with '#?'");
     lobe_result result = read_variables(&reader);
     if (result == LOBE_OK)

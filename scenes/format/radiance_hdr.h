@@ -5,14 +5,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// Radiance pictures (.hdr, .pic).
 
 /// Whether the bytes begin as such a picture's do.
-bool radiance_hdr_recognise(const void *bytes, size_t size);
+bool scenes_radiance_hdr_recognise(const void *bytes, size_t size);
 
 /// Decodes a picture into RGBA32_FLOAT, alpha 1. Scan lines may be packed in the newer way, in the
 /// older, or not at all; they may run in any of the eight directions. Exposures and colour
@@ -20,7 +20,7 @@ bool radiance_hdr_recognise(const void *bytes, size_t size);
 /// becomes RGB of Radiance's primaries, as which RGB is taken, too. `name` is for messages. On
 /// failure `image` is empty. Errors: LOBE_ERROR_MALFORMED, _UNSUPPORTED (another format of texels),
 /// _LIMIT, _OUT_OF_MEMORY.
-lobe_result radiance_hdr_decode(const void *bytes, size_t size, const char *name,
-                                const lobe_log *log, lobe_image *image);
+lobe_result scenes_radiance_hdr_decode(const void *bytes, size_t size, const char *name,
+                                       const lobe_host *host, lobe_image *image);
 
 #endif

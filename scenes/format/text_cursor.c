@@ -30,13 +30,13 @@ static bool is_ended(const text_cursor *cursor) {
              (c >= 'A' && c <= 'Z'));
 }
 
-void text_cursor_skip_space(text_cursor *cursor) {
+void scenes_text_cursor_skip_space(text_cursor *cursor) {
     while (cursor->at < cursor->end && is_space(*cursor->at))
         cursor->at++;
 }
 
-bool text_cursor_take(text_cursor *cursor, char expected) {
-    text_cursor_skip_space(cursor);
+bool scenes_text_cursor_take(text_cursor *cursor, char expected) {
+    scenes_text_cursor_skip_space(cursor);
     return next_is(cursor, expected, expected);
 }
 
@@ -79,11 +79,11 @@ static double scale(uint64_t mantissa, int exponent) {
     return exponent < 0 ? value / power : value * power;
 }
 
-bool text_cursor_number(text_cursor *cursor, double *value) {
+bool scenes_text_cursor_number(text_cursor *cursor, double *value) {
     text_cursor copy = *cursor;
     uint64_t mantissa = 0;
     int exponent = 0, ignored = 0;
-    text_cursor_skip_space(&copy);
+    scenes_text_cursor_skip_space(&copy);
     bool negative = next_is(&copy, '-', '-');
     if (!negative)
         next_is(&copy, '+', '+');
@@ -103,9 +103,9 @@ bool text_cursor_number(text_cursor *cursor, double *value) {
     return true;
 }
 
-bool text_cursor_integer(text_cursor *cursor, size_t maximum, size_t *value) {
+bool scenes_text_cursor_integer(text_cursor *cursor, size_t maximum, size_t *value) {
     text_cursor copy = *cursor;
-    text_cursor_skip_space(&copy);
+    scenes_text_cursor_skip_space(&copy);
     if (!is_digit(&copy))
         return false;
     size_t sum = 0;
@@ -122,7 +122,7 @@ bool text_cursor_integer(text_cursor *cursor, size_t maximum, size_t *value) {
     return true;
 }
 
-size_t text_cursor_line(const text_cursor *cursor, const char *begin) {
+size_t scenes_text_cursor_line(const text_cursor *cursor, const char *begin) {
     size_t line = 1;
     for (; begin < cursor->at; begin++)
         line += *begin == '\n';

@@ -10,19 +10,19 @@ typedef struct text_cursor {
 } text_cursor;
 
 /// Moves behind spaces, tabs and ends of lines.
-void text_cursor_skip_space(text_cursor *cursor);
+void scenes_text_cursor_skip_space(text_cursor *cursor);
 
 /// Moves behind `expected` where that is next, after space.
-bool text_cursor_take(text_cursor *cursor, char expected);
+bool scenes_text_cursor_take(text_cursor *cursor, char expected);
 
 /// Reads a decimal number, after space: digits with a point and an exponent where there are any.
 /// False, nothing moved, where there is none, or one beyond the range of float.
-bool text_cursor_number(text_cursor *cursor, double *value);
+bool scenes_text_cursor_number(text_cursor *cursor, double *value);
 
 /// The same for a whole number [0, maximum] without sign, point or exponent.
-bool text_cursor_integer(text_cursor *cursor, size_t maximum, size_t *value);
+bool scenes_text_cursor_integer(text_cursor *cursor, size_t maximum, size_t *value);
 
 /// The line that the cursor is in, counted from 1; `begin` is where the text begins.
-size_t text_cursor_line(const text_cursor *cursor, const char *begin);
+size_t scenes_text_cursor_line(const text_cursor *cursor, const char *begin);
 
 #endif

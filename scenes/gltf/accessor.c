@@ -19,23 +19,23 @@ static size_t component_size(int component) {
     }
 }
 
-lobe_result gltf_open_view(const gltf_import *import, int view, const char *what,
-                           const uint8_t **bytes, size_t *length, size_t *stride) {
+lobe_result scenes_gltf_open_view(const gltf_import *import, int view, const char *what,
+                                  const uint8_t **bytes, size_t *length, size_t *stride) {
     const gltf_document *document = import->document;
     if (view < 0 || (size_t)view >= document->view_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: there is no buffer view %d", import->path, what, view);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: there is no buffer view %d", import->path, what, view);
     const gltf_view *v = &document->views[view];
     if (v->buffer < 0 || (size_t)v->buffer >= document->buffer_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: buffer view %d: there is no buffer %d", import->path, view,
-                             v->buffer);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: buffer view %d: there is no buffer %d", import->path, view,
+                              v->buffer);
     const gltf_buffer *buffer = &document->buffers[v->buffer];
     if (v->offset > buffer->size || v->length > buffer->size - v->offset)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: buffer view %d: %zu bytes from %zu on reach beyond the %zu "
-                             "bytes of buffer %d",
-                             import->path, view, v->length, v->offset, buffer->size, v->buffer);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: buffer view %d: %zu bytes from %zu on reach beyond the %zu "
+                              "bytes of buffer %d",
+                              import->path, view, v->length, v->offset, buffer->size, v->buffer);
     *bytes = buffer->data + v->offset;
     *length = v->length;
     *stride = v->stride;
@@ -52,21 +52,22 @@ typedef struct element_range {
 static lobe_result open_range(const gltf_import *import, const element_range *range,
                               const char *what, const uint8_t **bytes, size_t *stride) {
     size_t length, view_stride;
-    lobe_result result = gltf_open_view(import, range->view, what, bytes, &length, &view_stride);
+    lobe_result result =
+        scenes_gltf_open_view(import, range->view, what, bytes, &length, &view_stride);
     if (result != LOBE_OK)
         return result;
     *stride = range->strided && view_stride > 0 ? view_stride : range->size;
     if (*stride < range->size)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: elements of %zu bytes overlap at a stride of %zu",
-                             import->path, what, range->size, *stride);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: elements of %zu bytes overlap at a stride of %zu",
+                              import->path, what, range->size, *stride);
     bool fits = range->offset <= length && length - range->offset >= range->size &&
                 (length - range->offset - range->size) / *stride >= range->count - 1;
     if (!fits)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: %zu elements reach beyond the %zu bytes of buffer view "
-                             "%d",
-                             import->path, what, range->count, length, range->view);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: %zu elements reach beyond the %zu bytes of buffer view "
+                              "%d",
+                              import->path, what, range->count, length, range->view);
     *bytes += range->offset;
     return LOBE_OK;
 }
@@ -102,12 +103,12 @@ static lobe_result check_sparse_indices(const gltf_import *import, const gltf_el
     for (size_t i = 0; i < elements->sparse_count; i++) {
         uint32_t index = sparse_index(elements, i);
         if (index >= elements->count)
-            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                 "%s: %s: sparse index %u of %zu elements", import->path, what,
-                                 index, elements->count);
+            return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                  "%s: %s: sparse index %u of %zu elements", import->path, what,
+                                  index, elements->count);
         if (i > 0 && index <= sparse_index(elements, i - 1))
-            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                 "%s: %s: sparse indices do not increase", import->path, what);
+            return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                  "%s: %s: sparse indices do not increase", import->path, what);
     }
     return LOBE_OK;
 }
@@ -115,9 +116,9 @@ static lobe_result check_sparse_indices(const gltf_import *import, const gltf_el
 static lobe_result open_sparse(const gltf_import *import, const gltf_sparse *sparse,
                                size_t element_size, const char *what, gltf_elements *elements) {
     if (!is_unsigned(sparse->index_component) || sparse->count > elements->count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: %zu sparse indices of type %d", import->path, what,
-                             sparse->count, sparse->index_component);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: %zu sparse indices of type %d", import->path, what,
+                              sparse->count, sparse->index_component);
     element_range indices = {sparse->index_view, sparse->index_offset, sparse->count,
                              component_size(sparse->index_component), false};
     element_range values = {sparse->value_view, sparse->value_offset, sparse->count, element_size,
@@ -136,25 +137,25 @@ static lobe_result open_sparse(const gltf_import *import, const gltf_sparse *spa
 static lobe_result check_type(const gltf_import *import, const gltf_accessor *accessor,
                               const char *what) {
     if (accessor->channels == 0 || component_size(accessor->component) == 0)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: a matrix, or components of unknown type %d", import->path,
-                             what, accessor->component);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: a matrix, or components of unknown type %d", import->path,
+                              what, accessor->component);
     if (accessor->count == 0)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: has no elements",
-                             import->path, what);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: %s: has no elements",
+                              import->path, what);
     if (accessor->view < 0 && accessor->count > GLTF_MAXIMUM_ZERO_ELEMENTS)
-        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
-                             "%s: %s: %zu elements without a buffer view, at most %zu",
-                             import->path, what, accessor->count, GLTF_MAXIMUM_ZERO_ELEMENTS);
+        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                              "%s: %s: %zu elements without a buffer view, at most %zu",
+                              import->path, what, accessor->count, GLTF_MAXIMUM_ZERO_ELEMENTS);
     return LOBE_OK;
 }
 
-lobe_result gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
-                               gltf_elements *elements) {
+lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
+                                      gltf_elements *elements) {
     *elements = (gltf_elements){0};
     if (accessor < 0 || (size_t)accessor >= import->document->accessor_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: there is no accessor %d",
-                             import->path, what, accessor);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: %s: there is no accessor %d",
+                              import->path, what, accessor);
     const gltf_accessor *a = &import->document->accessors[accessor];
     lobe_result result = check_type(import, a, what);
     if (result != LOBE_OK)
@@ -213,7 +214,7 @@ static float load_float(const uint8_t *bytes, int component, bool normalised) {
     }
 }
 
-void gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]) {
+void scenes_gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]) {
     const uint8_t *bytes = find_element(elements, i);
     size_t size = component_size(elements->component);
     for (unsigned c = 0; c < elements->channels; c++)
@@ -221,7 +222,7 @@ void gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]) {
             bytes ? load_float(bytes + c * size, elements->component, elements->normalised) : 0;
 }
 
-uint32_t gltf_read_index(const gltf_elements *elements, size_t i) {
+uint32_t scenes_gltf_read_index(const gltf_elements *elements, size_t i) {
     const uint8_t *bytes = find_element(elements, i);
     return bytes ? load_unsigned(bytes, elements->component) : 0;
 }

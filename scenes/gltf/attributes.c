@@ -59,27 +59,27 @@ static lobe_result open_attribute(const gltf_import *import, const gltf_primitiv
     char what[192];
     snprintf(what, sizeof what, "%s of %s", rule->name, attributes->name);
     lobe_result result =
-        gltf_open_accessor(import, primitive->attributes[attribute], what, elements);
+        scenes_gltf_open_accessor(import, primitive->attributes[attribute], what, elements);
     if (result != LOBE_OK)
         return result;
     unsigned kinds = rule->kinds | (import->quantised ? rule->quantised_kinds : 0);
     if (elements->channels < rule->minimum_channels ||
         elements->channels > rule->maximum_channels || !(kind_of(elements) & kinds))
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: %u components of type %d%s are not allowed", import->path,
-                             what, elements->channels, elements->component,
-                             elements->normalised ? ", normalised," : "");
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: %u components of type %d%s are not allowed", import->path,
+                              what, elements->channels, elements->component,
+                              elements->normalised ? ", normalised," : "");
     size_t count = attributes->elements[GLTF_POSITION].count;
     if (elements->count != count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s: %zu elements for %zu positions", import->path, what,
-                             elements->count, count);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: %zu elements for %zu positions", import->path, what,
+                              elements->count, count);
     attributes->present[attribute] = true;
     return LOBE_OK;
 }
 
-lobe_result gltf_open_attributes(const gltf_import *import, const gltf_primitive *primitive,
-                                 const char *name, gltf_attributes *attributes) {
+lobe_result scenes_gltf_open_attributes(const gltf_import *import, const gltf_primitive *primitive,
+                                        const char *name, gltf_attributes *attributes) {
     *attributes = (gltf_attributes){.name = name};
     for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
         if (primitive->attributes[i] < 0)
@@ -115,12 +115,12 @@ static lobe_result read_attribute(const gltf_import *import, const gltf_attribut
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         float values[4] = {0};
         size_t element = source ? source[i] : i;
-        gltf_read_floats(elements, element, values);
+        scenes_gltf_read_floats(elements, element, values);
         for (unsigned c = 0; c < elements->channels; c++) {
             if (!isfinite(values[c]))
-                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                     "%s: %s: %s of vertex %zu is not finite", import->path,
-                                     attributes->name, rules[attribute].name, element);
+                return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                      "%s: %s: %s of vertex %zu is not finite", import->path,
+                                      attributes->name, rules[attribute].name, element);
         }
         // A colour of three channels keeps the alpha of 1 it was allocated with.
         memcpy(destination(&mesh->vertices[i], attribute), values,
@@ -129,8 +129,8 @@ static lobe_result read_attribute(const gltf_import *import, const gltf_attribut
     return LOBE_OK;
 }
 
-lobe_result gltf_read_vertices(const gltf_import *import, const gltf_attributes *attributes,
-                               const uint32_t *source, lobe_mesh *mesh) {
+lobe_result scenes_gltf_read_vertices(const gltf_import *import, const gltf_attributes *attributes,
+                                      const uint32_t *source, lobe_mesh *mesh) {
     for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
         if (!attributes->present[i])
             continue;

@@ -75,12 +75,12 @@ static const char *open_text(gltf_container *container) {
 }
 
 static lobe_result check_version(const gltf_container *container, const char *path,
-                                 const lobe_log *log) {
+                                 const lobe_host *host) {
     uint32_t version = container->size >= 8 ? read_word(container->bytes + 4) : 2;
     if (version == 2)
         return LOBE_OK;
-    return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED, "%s: GLB version %u, lobe reads version 2",
-                         path, version);
+    return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED, "%s: GLB version %u, lobe reads version 2",
+                          path, version);
 }
 
 static const char *open_header(gltf_container *container) {
@@ -93,13 +93,14 @@ static const char *open_header(gltf_container *container) {
     return open_binary(container);
 }
 
-lobe_result gltf_container_open(gltf_container *container, const char *path, const lobe_log *log) {
+lobe_result scenes_gltf_container_open(gltf_container *container, const char *path,
+                                       const lobe_host *host) {
     container->binary = container->size >= 4 && memcmp(container->bytes, "glTF", 4) == 0;
-    lobe_result result = container->binary ? check_version(container, path, log) : LOBE_OK;
+    lobe_result result = container->binary ? check_version(container, path, host) : LOBE_OK;
     if (result != LOBE_OK)
         return result;
     const char *fault = container->binary ? open_header(container) : open_text(container);
     if (!fault)
         return LOBE_OK;
-    return lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);
 }

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 /// The bytes of a .gltf or .glb file, and where in them the JSON text is.
@@ -19,6 +19,7 @@ typedef struct gltf_container {
 /// Finds the JSON text; for GLB checks header and chunks, and shortens what the header says to
 /// the two chunks that a reader needs. `bytes` and `size` are set by the caller.
 /// Errors: LOBE_ERROR_MALFORMED, LOBE_ERROR_UNSUPPORTED (a GLB version other than 2).
-lobe_result gltf_container_open(gltf_container *container, const char *path, const lobe_log *log);
+lobe_result scenes_gltf_container_open(gltf_container *container, const char *path,
+                                       const lobe_host *host);
 
 #endif

@@ -20,8 +20,9 @@ typedef struct face_reader {
 } face_reader;
 
 static lobe_result fail(const face_reader *reader, const char *cause) {
-    return lobe_log_fail(reader->import->log, LOBE_ERROR_MALFORMED, "%s: image-based light %d: %s",
-                         reader->import->path, reader->light, cause);
+    return lobe_host_fail(reader->import->host, LOBE_ERROR_MALFORMED,
+                          "%s: image-based light %d: %s", reader->import->path, reader->light,
+                          cause);
 }
 
 // The first face tells the size of all.
@@ -29,12 +30,12 @@ static lobe_result allocate(face_reader *reader, const lobe_image *face) {
     const uint64_t texels = (uint64_t)ENVIRONMENT_FACE_COUNT * face->width * face->height;
     if (texels > SCENE_IMAGE_MAXIMUM_TEXELS ||
         face->height > LOBE_IMAGE_MAXIMUM_EXTENT / ENVIRONMENT_FACE_COUNT)
-        return lobe_log_fail(reader->import->log, LOBE_ERROR_LIMIT,
-                             "%s: image-based light %d: faces of %u x %u texels are too large",
-                             reader->import->path, reader->light, face->width, face->height);
+        return lobe_host_fail(reader->import->host, LOBE_ERROR_LIMIT,
+                              "%s: image-based light %d: faces of %u x %u texels are too large",
+                              reader->import->path, reader->light, face->width, face->height);
     reader->size = face->width;
     return lobe_image_allocate(&reader->environment->image, LOBE_FORMAT_RGBA32_FLOAT, face->width,
-                               ENVIRONMENT_FACE_COUNT * face->width, reader->import->log);
+                               ENVIRONMENT_FACE_COUNT * face->width, reader->import->host);
 }
 
 // RGBD: colours are divided by alpha. That of JPEG, and of PNG without alpha, is 1.
@@ -58,7 +59,7 @@ static void place_face(const face_reader *reader, int index, const lobe_image *f
 
 static lobe_result read_face(face_reader *reader, int index, int image) {
     lobe_image face;
-    lobe_result result = gltf_decode_image(reader->import, image, &face);
+    lobe_result result = scenes_gltf_decode_image(reader->import, image, &face);
     if (result == LOBE_OK && index == 0)
         result = allocate(reader, &face);
     if (result == LOBE_OK && (face.width != reader->size || face.height != reader->size))
@@ -81,7 +82,7 @@ static lobe_result read_faces(face_reader *reader, const gltf_image_light *light
 static lobe_result place(face_reader *reader, const gltf_image_light *light) {
     lobe_environment *environment = reader->environment;
     double columns[3][3];
-    if (!gltf_rotation(light->rotation, columns))
+    if (!scenes_gltf_rotation(light->rotation, columns))
         return fail(reader, "its rotation has no length");
     if (!(light->intensity >= 0 && light->intensity <= 1e30))
         return fail(reader, "its intensity is outside [0, 1e30]");
@@ -96,25 +97,27 @@ static lobe_result convert(gltf_import *import, int index) {
     const gltf_image_light *light = &import->document->image_lights[index];
     face_reader reader = {.import = import, .light = index};
     if (light->has_harmonics)
-        gltf_note_unsupported(import, "irradianceCoefficients (lobe computes its own)");
-    lobe_result result = environment_allocate(import->path, import->log, &reader.environment);
+        scenes_gltf_note_unsupported(import, "irradianceCoefficients (lobe computes its own)");
+    lobe_result result =
+        scenes_environment_allocate(import->path, import->host, &reader.environment);
     import->scene->environment = reader.environment; // which frees it, whatever comes
     if (result == LOBE_OK)
         result = place(&reader, light);
     if (result == LOBE_OK)
         result = read_faces(&reader, light);
-    return result == LOBE_OK ? environment_complete(reader.environment, import->log) : result;
+    return result == LOBE_OK ? scenes_environment_complete(reader.environment, import->host)
+                             : result;
 }
 
-lobe_result gltf_convert_environment(gltf_import *import) {
+lobe_result scenes_gltf_convert_environment(gltf_import *import) {
     const gltf_document *document = import->document;
     int scene;
-    lobe_result result = gltf_choose_scene(import, &scene);
+    lobe_result result = scenes_gltf_choose_scene(import, &scene);
     if (result != LOBE_OK || scene < 0 || document->scenes[scene].image_light < 0)
         return result;
     const int light = document->scenes[scene].image_light;
     if ((size_t)light >= document->image_light_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: there is no image-based light %d", import->path, light);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: there is no image-based light %d", import->path, light);
     return convert(import, light);
 }

@@ -29,20 +29,20 @@ static void keep_line(void *user, lobe_log_level level, const char *message) {
 
 static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
-    lobe_log log = {.write = keep_line, .user = reader, .allocator = reader->allocator};
+    lobe_host host = {.write = keep_line, .user = reader, .allocator = reader->allocator};
     uint8_t *bytes = NULL;
-    reader->result = scene_file_read(reader->files, path, reader->path, &log, &bytes, size);
+    reader->result = scenes_file_read(reader->files, path, reader->path, &host, &bytes, size);
     return bytes;
 }
 
 static lobe_result parse(const gltf_container *container, const char *path,
-                         const lobe_file_source *files, const lobe_log *log,
+                         const lobe_file_source *files, const lobe_host *host,
                          const gltf_document **document) {
     const char *slash = strrchr(path, '/');
-    const lobe_allocator *allocator = lobe_log_allocator(log);
+    const lobe_allocator *allocator = lobe_host_allocator(host);
     char *folder = lobe_copy_text(allocator, path);
     if (!folder)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     folder[slash ? slash + 1 - path : 0] = 0;
     char message[256];
     buffer_reader reader = {.path = path, .files = files, .allocator = allocator};
@@ -53,39 +53,39 @@ static lobe_result parse(const gltf_container *container, const char *path,
                           .read = read_buffer,
                           .release = lobe_release,
                           .user = &reader};
-    *document = gltf_document_parse(&source, message, sizeof message);
+    *document = third_party_gltf_document_parse(&source, message, sizeof message);
     lobe_release(folder);
     if (*document)
         return LOBE_OK;
     if (reader.result != LOBE_OK)
-        return lobe_log_fail(log, reader.result, "%s", reader.line);
+        return lobe_host_fail(host, reader.result, "%s", reader.line);
     bool malformed = *message != 0;
-    return lobe_log_fail(log, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY, "%s: %s",
-                         path, malformed ? message : "out of memory");
+    return lobe_host_fail(host, malformed ? LOBE_ERROR_MALFORMED : LOBE_ERROR_OUT_OF_MEMORY,
+                          "%s: %s", path, malformed ? message : "out of memory");
 }
 
 // Reading mends the bytes: those of a host are copied.
-static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, const lobe_log *log,
+static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, const lobe_host *host,
                               uint8_t **bytes, size_t *size) {
     const char *path = parameters->scene;
     return parameters->data
-               ? scene_file_copy(path, parameters->data, parameters->size, log, bytes, size)
-               : scene_file_read(parameters->files, path, NULL, log, bytes, size);
+               ? scenes_file_copy(path, parameters->data, parameters->size, host, bytes, size)
+               : scenes_file_read(parameters->files, path, NULL, host, bytes, size);
 }
 
-static lobe_result read_document(const lobe_scene_open_parameters *parameters, const lobe_log *log,
-                                 const gltf_document **document) {
+static lobe_result read_document(const lobe_scene_open_parameters *parameters,
+                                 const lobe_host *host, const gltf_document **document) {
     const char *path = parameters->scene;
     gltf_container container = {0};
     uint8_t *bytes = NULL;
-    lobe_result result = read_bytes(parameters, log, &bytes, &container.size);
+    lobe_result result = read_bytes(parameters, host, &bytes, &container.size);
     container.bytes = (char *)bytes;
     if (result == LOBE_OK)
-        result = gltf_container_open(&container, path, log);
+        result = scenes_gltf_container_open(&container, path, host);
     if (result == LOBE_OK)
-        result = gltf_schema_check(path, container.json, container.json_size, log);
+        result = scenes_gltf_schema_check(path, container.json, container.json_size, host);
     if (result == LOBE_OK)
-        result = parse(&container, path, parameters->files, log, document);
+        result = parse(&container, path, parameters->files, host, document);
     lobe_release(bytes);
     return result;
 }
@@ -94,14 +94,14 @@ static lobe_result read_document(const lobe_scene_open_parameters *parameters, c
 // From the document to the scene
 
 static int64_t *allocate_unconverted(const gltf_import *import, size_t count) {
-    int64_t *states = lobe_allocate(lobe_log_allocator(import->log), count, sizeof *states);
+    int64_t *states = lobe_allocate(lobe_host_allocator(import->host), count, sizeof *states);
     for (size_t i = 0; states && i < count; i++)
         states[i] = GLTF_NOT_CONVERTED;
     return states;
 }
 
 static bool allocate_primitives(gltf_import *import) {
-    const lobe_allocator *allocator = lobe_log_allocator(import->log);
+    const lobe_allocator *allocator = lobe_host_allocator(import->host);
     const gltf_document *document = import->document;
     size_t count = 0;
     import->first_primitives =
@@ -126,7 +126,8 @@ static lobe_result allocate_states(gltf_import *import) {
     import->images[1] = allocate_unconverted(import, document->image_count + 1);
     if (allocate_primitives(import) && import->materials && import->images[0] && import->images[1])
         return LOBE_OK;
-    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", import->path);
+    return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                          import->path);
 }
 
 static void free_states(gltf_import *import) {
@@ -141,13 +142,13 @@ static void note_extensions(gltf_import *import) {
     const gltf_document *document = import->document;
     for (size_t i = 0; i < document->extension_count; i++) {
         const char *name = document->extensions[i];
-        if (!gltf_extension_supported(name))
-            gltf_note_unsupported(import, name);
+        if (!scenes_gltf_extension_supported(name))
+            scenes_gltf_note_unsupported(import, name);
         if (strcmp(name, "KHR_mesh_quantization") == 0)
             import->quantised = true;
     }
     if (document->animation_count > 0)
-        gltf_note_unsupported(import, "animations");
+        scenes_gltf_note_unsupported(import, "animations");
 }
 
 static lobe_result convert(gltf_import *import) {
@@ -155,25 +156,25 @@ static lobe_result convert(gltf_import *import) {
     if (result != LOBE_OK)
         return result;
     note_extensions(import);
-    result = gltf_convert_nodes(import);
+    result = scenes_gltf_convert_nodes(import);
     if (result == LOBE_OK)
-        result = gltf_convert_environment(import);
+        result = scenes_gltf_convert_environment(import);
     if (result != LOBE_OK)
         return result;
-    gltf_report_notes(import);
-    result = scene_complete(import->scene, import->log);
+    scenes_gltf_report_notes(import);
+    result = scenes_complete(import->scene, import->host);
     if (result == LOBE_OK && import->scene->has_camera)
-        gltf_aim_camera(import->scene);
+        scenes_gltf_aim_camera(import->scene);
     return result;
 }
 
-lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_log *log,
-                      lobe_scene **scene) {
-    gltf_import import = {.path = parameters->scene, .log = log, .files = parameters->files};
+lobe_result scenes_gltf_open(const lobe_scene_open_parameters *parameters, const lobe_host *host,
+                             lobe_scene **scene) {
+    gltf_import import = {.path = parameters->scene, .host = host, .files = parameters->files};
     *scene = NULL;
-    lobe_result result = read_document(parameters, log, &import.document);
+    lobe_result result = read_document(parameters, host, &import.document);
     if (result == LOBE_OK)
-        result = scene_allocate(parameters->scene, log, &import.scene);
+        result = scenes_allocate(parameters->scene, host, &import.scene);
     if (result == LOBE_OK)
         result = convert(&import);
     if (result == LOBE_OK)
@@ -181,6 +182,6 @@ lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_l
     else
         lobe_scene_destroy(&import.scene);
     free_states(&import);
-    gltf_document_free(import.document);
+    third_party_gltf_document_free(import.document);
     return result;
 }

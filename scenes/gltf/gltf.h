@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -16,8 +16,8 @@
 
 /// Opens a .gltf or .glb file; told apart by content. Of the parameters all but `assets` is used:
 /// see lobe_scene_open_parameters.
-lobe_result gltf_open(const lobe_scene_open_parameters *parameters, const lobe_log *log,
-                      lobe_scene **scene);
+lobe_result scenes_gltf_open(const lobe_scene_open_parameters *parameters, const lobe_host *host,
+                             lobe_scene **scene);
 
 // ---------------------------------------------------------------------------------------------
 // Between the files of the import
@@ -47,7 +47,7 @@ typedef struct gltf_primitive_state {
 
 typedef struct gltf_import {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
     const lobe_file_source *files; ///< NULL: the file system
     const gltf_document *document;
     lobe_scene *scene;
@@ -61,9 +61,9 @@ typedef struct gltf_import {
 } gltf_import;
 
 /// Remembers a feature that is left out, by its name, which must outlive the import.
-void gltf_note_unsupported(gltf_import *import, const char *feature);
+void scenes_gltf_note_unsupported(gltf_import *import, const char *feature);
 /// Sends what was collected to the log.
-void gltf_report_notes(const gltf_import *import);
+void scenes_gltf_report_notes(const gltf_import *import);
 
 /// The elements of an accessor, checked: reading one within `count` touches valid memory only.
 typedef struct gltf_elements {
@@ -79,57 +79,58 @@ typedef struct gltf_elements {
 
 /// `what` names the use of the accessor in messages. Errors: LOBE_ERROR_MALFORMED (index or
 /// range outside the file, or an unknown type), LOBE_ERROR_LIMIT.
-lobe_result gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
-                               gltf_elements *elements);
+lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
+                                      gltf_elements *elements);
 /// Element `i` as numbers, normalised where the accessor says so; writes `elements->channels`
 /// values.
-void gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]);
+void scenes_gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]);
 /// Element `i` of unsigned integers.
-uint32_t gltf_read_index(const gltf_elements *elements, size_t i);
+uint32_t scenes_gltf_read_index(const gltf_elements *elements, size_t i);
 /// The bytes of a buffer view. LOBE_ERROR_MALFORMED where they are not there.
-lobe_result gltf_open_view(const gltf_import *import, int view, const char *what,
-                           const uint8_t **bytes, size_t *length, size_t *stride);
+lobe_result scenes_gltf_open_view(const gltf_import *import, int view, const char *what,
+                                  const uint8_t **bytes, size_t *length, size_t *stride);
 
 /// The triangles of a primitive as a list of indices into its accessors' elements; strips and
 /// fans are unrolled. `element_count` is that of its positions. The caller frees `*indices`.
-lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
-                                const char *name, size_t element_count, uint32_t **indices,
-                                size_t *index_count);
+lobe_result scenes_gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
+                                       const char *name, size_t element_count, uint32_t **indices,
+                                       size_t *index_count);
 
 /// Converts primitive `primitive` of mesh `mesh` where that has not been done yet. `*state` then
 /// holds its mesh and material, or GLTF_NOTHING_TO_DRAW.
-lobe_result gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
-                                   gltf_primitive_state **state);
+lobe_result scenes_gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
+                                          gltf_primitive_state **state);
 /// Makes `state->mirrored_mesh`: the mesh reflected in x.
-lobe_result gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state);
+lobe_result scenes_gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state);
 
 /// `material` of -1: the default material of glTF.
-lobe_result gltf_convert_material(gltf_import *import, int material, int64_t *converted);
+lobe_result scenes_gltf_convert_material(gltf_import *import, int material, int64_t *converted);
 
 /// The index of an image in the scene, decoded where it was not yet, or -1.
-lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted);
+lobe_result scenes_gltf_convert_image(gltf_import *import, int image, bool colour,
+                                      int32_t *converted);
 
 /// Decodes an image of colours (RGBA8_SRGB) that is not to be the scene's. Free it with
 /// lobe_image_free. LOBE_ERROR_MALFORMED where there is none of this index.
-lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decoded);
+lobe_result scenes_gltf_decode_image(gltf_import *import, int image, lobe_image *decoded);
 
 /// Makes the scene's environment of the image-based light that it has, if it has one.
-lobe_result gltf_convert_environment(gltf_import *import);
+lobe_result scenes_gltf_convert_environment(gltf_import *import);
 
 /// The columns of the rotation that a quaternion (x, y, z, w) of any length stands for. False where
 /// it has no length.
-bool gltf_rotation(const double quaternion[4], double columns[3][3]);
+bool scenes_gltf_rotation(const double quaternion[4], double columns[3][3]);
 /// The scene that is opened; -1 where the file has none. LOBE_ERROR_MALFORMED where the file's
 /// default is not there.
-lobe_result gltf_choose_scene(const gltf_import *import, int *scene);
+lobe_result scenes_gltf_choose_scene(const gltf_import *import, int *scene);
 
 /// Places instances, lights and the camera by walking through the nodes.
-lobe_result gltf_convert_nodes(gltf_import *import);
+lobe_result scenes_gltf_convert_nodes(gltf_import *import);
 /// `world` is column-major.
-lobe_result gltf_convert_light(gltf_import *import, int light, const double world[16]);
-lobe_result gltf_convert_camera(gltf_import *import, int camera, const double world[16]);
+lobe_result scenes_gltf_convert_light(gltf_import *import, int light, const double world[16]);
+lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const double world[16]);
 /// Moves the camera's target to the depth of the middle of the scene, for those who turn about
 /// it.
-void gltf_aim_camera(lobe_scene *scene);
+void scenes_gltf_aim_camera(lobe_scene *scene);
 
 #endif

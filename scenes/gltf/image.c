@@ -49,16 +49,16 @@ typedef struct image_source {
 
 static lobe_result read_external(const gltf_import *import, const char *uri, image_source *source) {
     if (strstr(uri, "://") || strncmp(uri, "data:", 5) == 0)
-        return lobe_log_fail(import->log, LOBE_ERROR_UNSUPPORTED,
-                             "%s: image '%.64s': neither a relative path nor a PNG or JPEG "
-                             "as a base64 data URI",
-                             import->path, uri);
-    char *path = resolve(lobe_log_allocator(import->log), import->path, uri);
+        return lobe_host_fail(import->host, LOBE_ERROR_UNSUPPORTED,
+                              "%s: image '%.64s': neither a relative path nor a PNG or JPEG "
+                              "as a base64 data URI",
+                              import->path, uri);
+    char *path = resolve(lobe_host_allocator(import->host), import->path, uri);
     if (!path)
-        return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                             import->path);
-    lobe_result result = scene_file_read(import->files, path, import->path, import->log,
-                                         &source->owned, &source->size);
+        return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              import->path);
+    lobe_result result = scenes_file_read(import->files, path, import->path, import->host,
+                                          &source->owned, &source->size);
     source->bytes = source->owned;
     lobe_release(path);
     return result;
@@ -76,7 +76,7 @@ static lobe_result find_bytes(const gltf_import *import, int image, image_source
         const uint8_t *bytes;
         size_t stride;
         lobe_result result =
-            gltf_open_view(import, i->view, source->name, &bytes, &source->size, &stride);
+            scenes_gltf_open_view(import, i->view, source->name, &bytes, &source->size, &stride);
         source->bytes = result == LOBE_OK ? bytes : NULL;
         return result;
     }
@@ -88,26 +88,26 @@ static lobe_result decode(gltf_import *import, const image_source *source, scene
     char name[512];
     snprintf(name, sizeof name, "%s: %s", import->path, source->name);
     lobe_result result =
-        scene_image_decode(source->bytes, source->size, name, use, import->log, image);
+        scenes_image_decode(source->bytes, source->size, name, use, import->host, image);
     if (result != LOBE_OK)
         return result;
     import->texels += (size_t)image->width * image->height;
     if (import->texels <= GLTF_MAXIMUM_TEXELS)
         return LOBE_OK;
     lobe_image_free(image);
-    return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
-                         "%s: more than %zu texels in the images of the scene", name,
-                         GLTF_MAXIMUM_TEXELS);
+    return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                          "%s: more than %zu texels in the images of the scene", name,
+                          GLTF_MAXIMUM_TEXELS);
 }
 
 static lobe_result check_index(const gltf_import *import, int image) {
     if (image >= 0 && (size_t)image < import->document->image_count)
         return LOBE_OK;
-    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
-                         import->path, image);
+    return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no image %d",
+                          import->path, image);
 }
 
-lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decoded) {
+lobe_result scenes_gltf_decode_image(gltf_import *import, int image, lobe_image *decoded) {
     image_source source = {0};
     *decoded = (lobe_image){0};
     lobe_result result = check_index(import, image);
@@ -119,7 +119,8 @@ lobe_result gltf_decode_image(gltf_import *import, int image, lobe_image *decode
     return result;
 }
 
-lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int32_t *converted) {
+lobe_result scenes_gltf_convert_image(gltf_import *import, int image, bool colour,
+                                      int32_t *converted) {
     lobe_result result = check_index(import, image);
     if (result != LOBE_OK)
         return result;
@@ -133,7 +134,7 @@ lobe_result gltf_convert_image(gltf_import *import, int image, bool colour, int3
         if (result == LOBE_OK)
             result = decode(import, &source, use, &decoded);
         if (result == LOBE_OK)
-            result = scene_add_image(import->scene, source.name, &decoded, import->log, &index);
+            result = scenes_add_image(import->scene, source.name, &decoded, import->host, &index);
         lobe_release(source.owned);
         if (result != LOBE_OK)
             return result;

@@ -33,9 +33,9 @@ static bool fail(json_parser *parser, const char *format, ...) {
     vsnprintf(cause, sizeof cause, format, arguments);
     va_end(arguments);
     bool named = parser->path_length > 0;
-    parser->result = lobe_log_fail(parser->text->log, LOBE_ERROR_MALFORMED, "%s: line %u: %s%s%s",
-                                   parser->text->name, parser->line, named ? parser->path : "",
-                                   named ? ": " : "", cause);
+    parser->result = lobe_host_fail(parser->text->host, LOBE_ERROR_MALFORMED, "%s: line %u: %s%s%s",
+                                    parser->text->name, parser->line, named ? parser->path : "",
+                                    named ? ": " : "", cause);
     return false;
 }
 
@@ -361,7 +361,7 @@ static bool check_value(json_parser *parser, const json_schema *schema) {
     }
 }
 
-lobe_result json_check(const json_text *text, const json_schema *schema) {
+lobe_result scenes_json_check(const json_text *text, const json_schema *schema) {
     json_parser parser = {.text = text, .at = text->bytes, .end = text->bytes + text->size};
     parser.line = 1;
     if (!check_value(&parser, schema))

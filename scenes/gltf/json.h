@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 /// Checks JSON text (RFC 8259) against the types that a reader expects, before the reader sees
@@ -44,7 +44,7 @@ typedef struct json_text {
     const char *name; ///< of the file, for messages
     const char *bytes;
     size_t size;
-    const lobe_log *log;
+    const lobe_host *host;
     void *user; ///< for json_schema.visit
 } json_text;
 
@@ -52,6 +52,6 @@ typedef struct json_text {
 #define JSON_MAXIMUM_DEPTH 128
 
 /// LOBE_ERROR_MALFORMED, with a line that says where and what, or what a visit returned.
-lobe_result json_check(const json_text *text, const json_schema *schema);
+lobe_result scenes_json_check(const json_text *text, const json_schema *schema);
 
 #endif

@@ -35,8 +35,8 @@ static lobe_result convert_sampler(const gltf_import *import, int sampler, lobe_
     if (sampler < 0)
         return LOBE_OK;
     if ((size_t)sampler >= import->document->sampler_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no sampler %d",
-                             import->path, sampler);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no sampler %d",
+                              import->path, sampler);
     const gltf_sampler *s = &import->document->samplers[sampler];
     bool known = s->magnification == -1 || s->magnification == FILTER_NEAREST ||
                  s->magnification == FILTER_LINEAR;
@@ -45,9 +45,9 @@ static lobe_result convert_sampler(const gltf_import *import, int sampler, lobe_
     known = convert_wrap(s->wrap_v, &use->wrap_v) && known;
     if (known)
         return LOBE_OK;
-    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                         "%s: sampler %d: unknown filter %d or wrap mode %d, %d", import->path,
-                         sampler, s->magnification, s->wrap_u, s->wrap_v);
+    return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                          "%s: sampler %d: unknown filter %d or wrap mode %d, %d", import->path,
+                          sampler, s->magnification, s->wrap_u, s->wrap_v);
 }
 
 // KHR_texture_transform: T(offset) R(rotation) S(scale), where a positive rotation turns the
@@ -73,26 +73,26 @@ static lobe_result convert_texture(gltf_import *import, const gltf_texture_refer
     if (reference->texture < 0)
         return LOBE_OK;
     if ((size_t)reference->texture >= import->document->texture_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no texture %d",
-                             import->path, reference->texture);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no texture %d",
+                              import->path, reference->texture);
     const gltf_texture *texture = &import->document->textures[reference->texture];
     if (texture->image < 0) {
-        gltf_note_unsupported(import, "textures without a PNG or JPEG image");
+        scenes_gltf_note_unsupported(import, "textures without a PNG or JPEG image");
         return LOBE_OK;
     }
     if (reference->coordinates > 1) {
-        gltf_note_unsupported(import, "textures that use a third set of coordinates");
+        scenes_gltf_note_unsupported(import, "textures that use a third set of coordinates");
         return LOBE_OK;
     }
     lobe_texture_use converted = LOBE_TEXTURE_NONE;
     converted.texture_coordinates = (uint32_t)reference->coordinates;
     if (!convert_transform(reference, converted.transform))
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: the transform of texture %d is not finite", import->path,
-                             reference->texture);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: the transform of texture %d is not finite", import->path,
+                              reference->texture);
     lobe_result result = convert_sampler(import, texture->sampler, &converted);
     if (result == LOBE_OK)
-        result = gltf_convert_image(import, texture->image, colour, &converted.image);
+        result = scenes_gltf_convert_image(import, texture->image, colour, &converted.image);
     if (result == LOBE_OK)
         *use = converted;
     return result;
@@ -155,11 +155,11 @@ static lobe_result convert_alpha_mode(gltf_import *import, const gltf_material *
                                       lobe_material *to) {
     to->alpha_mask = strcmp(from->alpha_mode, "MASK") == 0;
     if (strcmp(from->alpha_mode, "BLEND") == 0)
-        gltf_note_unsupported(import, "blending (drawn opaque)");
+        scenes_gltf_note_unsupported(import, "blending (drawn opaque)");
     else if (!to->alpha_mask && strcmp(from->alpha_mode, "OPAQUE") != 0)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: material '%.64s': unknown alpha mode '%.32s'", import->path,
-                             from->name, from->alpha_mode);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: material '%.64s': unknown alpha mode '%.32s'", import->path,
+                              from->name, from->alpha_mode);
     return LOBE_OK;
 }
 
@@ -167,7 +167,7 @@ static lobe_result add_default_material(gltf_import *import, uint32_t *index) {
     lobe_material material;
     lobe_material_default(&material);
     material.metallic = 1; // glTF 2.0, section 5.22.2
-    return scene_add_material(import->scene, "default", &material, import->log, index);
+    return scenes_add_material(import->scene, "default", &material, import->host, index);
 }
 
 static lobe_result add_material(gltf_import *import, int material, uint32_t *index) {
@@ -182,15 +182,15 @@ static lobe_result add_material(gltf_import *import, int material, uint32_t *ind
         return result;
     char number[32];
     snprintf(number, sizeof number, "material %d", material);
-    return scene_add_material(import->scene, *from->name ? from->name : number, &to, import->log,
-                              index);
+    return scenes_add_material(import->scene, *from->name ? from->name : number, &to, import->host,
+                               index);
 }
 
-lobe_result gltf_convert_material(gltf_import *import, int material, int64_t *converted) {
+lobe_result scenes_gltf_convert_material(gltf_import *import, int material, int64_t *converted) {
     size_t count = import->document->material_count;
     if (material >= 0 && (size_t)material >= count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no material %d",
-                             import->path, material);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no material %d",
+                              import->path, material);
     int64_t *known = &import->materials[material < 0 ? count : (size_t)material];
     if (*known == GLTF_NOT_CONVERTED) {
         uint32_t index = 0;

@@ -21,8 +21,8 @@ static void name_primitive(const gltf_import *import, size_t mesh, size_t primit
 }
 
 static lobe_result out_of_memory(const gltf_import *import, const char *name) {
-    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: %s: out of memory",
-                         import->path, name);
+    return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: %s: out of memory",
+                          import->path, name);
 }
 
 // Which element each vertex of the mesh comes from; NULL: the same.
@@ -72,7 +72,7 @@ static bool source_used_elements(const lobe_allocator *allocator, uint32_t *indi
 
 static lobe_result choose_vertices(gltf_import *import, const gltf_attributes *attributes,
                                    uint32_t *indices, size_t index_count, vertex_source *source) {
-    const lobe_allocator *allocator = lobe_log_allocator(import->log);
+    const lobe_allocator *allocator = lobe_host_allocator(import->host);
     size_t element_count = attributes->elements[GLTF_POSITION].count;
     bool done = attributes->present[GLTF_NORMAL]
                     ? source_used_elements(allocator, indices, index_count, element_count, source)
@@ -80,9 +80,9 @@ static lobe_result choose_vertices(gltf_import *import, const gltf_attributes *a
     if (!done)
         return out_of_memory(import, attributes->name);
     if (source->count > GLTF_MAXIMUM_VERTICES - import->vertices)
-        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
-                             "%s: %s: more than %zu vertices in the scene", import->path,
-                             attributes->name, GLTF_MAXIMUM_VERTICES);
+        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                              "%s: %s: more than %zu vertices in the scene", import->path,
+                              attributes->name, GLTF_MAXIMUM_VERTICES);
     import->vertices += source->count;
     import->indices += index_count;
     return LOBE_OK;
@@ -93,10 +93,11 @@ static lobe_result fill_mesh(gltf_import *import, const gltf_attributes *attribu
     vertex_source source = {0};
     lobe_result result = choose_vertices(import, attributes, indices, index_count, &source);
     if (result == LOBE_OK)
-        result = mesh_allocate(mesh, attributes->name, source.count, index_count, import->log);
+        result =
+            scenes_mesh_allocate(mesh, attributes->name, source.count, index_count, import->host);
     if (result == LOBE_OK) {
         memcpy(mesh->indices, indices, index_count * sizeof *indices);
-        result = gltf_read_vertices(import, attributes, source.elements, mesh);
+        result = scenes_gltf_read_vertices(import, attributes, source.elements, mesh);
     }
     lobe_release(source.elements);
     return result;
@@ -121,8 +122,8 @@ static lobe_result complete_frames(gltf_import *import, const gltf_attributes *a
                                    const lobe_material *material, lobe_mesh *mesh) {
     size_t repaired = 0, bad_tangents = 0;
     bool normals = attributes->present[GLTF_NORMAL];
-    lobe_result result = normals ? mesh_repair_normals(mesh, import->log, &repaired)
-                                 : mesh_compute_normals(mesh, import->log);
+    lobe_result result = normals ? scenes_mesh_repair_normals(mesh, import->host, &repaired)
+                                 : scenes_mesh_compute_normals(mesh, import->host);
     import->notes.repaired_normals += repaired;
     if (result != LOBE_OK)
         return result;
@@ -132,7 +133,7 @@ static lobe_result complete_frames(gltf_import *import, const gltf_attributes *a
     import->notes.repaired_tangents += bad_tangents;
     if (tangents && bad_tangents == 0)
         return LOBE_OK;
-    return mesh_compute_tangents(mesh, &material->normal_map, import->log);
+    return scenes_mesh_compute_tangents(mesh, &material->normal_map, import->host);
 }
 
 static void note_missing_coordinates(gltf_import *import, const lobe_material *material,
@@ -154,17 +155,17 @@ static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primiti
     gltf_attributes attributes;
     uint32_t *indices = NULL;
     size_t index_count = 0;
-    lobe_result result = gltf_open_attributes(import, primitive, name, &attributes);
+    lobe_result result = scenes_gltf_open_attributes(import, primitive, name, &attributes);
     if (result == LOBE_OK)
-        result =
-            gltf_read_triangles(import, primitive, name, attributes.elements[GLTF_POSITION].count,
-                                &indices, &index_count);
+        result = scenes_gltf_read_triangles(import, primitive, name,
+                                            attributes.elements[GLTF_POSITION].count, &indices,
+                                            &index_count);
     if (result == LOBE_OK)
         result = fill_mesh(import, &attributes, indices, index_count, mesh);
     lobe_release(indices);
     if (result != LOBE_OK)
         return result;
-    import->notes.degenerate_triangles += mesh_drop_degenerate(mesh);
+    import->notes.degenerate_triangles += scenes_mesh_drop_degenerate(mesh);
     if (mesh->index_count == 0)
         return LOBE_OK;
     note_missing_coordinates(import, material, mesh);
@@ -173,13 +174,13 @@ static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primiti
 
 static bool is_drawable(gltf_import *import, const gltf_primitive *primitive) {
     if (primitive->has_targets)
-        gltf_note_unsupported(import, "morph targets");
+        scenes_gltf_note_unsupported(import, "morph targets");
     if (primitive->mode < GLTF_TRIANGLES) {
-        gltf_note_unsupported(import, "points and lines");
+        scenes_gltf_note_unsupported(import, "points and lines");
         return false;
     }
     if (primitive->attributes[GLTF_POSITION] < 0) {
-        gltf_note_unsupported(import, "primitives without positions");
+        scenes_gltf_note_unsupported(import, "primitives without positions");
         return false;
     }
     return true;
@@ -191,12 +192,12 @@ static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive,
     char name[NAME_SIZE];
     name_primitive(import, mesh, primitive, name);
     if (p->mode > GLTF_TRIANGLE_FAN)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: unknown mode %d",
-                             import->path, name, p->mode);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: %s: unknown mode %d",
+                              import->path, name, p->mode);
     state->mesh = GLTF_NOTHING_TO_DRAW;
     if (!is_drawable(import, p))
         return LOBE_OK;
-    lobe_result result = gltf_convert_material(import, p->material, &state->material);
+    lobe_result result = scenes_gltf_convert_material(import, p->material, &state->material);
     if (result != LOBE_OK)
         return result;
     lobe_mesh built = {0};
@@ -204,15 +205,15 @@ static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive,
     result = build_mesh(import, p, &import->scene->materials[state->material], name, &built);
     bool drawn = result == LOBE_OK && built.index_count > 0;
     if (drawn)
-        result = scene_add_mesh(import->scene, &built, import->log, &index);
+        result = scenes_add_mesh(import->scene, &built, import->host, &index);
     if (drawn && result == LOBE_OK)
         state->mesh = index;
-    mesh_free(&built);
+    scenes_mesh_free(&built);
     return result;
 }
 
-lobe_result gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
-                                   gltf_primitive_state **state) {
+lobe_result scenes_gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
+                                          gltf_primitive_state **state) {
     *state = &import->primitives[import->first_primitives[mesh] + primitive];
     if ((*state)->mesh != GLTF_NOT_CONVERTED)
         return LOBE_OK;
@@ -234,14 +235,14 @@ static void reflect_in_x(lobe_mesh *mesh) {
     }
 }
 
-lobe_result gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state) {
+lobe_result scenes_gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state) {
     if (state->mirrored_mesh != GLTF_NOT_CONVERTED)
         return LOBE_OK;
     const lobe_mesh *mesh = &import->scene->meshes[state->mesh];
     lobe_mesh mirrored;
     uint32_t index = 0;
-    lobe_result result =
-        mesh_allocate(&mirrored, mesh->name, mesh->vertex_count, mesh->index_count, import->log);
+    lobe_result result = scenes_mesh_allocate(&mirrored, mesh->name, mesh->vertex_count,
+                                              mesh->index_count, import->host);
     if (result != LOBE_OK)
         return result;
     memcpy(mirrored.vertices, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices);
@@ -250,7 +251,7 @@ lobe_result gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *sta
            sizeof mesh->has_texture_coordinates);
     mirrored.has_colour = mesh->has_colour;
     reflect_in_x(&mirrored);
-    result = scene_add_mesh(import->scene, &mirrored, import->log, &index);
+    result = scenes_add_mesh(import->scene, &mirrored, import->host, &index);
     if (result == LOBE_OK)
         state->mirrored_mesh = index;
     return result;

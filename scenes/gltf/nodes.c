@@ -19,7 +19,7 @@ static void multiply(const double a[16], const double b[16], double out[16]) {
     }
 }
 
-bool gltf_rotation(const double q[4], double columns[3][3]) {
+bool scenes_gltf_rotation(const double q[4], double columns[3][3]) {
     double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 1e-6) || !isfinite(length))
         return false;
@@ -37,7 +37,7 @@ bool gltf_rotation(const double q[4], double columns[3][3]) {
 static bool compose(const gltf_node *node, double out[16]) {
     const double *s = node->scale, *t = node->translation;
     double rotation[3][3];
-    if (!gltf_rotation(node->rotation, rotation))
+    if (!scenes_gltf_rotation(node->rotation, rotation))
         return false;
     for (int column = 0; column < 3; column++) {
         for (int row = 0; row < 3; row++)
@@ -58,9 +58,9 @@ static lobe_result local_transform(const gltf_import *import, int index, double 
     memcpy(out, node->matrix, sizeof node->matrix);
     if (node->has_matrix ? is_affine(node->matrix) : compose(node, out))
         return LOBE_OK;
-    return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: node %d: %s", import->path, index,
-                         node->has_matrix ? "its matrix is not affine"
-                                          : "its rotation has no length");
+    return lobe_host_fail(
+        import->host, LOBE_ERROR_MALFORMED, "%s: node %d: %s", import->path, index,
+        node->has_matrix ? "its matrix is not affine" : "its rotation has no length");
 }
 
 static lobe_result world_transform(const gltf_import *import, int index, const double *parent,
@@ -76,8 +76,9 @@ static lobe_result world_transform(const gltf_import *import, int index, const d
     for (int i = 0; i < 16; i++) {
         // Squares up to here are finite in single precision; a NaN fails too.
         if (!(fabs(out[i]) <= 1e18))
-            return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
-                                 "%s: node %d: its transform is out of range", import->path, index);
+            return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                                  "%s: node %d: its transform is out of range", import->path,
+                                  index);
     }
     return LOBE_OK;
 }
@@ -95,15 +96,15 @@ typedef struct node_tree {
 
 static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
     size_t count = import->document->node_count + 1;
-    const lobe_allocator *allocator = lobe_log_allocator(import->log);
+    const lobe_allocator *allocator = lobe_host_allocator(import->host);
     tree->parents = lobe_allocate(allocator, count, sizeof *tree->parents);
     tree->stack = lobe_allocate(allocator, count, sizeof *tree->stack);
     tree->visited = lobe_allocate(allocator, count, sizeof *tree->visited);
     tree->worlds = lobe_allocate(allocator, count, sizeof *tree->worlds);
     if (tree->parents && tree->stack && tree->visited && tree->worlds)
         return LOBE_OK;
-    return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for %zu nodes",
-                         import->path, count - 1);
+    return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for %zu nodes",
+                          import->path, count - 1);
 }
 
 static void free_tree(node_tree *tree) {
@@ -121,12 +122,12 @@ static lobe_result find_parents(const gltf_import *import, node_tree *tree) {
         for (size_t k = 0; k < document->nodes[i].child_count; k++) {
             int child = document->nodes[i].children[k];
             if (child < 0 || (size_t)child >= document->node_count)
-                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                     "%s: node %zu: there is no child node %d", import->path, i,
-                                     child);
+                return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                      "%s: node %zu: there is no child node %d", import->path, i,
+                                      child);
             if (tree->parents[child] >= 0)
-                return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                     "%s: node %d has two parents", import->path, child);
+                return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                      "%s: node %d has two parents", import->path, child);
             tree->parents[child] = (int)i;
         }
     }
@@ -155,9 +156,9 @@ static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
     }
     for (size_t i = 0; i < count; i++) {
         if (!tree->visited[i])
-            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                 "%s: node %zu is its own ancestor, or below one that is",
-                                 import->path, i);
+            return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                  "%s: node %zu is its own ancestor, or below one that is",
+                                  import->path, i);
         tree->visited[i] = false;
     }
     return LOBE_OK;
@@ -197,7 +198,7 @@ static lobe_result place(gltf_import *import, gltf_primitive_state *state, const
     transform[15] = 1;
     int64_t mesh = state->mesh;
     if (kind == ORIENTATION_MIRRORED) {
-        lobe_result result = gltf_convert_mirrored(import, state);
+        lobe_result result = scenes_gltf_convert_mirrored(import, state);
         if (result != LOBE_OK)
             return result;
         mesh = state->mirrored_mesh;
@@ -205,19 +206,19 @@ static lobe_result place(gltf_import *import, gltf_primitive_state *state, const
             transform[row] = -transform[row];
     }
     if (import->scene->instance_count >= GLTF_MAXIMUM_INSTANCES)
-        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
-                             import->path, GLTF_MAXIMUM_INSTANCES);
-    return scene_add_instance(import->scene, (uint32_t)mesh, (uint32_t)state->material, transform,
-                              import->log);
+        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
+                              import->path, GLTF_MAXIMUM_INSTANCES);
+    return scenes_add_instance(import->scene, (uint32_t)mesh, (uint32_t)state->material, transform,
+                               import->host);
 }
 
 static lobe_result place_mesh(gltf_import *import, int mesh, const double world[16]) {
     if ((size_t)mesh >= import->document->mesh_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no mesh %d",
-                             import->path, mesh);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no mesh %d",
+                              import->path, mesh);
     for (size_t i = 0; i < import->document->meshes[mesh].primitive_count; i++) {
         gltf_primitive_state *state;
-        lobe_result result = gltf_convert_primitive(import, (size_t)mesh, i, &state);
+        lobe_result result = scenes_gltf_convert_primitive(import, (size_t)mesh, i, &state);
         if (result == LOBE_OK && state->mesh >= 0)
             result = place(import, state, world);
         if (result != LOBE_OK)
@@ -230,30 +231,30 @@ static lobe_result convert_node(gltf_import *import, int index, const double wor
     const gltf_node *node = &import->document->nodes[index];
     lobe_result result = LOBE_OK;
     if (node->skin >= 0)
-        gltf_note_unsupported(import, "skins");
+        scenes_gltf_note_unsupported(import, "skins");
     if (node->mesh >= 0)
         result = place_mesh(import, node->mesh, world);
     if (result == LOBE_OK && node->light >= 0)
-        result = gltf_convert_light(import, node->light, world);
+        result = scenes_gltf_convert_light(import, node->light, world);
     if (result == LOBE_OK && node->camera >= 0)
-        result = gltf_convert_camera(import, node->camera, world);
+        result = scenes_gltf_convert_camera(import, node->camera, world);
     return result;
 }
 
 // Depth first, in the order of the file, without recursion: a chain of nodes may be long.
 static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
     if (root < 0 || (size_t)root >= import->document->node_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: there is no node %d in the scene", import->path, root);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: there is no node %d in the scene", import->path, root);
     tree->depth = 0;
     tree->stack[tree->depth++] = root;
     while (tree->depth > 0) {
         int node = tree->stack[--tree->depth];
         int parent = tree->parents[node];
         if (tree->visited[node] || (node == root && parent >= 0))
-            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                 "%s: node %d is in the scene twice, or is no root", import->path,
-                                 node);
+            return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                  "%s: node %d is in the scene twice, or is no root", import->path,
+                                  node);
         tree->visited[node] = true;
         const double *above = parent >= 0 ? tree->worlds[parent] : NULL;
         lobe_result result = world_transform(import, node, above, tree->worlds[node]);
@@ -267,12 +268,12 @@ static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
 }
 
 // The default scene, else the first.
-lobe_result gltf_choose_scene(const gltf_import *import, int *scene) {
+lobe_result scenes_gltf_choose_scene(const gltf_import *import, int *scene) {
     const gltf_document *document = import->document;
     *scene = document->scene >= 0 ? document->scene : document->scene_count > 0 ? 0 : -1;
     if (document->scene >= 0 && (size_t)*scene >= document->scene_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
-                             import->path, *scene);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no scene %d",
+                              import->path, *scene);
     return LOBE_OK;
 }
 
@@ -280,7 +281,7 @@ lobe_result gltf_choose_scene(const gltf_import *import, int *scene) {
 static lobe_result walk_scene(gltf_import *import, node_tree *tree) {
     const gltf_document *document = import->document;
     int scene;
-    lobe_result result = gltf_choose_scene(import, &scene);
+    lobe_result result = scenes_gltf_choose_scene(import, &scene);
     if (result != LOBE_OK)
         return result;
     if (scene < 0) {
@@ -295,7 +296,7 @@ static lobe_result walk_scene(gltf_import *import, node_tree *tree) {
     return result;
 }
 
-lobe_result gltf_convert_nodes(gltf_import *import) {
+lobe_result scenes_gltf_convert_nodes(gltf_import *import) {
     node_tree tree = {0};
     lobe_result result = allocate_tree(import, &tree);
     if (result == LOBE_OK)

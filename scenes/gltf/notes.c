@@ -3,7 +3,7 @@
 
 #include "scenes/gltf/gltf.h"
 
-void gltf_note_unsupported(gltf_import *import, const char *feature) {
+void scenes_gltf_note_unsupported(gltf_import *import, const char *feature) {
     gltf_notes *notes = &import->notes;
     for (size_t i = 0; i < notes->unsupported_count; i++) {
         if (strcmp(notes->unsupported[i], feature) == 0)
@@ -25,16 +25,16 @@ static void report_unsupported(const gltf_import *import) {
         length += (size_t)added;
     }
     if (notes->unsupported_count > 0)
-        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: not supported and left out: %s",
-                       import->path, list);
+        lobe_host_log(import->host, LOBE_LOG_WARNING, "%s: not supported and left out: %s",
+                      import->path, list);
 }
 
 static void report_count(const gltf_import *import, size_t count, const char *what) {
     if (count > 0)
-        lobe_log_print(import->log, LOBE_LOG_WARNING, "%s: %zu %s", import->path, count, what);
+        lobe_host_log(import->host, LOBE_LOG_WARNING, "%s: %zu %s", import->path, count, what);
 }
 
-void gltf_report_notes(const gltf_import *import) {
+void scenes_gltf_report_notes(const gltf_import *import) {
     const gltf_notes *notes = &import->notes;
     report_unsupported(import);
     report_count(import, notes->degenerate_triangles, "degenerate triangles dropped");

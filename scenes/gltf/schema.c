@@ -9,11 +9,11 @@
 
 typedef struct gltf_head {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
 } gltf_head;
 
 static lobe_result fail(const gltf_head *head, const char *what, const char *which) {
-    return lobe_log_fail(head->log, LOBE_ERROR_UNSUPPORTED, "%s: %s %s", head->path, what, which);
+    return lobe_host_fail(head->host, LOBE_ERROR_UNSUPPORTED, "%s: %s %s", head->path, what, which);
 }
 
 // Minor versions are compatible: a reader of 2.0 reads 2.1 unless minVersion forbids.
@@ -28,11 +28,12 @@ static lobe_result visit_minimum_version(void *user, const char *text) {
 }
 
 static lobe_result visit_required_extension(void *user, const char *text) {
-    return gltf_extension_supported(text) ? LOBE_OK
-                                          : fail(user, "requires the unsupported extension", text);
+    return scenes_gltf_extension_supported(text)
+               ? LOBE_OK
+               : fail(user, "requires the unsupported extension", text);
 }
 
-bool gltf_extension_supported(const char *name) {
+bool scenes_gltf_extension_supported(const char *name) {
     static const char *const supported[] = {
         "EXT_lights_image_based", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
         "KHR_mesh_quantization",  "KHR_texture_transform",
@@ -195,10 +196,10 @@ OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
        {"animations", &objects, false}, {"skins", &skins, false},
        {"extensions", &root_extensions, false});
 
-lobe_result gltf_schema_check(const char *path, const char *json, size_t json_size,
-                              const lobe_log *log) {
-    gltf_head head = {path, log};
-    json_text content = {path, json, json_size, log, &head};
-    lobe_result result = json_check(&content, &head_schema);
-    return result == LOBE_OK ? json_check(&content, &root) : result;
+lobe_result scenes_gltf_schema_check(const char *path, const char *json, size_t json_size,
+                                     const lobe_host *host) {
+    gltf_head head = {path, host};
+    json_text content = {path, json, json_size, host, &head};
+    lobe_result result = scenes_json_check(&content, &head_schema);
+    return result == LOBE_OK ? scenes_json_check(&content, &root) : result;
 }

@@ -16,34 +16,35 @@ static lobe_result open_order(const gltf_import *import, const gltf_primitive *p
         return LOBE_OK;
     char what[192];
     snprintf(what, sizeof what, "indices of %s", name);
-    lobe_result result = gltf_open_accessor(import, primitive->indices, what, &order->elements);
+    lobe_result result =
+        scenes_gltf_open_accessor(import, primitive->indices, what, &order->elements);
     if (result != LOBE_OK)
         return result;
     int component = order->elements.component;
     bool integers = component == GLTF_UNSIGNED_BYTE || component == GLTF_UNSIGNED_SHORT ||
                     component == GLTF_UNSIGNED_INT;
     if (!integers || order->elements.channels != 1)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: %s are not single unsigned integers", import->path, what);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s are not single unsigned integers", import->path, what);
     order->count = order->elements.count;
     return LOBE_OK;
 }
 
 static uint32_t order_at(const vertex_order *order, size_t i) {
-    return order->indexed ? gltf_read_index(&order->elements, i) : (uint32_t)i;
+    return order->indexed ? scenes_gltf_read_index(&order->elements, i) : (uint32_t)i;
 }
 
 static lobe_result count_triangles(const gltf_import *import, int mode, const char *name,
                                    size_t count, size_t *triangles) {
     bool list = mode == GLTF_TRIANGLES;
     if (count < 3 || (list && count % 3 != 0))
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: %s: triangles of %zu vertices",
-                             import->path, name, count);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s: triangles of %zu vertices", import->path, name, count);
     *triangles = list ? count / 3 : count - 2;
     if (*triangles > (GLTF_MAXIMUM_INDICES - import->indices) / 3)
-        return lobe_log_fail(import->log, LOBE_ERROR_LIMIT,
-                             "%s: %s: more than %zu indices in the scene", import->path, name,
-                             GLTF_MAXIMUM_INDICES);
+        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                              "%s: %s: more than %zu indices in the scene", import->path, name,
+                              GLTF_MAXIMUM_INDICES);
     return LOBE_OK;
 }
 
@@ -67,9 +68,9 @@ static void triangle_corners(int mode, size_t t, size_t corner[3]) {
     }
 }
 
-lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
-                                const char *name, size_t element_count, uint32_t **indices,
-                                size_t *index_count) {
+lobe_result scenes_gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
+                                       const char *name, size_t element_count, uint32_t **indices,
+                                       size_t *index_count) {
     vertex_order order;
     size_t triangles = 0;
     *indices = NULL;
@@ -78,10 +79,10 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
         result = count_triangles(import, primitive->mode, name, order.count, &triangles);
     if (result != LOBE_OK)
         return result;
-    uint32_t *list = lobe_allocate(lobe_log_allocator(import->log), 3 * triangles, sizeof *list);
+    uint32_t *list = lobe_allocate(lobe_host_allocator(import->host), 3 * triangles, sizeof *list);
     if (!list)
-        return lobe_log_fail(import->log, LOBE_ERROR_OUT_OF_MEMORY,
-                             "%s: %s: out of memory for triangles", import->path, name);
+        return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "%s: %s: out of memory for triangles", import->path, name);
     for (size_t t = 0; t < triangles; t++) {
         size_t corner[3];
         triangle_corners(primitive->mode, t, corner);
@@ -91,9 +92,9 @@ lobe_result gltf_read_triangles(const gltf_import *import, const gltf_primitive 
             if (index < element_count)
                 continue;
             lobe_release(list);
-            return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                                 "%s: %s: index %zu is %u, of %zu vertices", import->path, name,
-                                 corner[k], index, element_count);
+            return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                                  "%s: %s: index %zu is %u, of %zu vertices", import->path, name,
+                                  corner[k], index, element_count);
         }
     }
     *indices = list;

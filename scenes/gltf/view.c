@@ -47,25 +47,25 @@ static bool convert_values(const gltf_light *from, lobe_light *to) {
            from->outer_cone <= M_PI / 2 + 1e-6;
 }
 
-lobe_result gltf_convert_light(gltf_import *import, int light, const double world[16]) {
+lobe_result scenes_gltf_convert_light(gltf_import *import, int light, const double world[16]) {
     if ((size_t)light >= import->document->light_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no light %d",
-                             import->path, light);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no light %d",
+                              import->path, light);
     const gltf_light *from = &import->document->lights[light];
     lobe_light to = {0};
     vector3 direction = vector3_scale(axis(world, 2), -1);
     if (!convert_values(from, &to))
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: light %d of type '%.32s' has a value out of its range",
-                             import->path, light, from->type);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: light %d of type '%.32s' has a value out of its range",
+                              import->path, light, from->type);
     if (!vector3_normalise(&direction, 0) && to.type != LOBE_LIGHT_POINT)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: light %d has no direction",
-                             import->path, light);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: light %d has no direction",
+                              import->path, light);
     if (to.type != LOBE_LIGHT_DIRECTIONAL)
         vector3_store(axis(world, 3), to.position);
     if (to.type != LOBE_LIGHT_POINT)
         vector3_store(direction, to.direction);
-    return scene_add_light(import->scene, &to, import->log);
+    return scenes_add_light(import->scene, &to, import->host);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -84,10 +84,10 @@ static bool convert_projection(const gltf_camera *from, lobe_camera *to) {
     return in_range(fabs(from->height), 1e-18, 1e18) && in_range(from->near_plane, 0, 1e18);
 }
 
-lobe_result gltf_convert_camera(gltf_import *import, int camera, const double world[16]) {
+lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const double world[16]) {
     if ((size_t)camera >= import->document->camera_count)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED, "%s: there is no camera %d",
-                             import->path, camera);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no camera %d",
+                              import->path, camera);
     if (import->scene->has_camera)
         return LOBE_OK;
     lobe_camera to = {0};
@@ -95,8 +95,8 @@ lobe_result gltf_convert_camera(gltf_import *import, int camera, const double wo
     bool valid = convert_projection(&import->document->cameras[camera], &to);
     valid = vector3_normalise(&up, 0) && vector3_normalise(&back, 0) && valid;
     if (!valid)
-        return lobe_log_fail(import->log, LOBE_ERROR_MALFORMED,
-                             "%s: camera %d has a value out of its range", import->path, camera);
+        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                              "%s: camera %d has a value out of its range", import->path, camera);
     vector3_store(eye, to.eye);
     vector3_store(up, to.up);
     // Far from the origin one metre is less than the precision of a float.
@@ -107,7 +107,7 @@ lobe_result gltf_convert_camera(gltf_import *import, int camera, const double wo
     return LOBE_OK;
 }
 
-void gltf_aim_camera(lobe_scene *scene) {
+void scenes_gltf_aim_camera(lobe_scene *scene) {
     vector3 eye = vector3_load(scene->camera.eye);
     vector3 forward = vector3_subtract(vector3_load(scene->camera.target), eye);
     vector3 middle =

@@ -22,7 +22,7 @@ static const double smallest_tile = 0.05;
 static void place_on_cloth(const void *shape, double u, double v, lobe_scene_vertex *vertex) {
     const double *tile = shape;
     double wave[2];
-    circle_point(4 * u + 0.35 * noise_gradient(1.5 * u, 1.5 * v, 16, 61, NULL), wave);
+    scenes_circle_point(4 * u + 0.35 * scenes_noise_gradient(1.5 * u, 1.5 * v, 16, 61, NULL), wave);
     vertex->position[0] = (float)((u - 0.5) * cloth_width);
     vertex->position[1] = (float)((0.5 - v) * cloth_height);
     vertex->position[2] = (float)((0.02 + 0.02 * v) * wave[1]);
@@ -30,7 +30,7 @@ static void place_on_cloth(const void *shape, double u, double v, lobe_scene_ver
     vertex->texture_coordinates[0][1] = (float)(v * cloth_height / *tile);
 }
 
-static lobe_result make_cloth(const lobe_scene *scene, const lobe_log *log, lobe_mesh *mesh) {
+static lobe_result make_cloth(const lobe_scene *scene, const lobe_host *host, lobe_mesh *mesh) {
     uint32_t texels = 0;
     for (size_t i = 0; i < scene->image_count; i++) {
         const lobe_image *image = &scene->images[i].image;
@@ -40,39 +40,39 @@ static lobe_result make_cloth(const lobe_scene *scene, const lobe_log *log, lobe
     double tile = fmax(texels * texel_size, smallest_tile);
     const grid_mesh grid = {
         .name = "cloth", .rows = 60, .columns = 120, .place = place_on_cloth, .shape = &tile};
-    return grid_mesh_make(&grid, log, mesh);
+    return scenes_grid_mesh_make(&grid, host, mesh);
 }
 
 // ---------------------------------------------------------------------------------------------
 
-static lobe_result make_mesh(const lobe_scene *scene, lobe_carrier carrier, const lobe_log *log,
+static lobe_result make_mesh(const lobe_scene *scene, lobe_carrier carrier, const lobe_host *host,
                              lobe_mesh *mesh) {
     switch (carrier) {
     case LOBE_CARRIER_SPHERE:
-        return shape_sphere(64, 128, 4, 2, log, mesh);
+        return scenes_shape_sphere(64, 128, 4, 2, host, mesh);
     case LOBE_CARRIER_CLOTH:
-        return make_cloth(scene, log, mesh);
+        return make_cloth(scene, host, mesh);
     default:
-        return shape_plane(4, 4, 1, log, mesh);
+        return scenes_shape_plane(4, 4, 1, host, mesh);
     }
 }
 
 static void look(lobe_scene *scene, lobe_carrier carrier) {
     switch (carrier) {
     case LOBE_CARRIER_SPHERE:
-        scene_look(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
+        scenes_look(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
         break;
     case LOBE_CARRIER_CLOTH:
-        scene_look(scene, (float[]){1.15f, 0.2f, 1.3f}, (float[]){0.19f, 0.02f, 0}, 40);
+        scenes_look(scene, (float[]){1.15f, 0.2f, 1.3f}, (float[]){0.19f, 0.02f, 0}, 40);
         break;
     default:
-        scene_look(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
+        scenes_look(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
     }
 }
 
 // A plane is lit from behind, and cloth from the side that the camera does not stand on, so that
 // highlights lie between light and camera; a sphere from the front.
-static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
+static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
     static const float directions[][3] = {
         [LOBE_CARRIER_PLANE] = {-0.36f, -0.48f, 0.8f},
         [LOBE_CARRIER_SPHERE] = {-0.36f, -0.48f, -0.8f},
@@ -87,15 +87,15 @@ static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_
     };
     look(scene, carrier);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.2f;
-    return scene_add_lights(scene, lights, sizeof lights / sizeof *lights, log);
+    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }
 
-lobe_result carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log) {
+lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
     lobe_mesh mesh;
     // One walks round a cloth, and sees its back.
     scene->materials[0].double_sided |= carrier == LOBE_CARRIER_CLOTH;
-    lobe_result status = make_mesh(scene, carrier, log, &mesh);
+    lobe_result status = make_mesh(scene, carrier, host, &mesh);
     if (!status)
-        status = scene_place_mesh(scene, &mesh, 0, log);
-    return status ? status : add_view(scene, carrier, log);
+        status = scenes_place_mesh(scene, &mesh, 0, host);
+    return status ? status : add_view(scene, carrier, host);
 }

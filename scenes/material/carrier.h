@@ -1,12 +1,12 @@
 #ifndef SCENES_MATERIAL_CARRIER_H
 #define SCENES_MATERIAL_CARRIER_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
 /// Adds the carrier of a material to a scene, with its camera and lights. The scene's first
 /// material and its images must have been added.
-lobe_result carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_log *log);
+lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host);
 
 #endif

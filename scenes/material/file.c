@@ -90,7 +90,7 @@ static size_t split(const char *name, char text[2 * MAXIMUM_LENGTH + 1],
     return count;
 }
 
-material_map material_file_map(const char *name) {
+material_map scenes_material_file_map(const char *name) {
     char text[2 * MAXIMUM_LENGTH + 1], joined[2 * MAXIMUM_LENGTH + 1];
     const char *words[MAXIMUM_WORDS];
     if (strlen(name) > MAXIMUM_LENGTH)
@@ -106,13 +106,13 @@ material_map material_file_map(const char *name) {
     return MATERIAL_MAP_COUNT;
 }
 
-bool material_file_is_readable(const char *name) {
+bool scenes_material_file_is_readable(const char *name) {
     const char *end = extension(name);
     return strcasecmp(end, ".png") == 0 || strcasecmp(end, ".jpg") == 0 ||
            strcasecmp(end, ".jpeg") == 0;
 }
 
-bool material_file_is_other_image(const char *name) {
+bool scenes_material_file_is_other_image(const char *name) {
     static const char *const extensions[] = {".exr", ".tif", ".tiff", ".tga",  ".bmp",
                                              ".hdr", ".dds", ".ktx2", ".webp", ".psd"};
     for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)

@@ -22,12 +22,12 @@ typedef enum material_map {
 /// punctuation and before a capital that follows a small letter. "rusty_metal_col_1_1k.jpg" and
 /// "RustyMetal-BaseColor.png" are albedo, "nor_dx_1k.png" and "NormalDX.png" are DirectX normals.
 /// The extension does not matter.
-material_map material_file_map(const char *name);
+material_map scenes_material_file_map(const char *name);
 
 /// Whether the extension is that of PNG or JPEG.
-bool material_file_is_readable(const char *name);
+bool scenes_material_file_is_readable(const char *name);
 
 /// Whether the extension is that of an image format that lobe does not read.
-bool material_file_is_other_image(const char *name);
+bool scenes_material_file_is_other_image(const char *name);
 
 #endif

@@ -21,31 +21,32 @@ static const float default_height_scale = 0.05f;
 
 typedef struct material_folder {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
     char *files[MATERIAL_MAP_COUNT]; // names in the folder; NULL: none
     lobe_scene *scene;
     lobe_material material;
 } material_folder;
 
 static lobe_result out_of_memory(const material_folder *folder) {
-    return lobe_log_fail(folder->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", folder->path);
+    return lobe_host_fail(folder->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                          folder->path);
 }
 
 // Of several files for one map the first in alphabetical order is taken, whatever order the file
 // system lists them in.
 static lobe_result consider_file(material_folder *folder, const char *name) {
-    material_map map = material_file_map(name);
+    material_map map = scenes_material_file_map(name);
     if (map == MATERIAL_MAP_COUNT)
         return LOBE_OK;
-    if (!material_file_is_readable(name)) {
-        if (material_file_is_other_image(name))
-            lobe_log_print(folder->log, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
-                           folder->path, name);
+    if (!scenes_material_file_is_readable(name)) {
+        if (scenes_material_file_is_other_image(name))
+            lobe_host_log(folder->host, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
+                          folder->path, name);
         return LOBE_OK;
     }
     if (folder->files[map] && strcmp(folder->files[map], name) < 0)
         return LOBE_OK;
-    char *copy = lobe_copy_text(lobe_log_allocator(folder->log), name);
+    char *copy = lobe_copy_text(lobe_host_allocator(folder->host), name);
     if (!copy)
         return out_of_memory(folder);
     lobe_release(folder->files[map]);
@@ -56,16 +57,18 @@ static lobe_result consider_file(material_folder *folder, const char *name) {
 static lobe_result list_files(material_folder *folder) {
     DIR *directory = opendir(folder->path);
     if (!directory && (errno == ENOENT || errno == ENAMETOOLONG))
-        return lobe_log_fail(folder->log, LOBE_ERROR_NOT_FOUND, "%s: no such folder", folder->path);
+        return lobe_host_fail(folder->host, LOBE_ERROR_NOT_FOUND, "%s: no such folder",
+                              folder->path);
     if (!directory)
-        return lobe_log_fail(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
+        return lobe_host_fail(folder->host, LOBE_ERROR_READ, "%s: %s", folder->path,
+                              strerror(errno));
     lobe_result status = LOBE_OK;
     errno = 0;
     for (struct dirent *entry; !status && (entry = readdir(directory)); errno = 0)
         status = consider_file(folder, entry->d_name);
     if (!status && errno)
         status =
-            lobe_log_fail(folder->log, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
+            lobe_host_fail(folder->host, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
     closedir(directory);
     return status;
 }
@@ -74,10 +77,10 @@ static lobe_result require_maps(const material_folder *folder) {
     for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
         if (folder->files[map] && map != MATERIAL_MAP_DISPLACEMENT)
             return LOBE_OK;
-    return lobe_log_fail(folder->log, LOBE_ERROR_NOT_FOUND,
-                         "%s: no PNG or JPEG file is named after a map (albedo, normal, "
-                         "roughness, metallic, arm, ao, emissive)",
-                         folder->path);
+    return lobe_host_fail(folder->host, LOBE_ERROR_NOT_FOUND,
+                          "%s: no PNG or JPEG file is named after a map (albedo, normal, "
+                          "roughness, metallic, arm, ao, emissive)",
+                          folder->path);
 }
 
 // Loads the file of a map; where there is none, `image` stays empty.
@@ -86,10 +89,10 @@ static lobe_result load(const material_folder *folder, material_map map, scene_i
     *image = (lobe_image){0};
     if (!folder->files[map])
         return LOBE_OK;
-    char *path = path_in_folder(folder->path, folder->files[map], folder->log);
+    char *path = scenes_path_in_folder(folder->path, folder->files[map], folder->host);
     if (!path)
         return out_of_memory(folder);
-    lobe_result status = scene_image_load(path, use, folder->log, image);
+    lobe_result status = scenes_image_load(path, use, folder->host, image);
     lobe_release(path);
     return status;
 }
@@ -100,7 +103,7 @@ static lobe_result attach(material_folder *folder, const char *name, lobe_image 
     uint32_t index;
     if (!image->texels)
         return LOBE_OK;
-    lobe_result status = scene_add_image(folder->scene, name, image, folder->log, &index);
+    lobe_result status = scenes_add_image(folder->scene, name, image, folder->host, &index);
     if (!status)
         use->image = (int32_t)index;
     return status;
@@ -120,7 +123,7 @@ static lobe_result add_normals(material_folder *folder) {
     if (status)
         return status;
     if (map == MATERIAL_MAP_NORMAL_DIRECTX)
-        image_channel_invert(&image, 1);
+        scenes_image_channel_invert(&image, 1);
     return attach(folder, folder->files[map], &image, &folder->material.normal_map);
 }
 
@@ -128,7 +131,7 @@ static float find_height_scale(const material_folder *folder, const lobe_image *
     int32_t normals = folder->material.normal_map.image;
     float scale = default_height_scale;
     if (normals >= 0)
-        height_scale_find(heights, &folder->scene->images[normals].image, &scale);
+        scenes_height_scale_find(heights, &folder->scene->images[normals].image, &scale);
     return scale;
 }
 
@@ -167,7 +170,7 @@ static lobe_result pack_separate(material_folder *folder) {
         status = load(folder, MATERIAL_MAP_METALLIC, SCENE_IMAGE_DATA, &metallic);
     image_channel channels[4] = {{.value = 1}, {&roughness, 0, 1}, {&metallic, 0, 1}, {.value = 1}};
     if (!status)
-        status = image_channel_pack(channels, folder->path, folder->log, &packed);
+        status = scenes_image_channel_pack(channels, folder->path, folder->host, &packed);
     if (!status)
         status = attach(folder, "metallic-roughness", &packed, &material->metallic_roughness_map);
     material->roughness = roughness.texels ? 1 : default_roughness;
@@ -219,25 +222,25 @@ static lobe_result add_material(material_folder *folder) {
     if (!status)
         status = add_occlusion(folder);
     if (!status)
-        status = scene_add_material(folder->scene, folder->path, material, folder->log, NULL);
+        status = scenes_add_material(folder->scene, folder->path, material, folder->host, NULL);
     return status;
 }
 
-lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_log *log,
+lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_host *host,
                                      lobe_scene **result) {
-    material_folder folder = {.path = path, .log = log};
+    material_folder folder = {.path = path, .host = host};
     *result = NULL;
     lobe_result status = list_files(&folder);
     if (!status)
         status = require_maps(&folder);
     if (!status)
-        status = scene_allocate(path, log, &folder.scene);
+        status = scenes_allocate(path, host, &folder.scene);
     if (!status)
         status = add_material(&folder);
     if (!status)
-        status = carrier_add(folder.scene, carrier, log);
+        status = scenes_carrier_add(folder.scene, carrier, host);
     if (!status)
-        status = scene_complete(folder.scene, log);
+        status = scenes_complete(folder.scene, host);
     for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
         lobe_release(folder.files[map]);
     if (status)

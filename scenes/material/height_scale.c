@@ -33,7 +33,7 @@ static void normal_slope(const lobe_image *image, uint32_t column, uint32_t row,
     slope[1] = (2 * channel(image, column, row, 1) - 1) / z;
 }
 
-bool height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale) {
+bool scenes_height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale) {
     double of_heights = 0, of_normals = 0, of_both = 0;
     if (heights->width != normals->width || heights->height != normals->height)
         return false;

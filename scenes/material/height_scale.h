@@ -11,6 +11,6 @@
 /// heights are depths. Both maps are RGBA8_UNORM or RGBA16_UNORM and repeat; heights in red,
 /// normals +Y. False where the extents differ, or where the two have little in common: their
 /// slopes' correlation is below 0.2.
-bool height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale);
+bool scenes_height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale);
 
 #endif

@@ -43,8 +43,8 @@ static void fill_channel(const image_channel *from, uint32_t channel, lobe_image
         }
 }
 
-lobe_result image_channel_pack(const image_channel channels[4], const char *name,
-                               const lobe_log *log, lobe_image *packed) {
+lobe_result scenes_image_channel_pack(const image_channel channels[4], const char *name,
+                                      const lobe_host *host, lobe_image *packed) {
     uint32_t width = 1, height = 1;
     *packed = (lobe_image){0};
     for (int i = 0; i < 4; i++)
@@ -53,16 +53,16 @@ lobe_result image_channel_pack(const image_channel channels[4], const char *name
             height = channels[i].image->height > height ? channels[i].image->height : height;
         }
     if ((size_t)width * height > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
-                             "%s: maps together make %u x %u texels, more than lobe takes", name,
-                             width, height);
-    lobe_result status = lobe_image_allocate(packed, LOBE_FORMAT_RGBA8_UNORM, width, height, log);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "%s: maps together make %u x %u texels, more than lobe takes", name,
+                              width, height);
+    lobe_result status = lobe_image_allocate(packed, LOBE_FORMAT_RGBA8_UNORM, width, height, host);
     for (uint32_t i = 0; !status && i < 4; i++)
         fill_channel(&channels[i], i, packed);
     return status;
 }
 
-void image_channel_invert(lobe_image *image, uint32_t channel) {
+void scenes_image_channel_invert(lobe_image *image, uint32_t channel) {
     size_t count = (size_t)image->width * image->height * 4;
     for (size_t i = channel; i < count; i += 4)
         if (image->format == LOBE_FORMAT_RGBA16_UNORM)

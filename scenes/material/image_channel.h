@@ -1,8 +1,8 @@
 #ifndef SCENES_MATERIAL_IMAGE_CHANNEL_H
 #define SCENES_MATERIAL_IMAGE_CHANNEL_H
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// Single channels of RGBA8_UNORM and RGBA16_UNORM images.
@@ -17,10 +17,10 @@ typedef struct image_channel {
 /// Packs four channels into an RGBA8_UNORM image as wide as the widest and as high as the highest
 /// of them (1 x 1 where none has an image). Smaller ones are interpolated bilinearly, repeating
 /// at the edges. `name` is for messages. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result image_channel_pack(const image_channel channels[4], const char *name,
-                               const lobe_log *log, lobe_image *packed);
+lobe_result scenes_image_channel_pack(const image_channel channels[4], const char *name,
+                                      const lobe_host *host, lobe_image *packed);
 
 /// Replaces a channel by one minus it.
-void image_channel_invert(lobe_image *image, uint32_t channel);
+void scenes_image_channel_invert(lobe_image *image, uint32_t channel);
 
 #endif

@@ -17,7 +17,7 @@ static double cosine(double x) {
     return 1 + sum;
 }
 
-void circle_point(double turns, double point[2]) {
+void scenes_circle_point(double turns, double point[2]) {
     double quarters = floor(turns * 4 + 0.5);
     double angle = (turns - quarters / 4) * 6.283185307179586;
     double x = cosine(angle), y = sine(angle);

@@ -4,6 +4,6 @@
 /// The point of the unit circle after `turns` turns counter-clockwise from (1, 0): the cosine and
 /// sine of 2 pi turns, within 4e-16. Made of additions and multiplications alone, so that every
 /// machine gets the same bits, which cos and sin of the C library do not promise.
-void circle_point(double turns, double point[2]);
+void scenes_circle_point(double turns, double point[2]);
 
 #endif

@@ -24,21 +24,21 @@ static void close_normals(const grid_mesh *grid, lobe_mesh *mesh) {
     }
 }
 
-lobe_result grid_mesh_make(const grid_mesh *grid, const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_grid_mesh_make(const grid_mesh *grid, const lobe_host *host, lobe_mesh *mesh) {
     lobe_result status =
-        mesh_allocate(mesh, grid->name, (size_t)(grid->rows + 1) * (grid->columns + 1),
-                      (size_t)grid->rows * grid->columns * 6, log);
+        scenes_mesh_allocate(mesh, grid->name, (size_t)(grid->rows + 1) * (grid->columns + 1),
+                             (size_t)grid->rows * grid->columns * 6, host);
     if (status)
         return status;
     mesh->has_texture_coordinates[0] = true;
     place_vertices(grid, mesh);
-    shape_grid_indices(grid->rows, grid->columns, mesh->indices);
-    status = mesh_compute_normals(mesh, log);
+    scenes_shape_grid_indices(grid->rows, grid->columns, mesh->indices);
+    status = scenes_mesh_compute_normals(mesh, host);
     if (!status && grid->closed)
         close_normals(grid, mesh);
     if (!status)
-        status = mesh_compute_tangents(mesh, NULL, log);
+        status = scenes_mesh_compute_tangents(mesh, NULL, host);
     if (status)
-        mesh_free(mesh);
+        scenes_mesh_free(mesh);
     return status;
 }

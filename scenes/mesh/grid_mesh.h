@@ -1,7 +1,7 @@
 #ifndef SCENES_MESH_GRID_MESH_H
 #define SCENES_MESH_GRID_MESH_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -17,7 +17,8 @@ typedef struct grid_mesh {
     const void *shape; ///< what `place` is given
 } grid_mesh;
 
-/// Makes a mesh with smooth normals and tangents; `mesh` is overwritten. Errors: as mesh_allocate.
-lobe_result grid_mesh_make(const grid_mesh *grid, const lobe_log *log, lobe_mesh *mesh);
+/// Makes a mesh with smooth normals and tangents; `mesh` is overwritten. Errors: as
+/// scenes_mesh_allocate.
+lobe_result scenes_grid_mesh_make(const grid_mesh *grid, const lobe_host *host, lobe_mesh *mesh);
 
 #endif

@@ -21,25 +21,25 @@ static lobe_result allocate_arrays(const lobe_allocator *allocator, lobe_mesh *m
     return LOBE_OK;
 }
 
-lobe_result mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
-                          size_t index_count, const lobe_log *log) {
+lobe_result scenes_mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
+                                 size_t index_count, const lobe_host *host) {
     *mesh = (lobe_mesh){.vertex_count = vertex_count, .index_count = index_count};
     if (vertex_count == 0 || vertex_count > MESH_MAXIMUM_COUNT || index_count == 0 ||
         index_count > MESH_MAXIMUM_COUNT || index_count % 3 != 0) {
         *mesh = (lobe_mesh){0};
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT,
-                             "mesh '%s': %zu vertices and %zu indices cannot be", name,
-                             vertex_count, index_count);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "mesh '%s': %zu vertices and %zu indices cannot be", name,
+                              vertex_count, index_count);
     }
-    lobe_result result = allocate_arrays(lobe_log_allocator(log), mesh, name);
+    lobe_result result = allocate_arrays(lobe_host_allocator(host), mesh, name);
     if (result == LOBE_OK)
         return LOBE_OK;
-    mesh_free(mesh);
-    return lobe_log_fail(log, result, "mesh '%s': out of memory for %zu vertices", name,
-                         vertex_count);
+    scenes_mesh_free(mesh);
+    return lobe_host_fail(host, result, "mesh '%s': out of memory for %zu vertices", name,
+                          vertex_count);
 }
 
-void mesh_free(lobe_mesh *mesh) {
+void scenes_mesh_free(lobe_mesh *mesh) {
     lobe_release(mesh->name);
     lobe_release(mesh->vertices);
     lobe_release(mesh->indices);
@@ -56,7 +56,7 @@ static bool is_degenerate(const lobe_mesh *mesh, const uint32_t corner[3]) {
     return !(vector3_length(vector3_cross(ab, ac)) > 1e-9 * longest);
 }
 
-size_t mesh_drop_degenerate(lobe_mesh *mesh) {
+size_t scenes_mesh_drop_degenerate(lobe_mesh *mesh) {
     size_t kept = 0;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         if (is_degenerate(mesh, mesh->indices + i))
@@ -69,7 +69,7 @@ size_t mesh_drop_degenerate(lobe_mesh *mesh) {
     return dropped;
 }
 
-void mesh_compute_bounds(lobe_mesh *mesh) {
+void scenes_mesh_compute_bounds(lobe_mesh *mesh) {
     for (int axis = 0; axis < 3; axis++) {
         mesh->minimum[axis] = mesh->maximum[axis] =
             mesh->vertex_count > 0 ? mesh->vertices[0].position[axis] : 0;

@@ -1,7 +1,7 @@
 #ifndef SCENES_MESH_H
 #define SCENES_MESH_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -10,20 +10,20 @@
 
 /// Allocates zeroed vertices (colours 1) and zeroed indices; `mesh` is overwritten, `name` is
 /// copied. LOBE_ERROR_LIMIT where a count is 0, above 2^31, or the indices are no multiple of 3.
-lobe_result mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
-                          size_t index_count, const lobe_log *log);
+lobe_result scenes_mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
+                                 size_t index_count, const lobe_host *host);
 
 /// Frees the name, vertices and indices and zeroes the structure. An already freed one is fine.
-void mesh_free(lobe_mesh *mesh);
+void scenes_mesh_free(lobe_mesh *mesh);
 
 /// Smooth normals: at each vertex the mean of its triangles' normals, weighted by their areas.
 /// A vertex of no triangle, or whose triangles cancel, gets +Y. Vertices are not welded: where
 /// positions repeat, an edge stays sharp.
-lobe_result mesh_compute_normals(lobe_mesh *mesh, const lobe_log *log);
+lobe_result scenes_mesh_compute_normals(lobe_mesh *mesh, const lobe_host *host);
 
-/// Recomputes, as mesh_compute_normals would, only normals that are shorter than 1e-6 or not
+/// Recomputes, as scenes_mesh_compute_normals would, only normals that are shorter than 1e-6 or not
 /// finite, and brings the others to unit length. `*repaired` counts the recomputed ones.
-lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *repaired);
+lobe_result scenes_mesh_repair_normals(lobe_mesh *mesh, const lobe_host *host, size_t *repaired);
 
 /// Tangents along increasing u, orthonormal to the (unit) normals; w is such that the bitangent
 /// w * cross(normal, tangent) runs up the image, against v, as +Y normal maps ask for. `use` says
@@ -31,16 +31,16 @@ lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *re
 /// axis is the tangent; NULL: the first set as it is. Where coordinates are missing or
 /// degenerate: any direction orthogonal to the normal, w = 1. A vertex whose triangles disagree
 /// about w is split in two, so vertices may be appended.
-lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
-                                  const lobe_log *log);
+lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
+                                         const lobe_host *host);
 
 /// Any unit vector orthogonal to the unit vector `normal`.
-void mesh_orthogonal(const float normal[3], float tangent[3]);
+void scenes_mesh_orthogonal(const float normal[3], float tangent[3]);
 
 /// Drops triangles without area: two equal indices, or corners on one line. Returns how many.
-size_t mesh_drop_degenerate(lobe_mesh *mesh);
+size_t scenes_mesh_drop_degenerate(lobe_mesh *mesh);
 
 /// Sets minimum and maximum from the positions.
-void mesh_compute_bounds(lobe_mesh *mesh);
+void scenes_mesh_compute_bounds(lobe_mesh *mesh);
 
 #endif

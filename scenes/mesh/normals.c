@@ -3,8 +3,8 @@
 #include "scenes/mesh/vector.h"
 
 // The cross product of two edges is twice the area times the normal: summing it weights by area.
-static vector3 *sum_triangle_normals(const lobe_mesh *mesh, const lobe_log *log) {
-    vector3 *sums = lobe_allocate(lobe_log_allocator(log), mesh->vertex_count, sizeof *sums);
+static vector3 *sum_triangle_normals(const lobe_mesh *mesh, const lobe_host *host) {
+    vector3 *sums = lobe_allocate(lobe_host_allocator(host), mesh->vertex_count, sizeof *sums);
     if (!sums)
         return NULL;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
@@ -25,22 +25,22 @@ static void store_normal(lobe_scene_vertex *vertex, vector3 sum) {
     vector3_store(sum, vertex->normal);
 }
 
-static lobe_result out_of_memory(const lobe_mesh *mesh, const lobe_log *log) {
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for normals",
-                         mesh->name);
+static lobe_result out_of_memory(const lobe_mesh *mesh, const lobe_host *host) {
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for normals",
+                          mesh->name);
 }
 
-lobe_result mesh_compute_normals(lobe_mesh *mesh, const lobe_log *log) {
-    vector3 *sums = sum_triangle_normals(mesh, log);
+lobe_result scenes_mesh_compute_normals(lobe_mesh *mesh, const lobe_host *host) {
+    vector3 *sums = sum_triangle_normals(mesh, host);
     if (!sums)
-        return out_of_memory(mesh, log);
+        return out_of_memory(mesh, host);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         store_normal(&mesh->vertices[i], sums[i]);
     lobe_release(sums);
     return LOBE_OK;
 }
 
-lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *repaired) {
+lobe_result scenes_mesh_repair_normals(lobe_mesh *mesh, const lobe_host *host, size_t *repaired) {
     vector3 *sums = NULL;
     *repaired = 0;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
@@ -50,9 +50,9 @@ lobe_result mesh_repair_normals(lobe_mesh *mesh, const lobe_log *log, size_t *re
             continue;
         }
         if (!sums)
-            sums = sum_triangle_normals(mesh, log);
+            sums = sum_triangle_normals(mesh, host);
         if (!sums)
-            return out_of_memory(mesh, log);
+            return out_of_memory(mesh, host);
         store_normal(&mesh->vertices[i], sums[i]);
         ++*repaired;
     }

@@ -5,12 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
 /// Positions and polygons as a file lists them, before they become a mesh. All zero, but for the
-/// allocator, at first; free it with polygon_mesh_free.
+/// allocator, at first; free it with scenes_polygon_mesh_free.
 typedef struct polygon_mesh {
     const lobe_allocator *allocator;
     float (*positions)[3];
@@ -20,15 +20,15 @@ typedef struct polygon_mesh {
 } polygon_mesh;
 
 /// False without memory. Positions must be within the range of float.
-bool polygon_mesh_add_position(polygon_mesh *polygons, const double position[3]);
-bool polygon_mesh_add_triangle(polygon_mesh *polygons, uint32_t a, uint32_t b, uint32_t c);
+bool scenes_polygon_mesh_add_position(polygon_mesh *polygons, const double position[3]);
+bool scenes_polygon_mesh_add_triangle(polygon_mesh *polygons, uint32_t a, uint32_t b, uint32_t c);
 
 /// Makes a mesh of them, with smooth normals and without texture coordinates; triangles without
 /// area are dropped. `name` is that of the file. On failure `mesh` is empty. Errors:
 /// LOBE_ERROR_MALFORMED (no triangle, an index without a position), _LIMIT, _OUT_OF_MEMORY.
-lobe_result polygon_mesh_finish(const polygon_mesh *polygons, const char *name, const lobe_log *log,
-                                lobe_mesh *mesh);
+lobe_result scenes_polygon_mesh_finish(const polygon_mesh *polygons, const char *name,
+                                       const lobe_host *host, lobe_mesh *mesh);
 
-void polygon_mesh_free(polygon_mesh *polygons);
+void scenes_polygon_mesh_free(polygon_mesh *polygons);
 
 #endif

@@ -10,7 +10,7 @@ static uint32_t *write_triangle(uint32_t *indices, uint32_t a, uint32_t b, uint3
     return indices + 3;
 }
 
-uint32_t *shape_grid_indices(uint32_t rows, uint32_t columns, uint32_t *indices) {
+uint32_t *scenes_shape_grid_indices(uint32_t rows, uint32_t columns, uint32_t *indices) {
     for (uint32_t row = 0; row < rows; row++)
         for (uint32_t column = 0; column < columns; column++) {
             uint32_t corner = row * (columns + 1) + column, below = corner + columns + 1;
@@ -20,9 +20,9 @@ uint32_t *shape_grid_indices(uint32_t rows, uint32_t columns, uint32_t *indices)
     return indices;
 }
 
-lobe_result shape_plane(float width, float depth, float tile, const lobe_log *log,
-                        lobe_mesh *mesh) {
-    lobe_result status = mesh_allocate(mesh, "plane", 4, 6, log);
+lobe_result scenes_shape_plane(float width, float depth, float tile, const lobe_host *host,
+                               lobe_mesh *mesh) {
+    lobe_result status = scenes_mesh_allocate(mesh, "plane", 4, 6, host);
     if (status)
         return status;
     mesh->has_texture_coordinates[0] = true;
@@ -35,7 +35,7 @@ lobe_result shape_plane(float width, float depth, float tile, const lobe_log *lo
         vertex->texture_coordinates[0][0] = vertex->position[0] / tile;
         vertex->texture_coordinates[0][1] = vertex->position[2] / tile;
     }
-    shape_grid_indices(1, 1, mesh->indices);
+    scenes_shape_grid_indices(1, 1, mesh->indices);
     return LOBE_OK;
 }
 
@@ -64,8 +64,9 @@ static void place_face(const float size[3], float tile, int face, lobe_scene_ver
     }
 }
 
-lobe_result shape_box(const float size[3], float tile, const lobe_log *log, lobe_mesh *mesh) {
-    lobe_result status = mesh_allocate(mesh, "box", 24, 36, log);
+lobe_result scenes_shape_box(const float size[3], float tile, const lobe_host *host,
+                             lobe_mesh *mesh) {
+    lobe_result status = scenes_mesh_allocate(mesh, "box", 24, 36, host);
     if (status)
         return status;
     mesh->has_texture_coordinates[0] = true;
@@ -81,8 +82,8 @@ lobe_result shape_box(const float size[3], float tile, const lobe_log *log, lobe
 
 static void place_on_sphere(double u, double v, lobe_scene_vertex *vertex) {
     double around[2], down[2];
-    circle_point(u, around);
-    circle_point(v / 2, down);
+    scenes_circle_point(u, around);
+    scenes_circle_point(v / 2, down);
     vertex->normal[0] = (float)(down[1] * around[1]);
     vertex->normal[1] = (float)down[0];
     vertex->normal[2] = (float)(down[1] * around[0]);
@@ -104,11 +105,11 @@ static void connect_sphere(uint32_t rows, uint32_t columns, uint32_t *indices) {
         }
 }
 
-lobe_result shape_sphere(uint32_t rows, uint32_t columns, float tiles_u, float tiles_v,
-                         const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_shape_sphere(uint32_t rows, uint32_t columns, float tiles_u, float tiles_v,
+                                const lobe_host *host, lobe_mesh *mesh) {
     size_t vertex_count = (size_t)(rows + 1) * (columns + 1);
     size_t index_count = (size_t)6 * (rows - 1) * columns;
-    lobe_result status = mesh_allocate(mesh, "sphere", vertex_count, index_count, log);
+    lobe_result status = scenes_mesh_allocate(mesh, "sphere", vertex_count, index_count, host);
     if (status)
         return status;
     mesh->has_texture_coordinates[0] = true;

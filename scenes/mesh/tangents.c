@@ -138,12 +138,12 @@ static void store_tangent(lobe_scene_vertex *vertex, vector3 sum) {
     if (vector3_normalise(&tangent, 1e-6 * vector3_length(sum)))
         vector3_store(tangent, vertex->tangent);
     else
-        mesh_orthogonal(vertex->normal, vertex->tangent);
+        scenes_mesh_orthogonal(vertex->normal, vertex->tangent);
 }
 
-lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
-                                  const lobe_log *log) {
-    const lobe_allocator *allocator = lobe_log_allocator(log);
+lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
+                                         const lobe_host *host) {
+    const lobe_allocator *allocator = lobe_host_allocator(host);
     const lobe_texture_use none = LOBE_TEXTURE_NONE;
     use = use ? use : &none;
     bool mapped =
@@ -153,8 +153,8 @@ lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
     if (allocated)
         sums = lobe_allocate(allocator, mesh->vertex_count, sizeof *sums);
     if (!sums)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "mesh '%s': out of memory for tangents",
-                             mesh->name);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "mesh '%s': out of memory for tangents", mesh->name);
     for (size_t i = 0; i < mesh->vertex_count; i++)
         mesh->vertices[i].tangent[3] = 1;
     if (mapped)
@@ -165,7 +165,7 @@ lobe_result mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
     return LOBE_OK;
 }
 
-void mesh_orthogonal(const float normal[3], float tangent[3]) {
+void scenes_mesh_orthogonal(const float normal[3], float tangent[3]) {
     vector3 n = vector3_load(normal);
     // The axis that the normal leans on least, so that the cross product stays long.
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);

@@ -23,7 +23,7 @@ static void include_instance(const lobe_scene *scene, const lobe_instance *insta
     }
 }
 
-static lobe_result set_bounds(lobe_scene *scene, const lobe_log *log) {
+static lobe_result set_bounds(lobe_scene *scene, const lobe_host *host) {
     vector3 minimum = {0, 0, 0}, maximum = {0, 0, 0};
     if (scene->instance_count > 0) {
         minimum = (vector3){INFINITY, INFINITY, INFINITY};
@@ -33,15 +33,15 @@ static lobe_result set_bounds(lobe_scene *scene, const lobe_log *log) {
         include_instance(scene, &scene->instances[i], &minimum, &maximum);
     double largest = fmax(vector3_length(minimum), vector3_length(maximum));
     if (!(largest <= SCENE_MAXIMUM_LENGTH))
-        return lobe_log_fail(log, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m", scene->name,
-                             SCENE_MAXIMUM_LENGTH);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m", scene->name,
+                              SCENE_MAXIMUM_LENGTH);
     vector3_store(minimum, scene->minimum);
     vector3_store(maximum, scene->maximum);
     return LOBE_OK;
 }
 
-lobe_result scene_complete(lobe_scene *scene, const lobe_log *log) {
-    lobe_result result = set_bounds(scene, log);
+lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host) {
+    lobe_result result = set_bounds(scene, host);
     if (result != LOBE_OK)
         return result;
     if (!scene->has_camera)
@@ -50,7 +50,7 @@ lobe_result scene_complete(lobe_scene *scene, const lobe_log *log) {
     if (scene->instance_count == 0)
         return LOBE_OK;
     if (!scene->has_camera)
-        lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
-                       scene->name);
-    return scene_add_missing_light(scene, log);
+        lobe_host_log(host, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
+                      scene->name);
+    return scenes_add_missing_light(scene, host);
 }

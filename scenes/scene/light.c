@@ -1,12 +1,12 @@
 #include "scenes/scene/scene.h"
 
-lobe_result scene_add_missing_light(lobe_scene *scene, const lobe_log *log) {
+lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host) {
     scene->has_added_light = scene->light_count == 0 && !scene->environment;
     if (!scene->has_added_light)
         return LOBE_OK;
-    lobe_log_print(log, LOBE_LOG_NOTICE, "%s: has no light; added the environment 'sky'",
-                   scene->name);
-    return lobe_environment_open("sky", log, &scene->environment);
+    lobe_host_log(host, LOBE_LOG_NOTICE, "%s: has no light; added the environment 'sky'",
+                  scene->name);
+    return lobe_environment_open("sky", host, &scene->environment);
 }
 
 void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment) {

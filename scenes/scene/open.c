@@ -17,27 +17,27 @@ static bool is_folder(const char *path) {
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, const lobe_log *log,
-                                 lobe_scene **result) {
+lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
+                                 const lobe_host *host, lobe_scene **result) {
     const char *scene = parameters->scene;
     *result = NULL;
     if (parameters->data)
-        return gltf_open(parameters, log, result);
-    const builtin_scene *builtin = builtin_scene_find(scene);
+        return scenes_gltf_open(parameters, host, result);
+    const builtin_scene *builtin = scenes_builtin_find(scene);
     if (builtin && builtin->description.needs_assets)
-        return builtin->build_from_assets(parameters->assets, log, result);
+        return builtin->build_from_assets(parameters->assets, host, result);
     if (builtin)
-        return builtin->build(log, result);
+        return builtin->build(host, result);
     if (parameters->files)
-        return gltf_open(parameters, log, result);
+        return scenes_gltf_open(parameters, host, result);
     if (is_absent(scene))
-        return lobe_log_fail(log, LOBE_ERROR_NOT_FOUND,
-                             "%s: neither a built-in scene nor a file or folder", scene);
+        return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
+                              "%s: neither a built-in scene nor a file or folder", scene);
     if (is_folder(scene))
-        return lobe_scene_open_material(scene, LOBE_CARRIER_CLOTH, log, result);
-    return gltf_open(parameters, log, result);
+        return lobe_scene_open_material(scene, LOBE_CARRIER_CLOTH, host, result);
+    return scenes_gltf_open(parameters, host, result);
 }
 
-lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result) {
-    return lobe_scene_open_with(&(lobe_scene_open_parameters){.scene = scene}, log, result);
+lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result) {
+    return lobe_scene_open_with(&(lobe_scene_open_parameters){.scene = scene}, host, result);
 }

@@ -29,7 +29,7 @@ void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera) 
     const vector3 reach = vector3_subtract(vector3_load(camera->eye), target);
     const double scale = growth(part);
     double point[2];
-    circle_point(fmax(part - 0.5, 0) * 2, point);
+    scenes_circle_point(fmax(part - 0.5, 0) * 2, point);
     vector3_store(vector3_add(target, turn(vector3_scale(reach, scale), point)), camera->eye);
     vector3_store(turn(vector3_load(camera->up), point), camera->up);
     camera->orthographic_height = (float)(scale * camera->orthographic_height);

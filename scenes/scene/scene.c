@@ -4,18 +4,18 @@
 
 #include "scenes/mesh/mesh.h"
 
-static lobe_result out_of_memory(const lobe_scene *scene, const lobe_log *log) {
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", scene->name);
+static lobe_result out_of_memory(const lobe_scene *scene, const lobe_host *host) {
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", scene->name);
 }
 
-lobe_result scene_allocate(const char *name, const lobe_log *log, lobe_scene **scene) {
-    *scene = lobe_allocate(lobe_log_allocator(log), 1, sizeof **scene);
+lobe_result scenes_allocate(const char *name, const lobe_host *host, lobe_scene **scene) {
+    *scene = lobe_allocate(lobe_host_allocator(host), 1, sizeof **scene);
     if (*scene)
-        (*scene)->name = lobe_copy_text(lobe_log_allocator(log), name);
+        (*scene)->name = lobe_copy_text(lobe_host_allocator(host), name);
     if (*scene && (*scene)->name)
         return LOBE_OK;
     lobe_scene_destroy(scene);
-    return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", name);
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", name);
 }
 
 // Room for one more element. Arrays carry no capacity: it is the power of two not below the
@@ -31,9 +31,9 @@ static bool grow(const lobe_allocator *allocator, void **array, size_t count, si
 }
 
 // Appends a copy of `element`; false, nothing changed, without memory.
-static bool append(const lobe_log *log, void **array, size_t *count, const void *element,
+static bool append(const lobe_host *host, void **array, size_t *count, const void *element,
                    size_t element_size, uint32_t *index) {
-    if (*count >= UINT32_MAX || !grow(lobe_log_allocator(log), array, *count, element_size))
+    if (*count >= UINT32_MAX || !grow(lobe_host_allocator(host), array, *count, element_size))
         return false;
     memcpy((char *)*array + *count * element_size, element, element_size);
     if (index)
@@ -42,64 +42,64 @@ static bool append(const lobe_log *log, void **array, size_t *count, const void 
     return true;
 }
 
-lobe_result scene_add_image(lobe_scene *scene, const char *name, lobe_image *image,
-                            const lobe_log *log, uint32_t *index) {
-    lobe_scene_image element = {lobe_copy_text(lobe_log_allocator(log), name), *image};
-    bool added = element.name && append(log, (void **)&scene->images, &scene->image_count, &element,
-                                        sizeof element, index);
+lobe_result scenes_add_image(lobe_scene *scene, const char *name, lobe_image *image,
+                             const lobe_host *host, uint32_t *index) {
+    lobe_scene_image element = {lobe_copy_text(lobe_host_allocator(host), name), *image};
+    bool added = element.name && append(host, (void **)&scene->images, &scene->image_count,
+                                        &element, sizeof element, index);
     if (added) {
         *image = (lobe_image){0};
         return LOBE_OK;
     }
     lobe_release(element.name);
     lobe_image_free(image);
-    return out_of_memory(scene, log);
+    return out_of_memory(scene, host);
 }
 
-lobe_result scene_add_material(lobe_scene *scene, const char *name, const lobe_material *material,
-                               const lobe_log *log, uint32_t *index) {
+lobe_result scenes_add_material(lobe_scene *scene, const char *name, const lobe_material *material,
+                                const lobe_host *host, uint32_t *index) {
     lobe_material element = *material;
-    element.name = lobe_copy_text(lobe_log_allocator(log), name);
-    if (element.name && append(log, (void **)&scene->materials, &scene->material_count, &element,
+    element.name = lobe_copy_text(lobe_host_allocator(host), name);
+    if (element.name && append(host, (void **)&scene->materials, &scene->material_count, &element,
                                sizeof element, index))
         return LOBE_OK;
     lobe_release(element.name);
-    return out_of_memory(scene, log);
+    return out_of_memory(scene, host);
 }
 
-lobe_result scene_add_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_log *log,
-                           uint32_t *index) {
-    mesh_compute_bounds(mesh);
-    if (append(log, (void **)&scene->meshes, &scene->mesh_count, mesh, sizeof *mesh, index)) {
+lobe_result scenes_add_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_host *host,
+                            uint32_t *index) {
+    scenes_mesh_compute_bounds(mesh);
+    if (append(host, (void **)&scene->meshes, &scene->mesh_count, mesh, sizeof *mesh, index)) {
         *mesh = (lobe_mesh){0};
         return LOBE_OK;
     }
-    mesh_free(mesh);
-    return out_of_memory(scene, log);
+    scenes_mesh_free(mesh);
+    return out_of_memory(scene, host);
 }
 
-lobe_result scene_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t material,
-                               const float transform[16], const lobe_log *log) {
+lobe_result scenes_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t material,
+                                const float transform[16], const lobe_host *host) {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     lobe_instance element = {.mesh = mesh, .material = material};
     memcpy(element.transform, transform ? transform : identity, sizeof element.transform);
-    if (append(log, (void **)&scene->instances, &scene->instance_count, &element, sizeof element,
+    if (append(host, (void **)&scene->instances, &scene->instance_count, &element, sizeof element,
                NULL))
         return LOBE_OK;
-    return out_of_memory(scene, log);
+    return out_of_memory(scene, host);
 }
 
-lobe_result scene_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t material,
-                             const lobe_log *log) {
+lobe_result scenes_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t material,
+                              const lobe_host *host) {
     uint32_t index;
-    const lobe_result result = scene_add_mesh(scene, mesh, log, &index);
-    return result != LOBE_OK ? result : scene_add_instance(scene, index, material, NULL, log);
+    const lobe_result result = scenes_add_mesh(scene, mesh, host, &index);
+    return result != LOBE_OK ? result : scenes_add_instance(scene, index, material, NULL, host);
 }
 
-lobe_result scene_add_light(lobe_scene *scene, const lobe_light *light, const lobe_log *log) {
-    if (append(log, (void **)&scene->lights, &scene->light_count, light, sizeof *light, NULL))
+lobe_result scenes_add_light(lobe_scene *scene, const lobe_light *light, const lobe_host *host) {
+    if (append(host, (void **)&scene->lights, &scene->light_count, light, sizeof *light, NULL))
         return LOBE_OK;
-    return out_of_memory(scene, log);
+    return out_of_memory(scene, host);
 }
 
 static void free_elements(lobe_scene *scene) {
@@ -110,7 +110,7 @@ static void free_elements(lobe_scene *scene) {
     for (size_t i = 0; i < scene->material_count; i++)
         lobe_release(scene->materials[i].name);
     for (size_t i = 0; i < scene->mesh_count; i++)
-        mesh_free(&scene->meshes[i]);
+        scenes_mesh_free(&scene->meshes[i]);
 }
 
 void lobe_scene_destroy(lobe_scene **scene) {

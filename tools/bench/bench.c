@@ -36,26 +36,27 @@ static volatile sig_atomic_t interrupted;
 // Usage
 
 static int add_filter(const option_table *table, bench_job *job, const char *name,
-                      const lobe_log *log) {
+                      const lobe_host *host) {
     if (job->filter_count == BENCH_MAXIMUM_FILTERS)
         return options_usage_error(table, "--filters: more than %d", BENCH_MAXIMUM_FILTERS);
     bench_filter *filter = &job->filters[job->filter_count++];
-    if (lobe_filter_find(name, log, &filter->filter) != LOBE_OK)
+    if (lobe_filter_find(name, host, &filter->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(filter->filter, &filter->settings);
     return 0;
 }
 
-static int choose_filters(const option_table *table, bench_request *request, const lobe_log *log) {
+static int choose_filters(const option_table *table, bench_request *request,
+                          const lobe_host *host) {
     int status = 0;
     for (size_t i = 0; !request->filters && status == 0 && i < lobe_filter_count(); ++i)
-        status = add_filter(table, &request->job, lobe_filter_name(lobe_filter_get(i)), log);
+        status = add_filter(table, &request->job, lobe_filter_name(lobe_filter_get(i)), host);
     const char *rest = request->filters;
     while (rest && status == 0) {
         size_t length = strcspn(rest, ",");
         char name[64];
         snprintf(name, sizeof name, "%.*s", (int)length, rest);
-        status = add_filter(table, &request->job, name, log);
+        status = add_filter(table, &request->job, name, host);
         rest = rest[length] == ',' ? rest + length + 1 : NULL;
     }
     return status;
@@ -72,41 +73,42 @@ static const lobe_knob *find_knob(const lobe_filter *filter, const char *assignm
 }
 
 /// A knob is set in every filter that has it; one at least must.
-static int set_knob(bench_job *job, const char *assignment, const lobe_log *log) {
+static int set_knob(bench_job *job, const char *assignment, const lobe_host *host) {
     bool known = false;
     for (size_t i = 0; i < job->filter_count; ++i) {
         bench_filter *filter = &job->filters[i];
         if (!find_knob(filter->filter, assignment))
             continue;
         known = true;
-        if (lobe_settings_set(filter->filter, &filter->settings, assignment, log) != LOBE_OK)
+        if (lobe_settings_set(filter->filter, &filter->settings, assignment, host) != LOBE_OK)
             return 2;
     }
     if (known)
         return 0;
     if (strchr(assignment, '='))
-        lobe_log_print(log, LOBE_LOG_ERROR, "--set %s: none of these filters has that knob",
-                       assignment);
+        lobe_host_log(host, LOBE_LOG_ERROR, "--set %s: none of these filters has that knob",
+                      assignment);
     else
-        lobe_log_print(log, LOBE_LOG_ERROR, "--set %s: write NAME=VALUE", assignment);
+        lobe_host_log(host, LOBE_LOG_ERROR, "--set %s: write NAME=VALUE", assignment);
     return 2;
 }
 
 /// The truth shares the user's knobs, but how it takes base lobes is what the two truths differ in.
-static int choose_truths(bench_request *request, const lobe_log *log) {
+static int choose_truths(bench_request *request, const lobe_host *host) {
     const lobe_filter *reference;
     bench_job *job = &request->job;
-    if (lobe_filter_find("reference", log, &reference) != LOBE_OK)
+    if (lobe_filter_find("reference", host, &reference) != LOBE_OK)
         return 1;
     lobe_settings_default(reference, &job->truth);
     for (size_t i = 0; i < request->assignments.count; ++i) {
         const char *assignment = request->assignments.values[i];
         if (find_knob(reference, assignment) &&
-            lobe_settings_set(reference, &job->truth, assignment, log) != LOBE_OK)
+            lobe_settings_set(reference, &job->truth, assignment, host) != LOBE_OK)
             return 2;
     }
     job->truth_lobe_base = job->truth;
-    return lobe_settings_set(reference, &job->truth_lobe_base, "base=lobe", log) == LOBE_OK ? 0 : 1;
+    return lobe_settings_set(reference, &job->truth_lobe_base, "base=lobe", host) == LOBE_OK ? 0
+                                                                                             : 1;
 }
 
 /// What a sweep goes through it sets itself.
@@ -159,7 +161,7 @@ static int check_knobs(const option_table *table, const char *knobs) {
     return 0;
 }
 
-static int check_usage(const option_table *table, bench_request *request, const lobe_log *log) {
+static int check_usage(const option_table *table, bench_request *request, const lobe_host *host) {
     const uint32_t *size = request->job.size;
     if (size[0] == 0 || size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", size[0], size[1]);
@@ -167,10 +169,10 @@ static int check_usage(const option_table *table, bench_request *request, const 
     if (status == 0)
         status = check_knobs(table, request->knobs);
     if (status == 0)
-        status = choose_filters(table, request, log);
+        status = choose_filters(table, request, host);
     for (size_t i = 0; status == 0 && i < request->assignments.count; ++i)
-        status = set_knob(&request->job, request->assignments.values[i], log);
-    return status == 0 ? choose_truths(request, log) : status;
+        status = set_knob(&request->job, request->assignments.values[i], host);
+    return status == 0 ? choose_truths(request, host) : status;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -181,7 +183,7 @@ static lobe_result measure_scene(const bench_request *request, const char *name,
                                  bench_result *results, bool *left_out) {
     lobe_scene *scene;
     lobe_result result =
-        scene_options_open(&request->opening, name, request->job.size, request->job.log, &scene);
+        scene_options_open(&request->opening, name, request->job.size, request->job.host, &scene);
     *left_out = scene_options_lack_assets(name, result);
     if (result == LOBE_OK)
         result = bench_measure(&request->job, scene, name, results);
@@ -207,9 +209,9 @@ static lobe_result measure_scenes(const bench_request *request, bench_result *re
         return result;
     if (measured == 0)
         return LOBE_ERROR_NOT_FOUND;
-    lobe_log_print(job->log, LOBE_LOG_WARNING,
-                   "only %zu of %zu scenes were measured: the others lack assets", measured,
-                   request->scenes.count);
+    lobe_host_log(job->host, LOBE_LOG_WARNING,
+                  "only %zu of %zu scenes were measured: the others lack assets", measured,
+                  request->scenes.count);
     return LOBE_OK;
 }
 
@@ -220,9 +222,9 @@ static lobe_result write_json(const bench_request *request, const bench_result *
     char *text = bench_describe(&request->job, results, count);
     lobe_result result = LOBE_ERROR_OUT_OF_MEMORY;
     if (text)
-        result = output_file_write(request->json, text, request->job.log);
+        result = output_file_write(request->json, text, request->job.host);
     else
-        lobe_log_print(request->job.log, LOBE_LOG_ERROR, "%s: out of memory", request->json);
+        lobe_host_log(request->job.host, LOBE_LOG_ERROR, "%s: out of memory", request->json);
     free(text);
     return result;
 }
@@ -232,7 +234,7 @@ static lobe_result measure_all(const bench_request *request, bench_result *resul
     size_t count;
     lobe_result result = measure_scenes(request, results, &count);
     if (result == LOBE_OK)
-        result = device_options_check(job->device, job->log);
+        result = device_options_check(job->device, job->host);
     if (result == LOBE_OK)
         result = write_json(request, results, count);
     if (result == LOBE_OK)
@@ -271,7 +273,7 @@ static lobe_result compare_filters(const bench_request *request) {
     if (results) {
         result = measure_all(request, results);
     } else {
-        lobe_log_print(job->log, LOBE_LOG_ERROR, "bench: out of memory");
+        lobe_host_log(job->host, LOBE_LOG_ERROR, "bench: out of memory");
         result = LOBE_ERROR_OUT_OF_MEMORY;
     }
     free(results);
@@ -280,9 +282,9 @@ static lobe_result compare_filters(const bench_request *request) {
 
 static lobe_result bench(bench_request *request) {
     bench_job *job = &request->job;
-    lobe_result result = output_file_check(request->json, job->log);
+    lobe_result result = output_file_check(request->json, job->host);
     if (result == LOBE_OK)
-        result = device_options_open(&request->device, job->log, &job->device);
+        result = device_options_open(&request->device, job->host, &job->device);
     if (result == LOBE_OK)
         result = request->sweep ? sweep(request) : compare_filters(request);
     lobe_device_destroy(&job->device);
@@ -290,11 +292,11 @@ static lobe_result bench(bench_request *request) {
 }
 
 static int run_request(const option_table *table, bench_request *request) {
-    const lobe_log log = console_log(false);
+    const lobe_host host = console_host(false);
     progress progress = progress_begin(true);
-    request->job.log = &log;
+    request->job.host = &host;
     request->job.progress = &progress;
-    int status = check_usage(table, request, &log);
+    int status = check_usage(table, request, &host);
     if (status != 0)
         return status;
     if (request->environments.count > 0)

@@ -21,7 +21,7 @@ typedef struct bench_filter {
 /// What is measured, and how.
 typedef struct bench_job {
     lobe_device *device;
-    const lobe_log *log;
+    const lobe_host *host;
     progress *progress;
     bench_filter filters[BENCH_MAXIMUM_FILTERS];
     size_t filter_count;

@@ -40,7 +40,7 @@ static lobe_render_parameters parameters_of(const bench_job *job, const bench_fi
 }
 
 static lobe_result open_renderer(const bench_run *run, lobe_renderer **renderer) {
-    lobe_result result = lobe_renderer_create(run->job->device, run->job->log, renderer);
+    lobe_result result = lobe_renderer_create(run->job->device, run->job->host, renderer);
     return result == LOBE_OK ? lobe_renderer_set_scene(*renderer, run->scene) : result;
 }
 
@@ -51,7 +51,7 @@ static lobe_result render_truth(const bench_run *run, lobe_renderer *renderer,
                                 const lobe_settings *settings, const char *kind,
                                 lobe_image *image) {
     bench_filter reference = {.settings = *settings};
-    lobe_result result = lobe_filter_find("reference", run->job->log, &reference.filter);
+    lobe_result result = lobe_filter_find("reference", run->job->host, &reference.filter);
     if (result != LOBE_OK)
         return result;
     progress_step(run->job->progress, "%s: %s, samples a pixel: %u", run->name, kind,
@@ -107,7 +107,7 @@ static lobe_result compare(const bench_run *run, const lobe_image *image, const 
         &(error_metrics_parameters){.test_name = lobe_filter_name(result->filter->filter),
                                     .reference_name = run->name,
                                     .high_dynamic_range = true},
-        run->job->log, error, NULL);
+        run->job->host, error, NULL);
 }
 
 static lobe_result measure_error(const bench_run *run, size_t index, bench_result *result) {
@@ -137,7 +137,7 @@ static lobe_result time_frame(const bench_run *run, size_t index, const bench_fi
     lobe_frame frame;
     lobe_result result = lobe_renderer_render(run->renderers[index], &parameters, &frame);
     if (result == LOBE_OK && profile)
-        result = timing_add(profile, &frame, run->job->log);
+        result = timing_add(profile, &frame, run->job->host);
     lobe_frame_free(&frame);
     return result;
 }
@@ -161,8 +161,8 @@ static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
 }
 
 static lobe_result open_profiles(const bench_run *run, bench_result *result) {
-    lobe_result status = lobe_profile_create(run->job->log, &result->profiles[0]);
-    return status == LOBE_OK ? lobe_profile_create(run->job->log, &result->profiles[1]) : status;
+    lobe_result status = lobe_profile_create(run->job->host, &result->profiles[0]);
+    return status == LOBE_OK ? lobe_profile_create(run->job->host, &result->profiles[1]) : status;
 }
 
 static lobe_result summarise(bench_result *result) {

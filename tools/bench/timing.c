@@ -2,10 +2,10 @@
 
 #include <stdlib.h>
 
-lobe_result timing_add(lobe_profile *profile, const lobe_frame *frame, const lobe_log *log) {
+lobe_result timing_add(lobe_profile *profile, const lobe_frame *frame, const lobe_host *host) {
     lobe_pass_report *passes = calloc(frame->pass_count + 1, sizeof *passes);
     if (!passes)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "times of passes: out of memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "times of passes: out of memory");
     for (size_t i = 0; i < frame->pass_count; ++i)
         passes[i] = (lobe_pass_report){.name = frame->passes[i].name,
                                        .state = LOBE_PASS_RUN,

@@ -28,7 +28,7 @@ static bool is_of_scene(const sweep_scene *entry, const char *name) {
     return strcmp(entry->scene ? entry->scene : entry->name, name) == 0;
 }
 
-static lobe_result check_scene(const char *path, const char *name, const lobe_log *log,
+static lobe_result check_scene(const char *path, const char *name, const lobe_host *host,
                                const sweep_results *figures) {
     const sweep_scene *skipped = NULL;
     for (size_t i = 0; i < figures->scene_count; ++i) {
@@ -39,26 +39,27 @@ static lobe_result check_scene(const char *path, const char *name, const lobe_lo
         skipped = &figures->scenes[i];
     }
     if (skipped)
-        return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: scene '%s' was skipped there: %s", path, name, skipped->skipped);
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: scene '%s' was skipped there: %s", path, name, skipped->skipped);
     char scenes[512];
     list_scenes(figures, scenes, sizeof scenes);
-    return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                         "%s: holds measurements of %s, not of scene '%s'", path, scenes, name);
+    return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: holds measurements of %s, not of scene '%s'", path, scenes, name);
 }
 
-lobe_result budget_read(const budget_options *options, const char *scene, const lobe_log *log,
+lobe_result budget_read(const budget_options *options, const char *scene, const lobe_host *host,
                         sweep_results *figures) {
     *figures = (sweep_results){0};
     if (!options->sweep)
         return LOBE_OK;
-    lobe_result result = sweep_results_read(options->sweep, log, figures);
-    return result == LOBE_OK ? check_scene(options->sweep, scene, log, figures) : result;
+    lobe_result result = sweep_results_read(options->sweep, host, figures);
+    return result == LOBE_OK ? check_scene(options->sweep, scene, host, figures) : result;
 }
 
 /// `*entry`: the scene in the picture's light.
-static lobe_result find_entry(const char *path, const budget_picture *picture, const lobe_log *log,
-                              const sweep_results *figures, const sweep_scene **entry) {
+static lobe_result find_entry(const char *path, const budget_picture *picture,
+                              const lobe_host *host, const sweep_results *figures,
+                              const sweep_scene **entry) {
     const lobe_environment *environment = picture->scene->environment;
     const char *name = environment ? environment->name : NULL;
     for (size_t i = 0; i < figures->scene_count; ++i) {
@@ -68,49 +69,49 @@ static lobe_result find_entry(const char *path, const budget_picture *picture, c
     }
     char scenes[512];
     list_scenes(figures, scenes, sizeof scenes);
-    return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                         "%s: holds measurements of %s, not of scene '%s' in environment %s (%s)",
-                         path, scenes, picture->name, name ? name : "none",
-                         picture->lighting[0] ? picture->lighting : "light unchanged");
+    return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: holds measurements of %s, not of scene '%s' in environment %s (%s)",
+                          path, scenes, picture->name, name ? name : "none",
+                          picture->lighting[0] ? picture->lighting : "light unchanged");
 }
 
 static lobe_result check_device(const char *path, const budget_picture *picture,
-                                const lobe_log *log, const sweep_results *figures) {
+                                const lobe_host *host, const sweep_results *figures) {
     const lobe_device_information *device = lobe_device_describe(picture->device);
     if (strcmp(figures->device, device->name) == 0 && strcmp(figures->driver, device->driver) == 0)
         return LOBE_OK;
-    return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                         "%s: was measured on %s, %s; this device is %s, %s", path, figures->device,
-                         figures->driver, device->name, device->driver);
+    return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: was measured on %s, %s; this device is %s, %s", path,
+                          figures->device, figures->driver, device->name, device->driver);
 }
 
 static void warn_of_what_differs(const char *path, const budget_picture *picture,
-                                 const lobe_log *log, const sweep_results *figures) {
+                                 const lobe_host *host, const sweep_results *figures) {
     if (strcmp(figures->version, lobe_version()) != 0)
-        lobe_log_print(log, LOBE_LOG_WARNING, "%s: was measured with lobe %s, this is %s", path,
-                       figures->version, lobe_version());
+        lobe_host_log(host, LOBE_LOG_WARNING, "%s: was measured with lobe %s, this is %s", path,
+                      figures->version, lobe_version());
     if (!picture->own_view)
-        lobe_log_print(log, LOBE_LOG_WARNING,
-                       "%s: was measured with the scene's own camera and lights; with others times "
-                       "and errors differ",
-                       path);
+        lobe_host_log(host, LOBE_LOG_WARNING,
+                      "%s: was measured with the scene's own camera and lights; with others times "
+                      "and errors differ",
+                      path);
 }
 
 static lobe_result find_figures(const budget_options *options, const budget_picture *picture,
-                                const lobe_log *log, sweep_results *figures,
+                                const lobe_host *host, sweep_results *figures,
                                 const sweep_scene **entry) {
     *entry = NULL;
     if (!options->sweep)
         return calibrate(&(calibration){.device = picture->device,
-                                        .log = log,
+                                        .host = host,
                                         .scene = picture->scene,
                                         .size = {picture->size[0], picture->size[1]}},
                          figures);
-    lobe_result result = find_entry(options->sweep, picture, log, figures, entry);
+    lobe_result result = find_entry(options->sweep, picture, host, figures, entry);
     if (result == LOBE_OK)
-        result = check_device(options->sweep, picture, log, figures);
+        result = check_device(options->sweep, picture, host, figures);
     if (result == LOBE_OK)
-        warn_of_what_differs(options->sweep, picture, log, figures);
+        warn_of_what_differs(options->sweep, picture, host, figures);
     return result;
 }
 
@@ -243,37 +244,37 @@ static void print_choice(const trade_request *request, const trade_choice *choic
 // Picking
 
 static lobe_result fail(const budget_options *options, const trade_request *request,
-                        const trade_choice *choice, const text *source, const lobe_log *log) {
+                        const trade_choice *choice, const text *source, const lobe_host *host) {
     const char *option = budget_options_limit(options);
     if (!choice->nearest)
-        return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
-                             "%s %g: no filter has both a time and an error; figures: %s", option,
-                             request->limit, source->characters);
-    return lobe_log_fail(log, LOBE_ERROR_UNSUPPORTED,
-                         "%s %g: none of %zu choices keeps to it; the %s is %s; figures: %s",
-                         option, request->limit, choice->candidates,
-                         request->kind == TRADE_LIMIT_MILLISECONDS ? "cheapest" : "most exact",
-                         describe_row(request, choice->nearest).characters, source->characters);
+        return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
+                              "%s %g: no filter has both a time and an error; figures: %s", option,
+                              request->limit, source->characters);
+    return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
+                          "%s %g: none of %zu choices keeps to it; the %s is %s; figures: %s",
+                          option, request->limit, choice->candidates,
+                          request->kind == TRADE_LIMIT_MILLISECONDS ? "cheapest" : "most exact",
+                          describe_row(request, choice->nearest).characters, source->characters);
 }
 
 lobe_result budget_pick(const budget_options *options, const budget_picture *picture,
-                        const lobe_log *log, sweep_results *figures, const lobe_filter **filter,
+                        const lobe_host *host, sweep_results *figures, const lobe_filter **filter,
                         lobe_settings *settings) {
     const sweep_scene *entry;
-    lobe_result result = find_figures(options, picture, log, figures, &entry);
+    lobe_result result = find_figures(options, picture, host, figures, &entry);
     if (result != LOBE_OK)
         return result;
     leave_out_noise(entry, figures);
     const sweep_row **rows = calloc(figures->row_count + 1, sizeof *rows);
     if (!rows)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "budget: out of memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "budget: out of memory");
     const size_t count = list_rows(figures, entry, rows);
     const trade_request request = request_of(options, picture, figures);
     const trade_choice choice = trade_choose(&request, rows, count);
     const text source = describe_source(options, picture, figures);
     free(rows);
     if (!choice.picked)
-        return fail(options, &request, &choice, &source, log);
+        return fail(options, &request, &choice, &source, host);
     read_row(choice.picked, filter, settings);
     print_choice(&request, &choice, &source);
     return LOBE_OK;

@@ -27,7 +27,7 @@ typedef struct budget_picture {
 /// lights it; else `*figures` is zero. Free with sweep_results_free.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (the sweep has not measured the scene), those of
 /// sweep_results_read.
-lobe_result budget_read(const budget_options *options, const char *scene, const lobe_log *log,
+lobe_result budget_read(const budget_options *options, const char *scene, const lobe_host *host,
                         sweep_results *figures);
 
 /// Picks, and says on standard output what and why. Calibrates first where the options name no
@@ -36,7 +36,7 @@ lobe_result budget_read(const budget_options *options, const char *scene, const 
 /// scene in its environment), LOBE_ERROR_UNSUPPORTED
 /// (nothing is within the limit; the line says what comes nearest), those of calibrate.
 lobe_result budget_pick(const budget_options *options, const budget_picture *picture,
-                        const lobe_log *log, sweep_results *figures, const lobe_filter **filter,
+                        const lobe_host *host, sweep_results *figures, const lobe_filter **filter,
                         lobe_settings *settings);
 
 #endif

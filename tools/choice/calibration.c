@@ -22,14 +22,14 @@ static void add_filters(bench_job *bench) {
 static lobe_result make_plan(sweep_job *job) {
     const lobe_filter *reference;
     bench_job *bench = &job->bench;
-    lobe_result result = lobe_filter_find("reference", bench->log, &reference);
+    lobe_result result = lobe_filter_find("reference", bench->host, &reference);
     if (result != LOBE_OK)
         return result;
     lobe_settings_default(reference, &bench->truth);
     add_filters(bench);
     // Knobs of environments stay as they are: their maps take long to make, a calibration is short.
     const sweep_plan_request request = {bench->filters, bench->filter_count, false, NULL};
-    return sweep_plan_make(&request, bench->log, &job->plan);
+    return sweep_plan_make(&request, bench->host, &job->plan);
 }
 
 static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_results *results) {
@@ -37,12 +37,12 @@ static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_
     sweep_scene entry = {.name = scene->name};
     results->rows = calloc(job->plan.count, sizeof *results->rows);
     if (!results->rows)
-        return lobe_log_fail(bench->log, LOBE_ERROR_OUT_OF_MEMORY, "calibration: out of memory");
+        return lobe_host_fail(bench->host, LOBE_ERROR_OUT_OF_MEMORY, "calibration: out of memory");
     results->row_count = job->plan.count;
-    lobe_log_print(bench->log, LOBE_LOG_NOTICE,
-                   "calibrating: %zu choices of filter and knobs at %ux%u, %u frames each, errors "
-                   "against %u samples a pixel",
-                   job->plan.count, bench->size[0], bench->size[1], bench->frames, bench->samples);
+    lobe_host_log(bench->host, LOBE_LOG_NOTICE,
+                  "calibrating: %zu choices of filter and knobs at %ux%u, %u frames each, errors "
+                  "against %u samples a pixel",
+                  job->plan.count, bench->size[0], bench->size[1], bench->frames, bench->samples);
     progress_expect(bench->progress, sweep_scene_work(job));
     lobe_result result = sweep_measure(job, scene, &entry, results->rows);
     progress_end(bench->progress);
@@ -56,7 +56,7 @@ lobe_result calibrate(const calibration *calibration, sweep_results *results) {
     progress progress = progress_begin(false);
     sweep_job job = {
         .bench = {.device = calibration->device,
-                  .log = calibration->log,
+                  .host = calibration->host,
                   .progress = &progress,
                   .size = {calibration->size[0], calibration->size[1]},
                   .frames = CALIBRATION_FRAMES,

@@ -11,7 +11,7 @@
 /// What is calibrated, for one picture.
 typedef struct calibration {
     lobe_device *device;
-    const lobe_log *log;
+    const lobe_host *host;
     const lobe_scene *scene; ///< with the camera and the lights of the picture
     uint32_t size[2];
 } calibration;

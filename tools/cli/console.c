@@ -25,6 +25,6 @@ static void write_line_but_debug(void *user, lobe_log_level level, const char *m
         write_line(user, level, message);
 }
 
-lobe_log console_log(bool verbose) {
-    return (lobe_log){.write = verbose ? write_line : write_line_but_debug};
+lobe_host console_host(bool verbose) {
+    return (lobe_host){.write = verbose ? write_line : write_line_but_debug};
 }

@@ -3,10 +3,10 @@
 
 #include <stdbool.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 
 /// The log of a program at a terminal: errors, warnings and notices go to standard error, one
 /// line each ("lobe: error: ..."); debug lines only where `verbose`.
-lobe_log console_log(bool verbose);
+lobe_host console_host(bool verbose);
 
 #endif

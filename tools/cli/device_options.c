@@ -39,7 +39,7 @@ const char *device_options_pipeline_cache(char *path) {
     return strcat(path, name);
 }
 
-lobe_result device_options_open(const device_options *options, const lobe_log *log,
+lobe_result device_options_open(const device_options *options, const lobe_host *host,
                                 lobe_device **device) {
     char cache[CACHE_FOLDER_SIZE];
     return lobe_device_create(
@@ -47,15 +47,15 @@ lobe_result device_options_open(const device_options *options, const lobe_log *l
             .select = device_options_selection(options),
             .validation = options->validation,
             .pipeline_cache = device_options_pipeline_cache(cache),
-            .log = log,
+            .host = host,
         },
         device);
 }
 
-lobe_result device_options_check(const lobe_device *device, const lobe_log *log) {
+lobe_result device_options_check(const lobe_device *device, const lobe_host *host) {
     uint64_t count = lobe_device_validation_count(device);
     if (count == 0)
         return LOBE_OK;
-    lobe_log_print(log, LOBE_LOG_ERROR, "the validation layer found %" PRIu64 " faults", count);
+    lobe_host_log(host, LOBE_LOG_ERROR, "the validation layer found %" PRIu64 " faults", count);
     return LOBE_ERROR_UNSUPPORTED;
 }

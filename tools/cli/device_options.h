@@ -25,10 +25,10 @@ const char *device_options_pipeline_cache(char *path);
 
 /// Opens the device, with a pipeline cache in the user's cache folder ($XDG_CACHE_HOME/lobe or
 /// ~/.cache/lobe) where there is one.
-lobe_result device_options_open(const device_options *options, const lobe_log *log,
+lobe_result device_options_open(const device_options *options, const lobe_host *host,
                                 lobe_device **device);
 
 /// LOBE_ERROR_UNSUPPORTED with a line where the validation layer found fault, else LOBE_OK.
-lobe_result device_options_check(const lobe_device *device, const lobe_log *log);
+lobe_result device_options_check(const lobe_device *device, const lobe_host *host);
 
 #endif

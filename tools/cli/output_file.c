@@ -15,16 +15,16 @@ bool output_file_has_ending(const char *path, const char *ending) {
     return length > ending_length && strcasecmp(path + length - ending_length, ending) == 0;
 }
 
-static lobe_result cannot_write(const char *path, int error, const lobe_log *log) {
-    lobe_log_print(log, LOBE_LOG_ERROR, "%s: cannot be written: %s", path, strerror(error));
+static lobe_result cannot_write(const char *path, int error, const lobe_host *host) {
+    lobe_host_log(host, LOBE_LOG_ERROR, "%s: cannot be written: %s", path, strerror(error));
     return LOBE_ERROR_WRITE;
 }
 
 /// Access rights alone do not tell: the file system may be full or read-only, the name too long.
-static lobe_result try_to_create(const char *path, const lobe_log *log) {
+static lobe_result try_to_create(const char *path, const lobe_host *host) {
     char *temporary = malloc(strlen(path) + sizeof ".XXXXXX");
     if (!temporary)
-        return cannot_write(path, ENOMEM, log);
+        return cannot_write(path, ENOMEM, host);
     sprintf(temporary, "%s.XXXXXX", path);
     int file = mkstemp(temporary);
     int error = errno;
@@ -33,20 +33,20 @@ static lobe_result try_to_create(const char *path, const lobe_log *log) {
         unlink(temporary);
     }
     free(temporary);
-    return file >= 0 ? LOBE_OK : cannot_write(path, error, log);
+    return file >= 0 ? LOBE_OK : cannot_write(path, error, host);
 }
 
-lobe_result output_file_check(const char *path, const lobe_log *log) {
+lobe_result output_file_check(const char *path, const lobe_host *host) {
     struct stat status;
     if (!path)
         return LOBE_OK;
     if (stat(path, &status) != 0 || S_ISREG(status.st_mode))
-        return try_to_create(path, log);
+        return try_to_create(path, host);
     if (S_ISDIR(status.st_mode))
-        return cannot_write(path, EISDIR, log);
-    return access(path, W_OK) == 0 ? LOBE_OK : cannot_write(path, errno, log);
+        return cannot_write(path, EISDIR, host);
+    return access(path, W_OK) == 0 ? LOBE_OK : cannot_write(path, errno, host);
 }
 
-lobe_result output_file_write(const char *path, const char *text, const lobe_log *log) {
-    return lobe_file_write(path, text, strlen(text), log);
+lobe_result output_file_write(const char *path, const char *text, const lobe_host *host) {
+    return lobe_file_write(path, text, strlen(text), host);
 }

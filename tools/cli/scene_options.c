@@ -78,12 +78,12 @@ static void remove_lights(lobe_scene *scene) {
     scene->light_count = 0;
 }
 
-static lobe_result replace_environment(const scene_options *options, const lobe_log *log,
+static lobe_result replace_environment(const scene_options *options, const lobe_host *host,
                                        lobe_scene *scene) {
     lobe_environment *environment = NULL;
     lobe_result result = LOBE_OK;
     if (strcmp(options->environment, "none") != 0)
-        result = lobe_environment_open(options->environment, log, &environment);
+        result = lobe_environment_open(options->environment, host, &environment);
     if (result == LOBE_OK)
         lobe_scene_set_environment(scene, environment);
     return result;
@@ -108,11 +108,11 @@ void scene_options_describe(const scene_options *options, char text[SCENE_OPTION
     snprintf(text, SCENE_OPTIONS_DESCRIPTION, "%s", all[0] ? all + 2 : "");
 }
 
-lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
+lobe_result scene_options_light(const scene_options *options, const lobe_host *host,
                                 lobe_scene *scene) {
     lobe_result result = LOBE_OK;
     if (options->environment)
-        result = replace_environment(options, log, scene);
+        result = replace_environment(options, host, scene);
     lobe_environment *environment = scene->environment;
     if (result != LOBE_OK)
         return result;
@@ -123,23 +123,23 @@ lobe_result scene_options_light(const scene_options *options, const lobe_log *lo
         environment->intensity *= (float)options->intensity;
         scene->environment_visible |= options->background;
     } else if (first_ignored(options)) {
-        lobe_log_print(log, LOBE_LOG_WARNING, "%s: has no environment; %s is ignored", scene->name,
-                       first_ignored(options));
+        lobe_host_log(host, LOBE_LOG_WARNING, "%s: has no environment; %s is ignored", scene->name,
+                      first_ignored(options));
     }
     return LOBE_OK;
 }
 
 lobe_result scene_options_open(const scene_options *options, const char *scene,
-                               const uint32_t size[2], const lobe_log *log, lobe_scene **result) {
+                               const uint32_t size[2], const lobe_host *host, lobe_scene **result) {
     const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
     if (assets && assets[0] == '\0')
         assets = NULL;
     lobe_result status = lobe_scene_open_with(
-        &(lobe_scene_open_parameters){.scene = scene, .assets = assets}, log, result);
+        &(lobe_scene_open_parameters){.scene = scene, .assets = assets}, host, result);
     if (status == LOBE_OK && !(*result)->has_camera)
         lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
     if (status == LOBE_OK)
-        status = scene_options_light(options, log, *result);
+        status = scene_options_light(options, host, *result);
     if (status != LOBE_OK)
         lobe_scene_destroy(result);
     return status;

@@ -32,13 +32,13 @@ option scene_option_no_lights(scene_options *options);
 void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]);
 
 /// Lights an opened scene as the options ask.
-lobe_result scene_options_light(const scene_options *options, const lobe_log *log,
+lobe_result scene_options_light(const scene_options *options, const lobe_host *host,
                                 lobe_scene *scene);
 
 /// Opens a scene and lights it, with the camera that fits a picture of this size where it brings
 /// none.
 lobe_result scene_options_open(const scene_options *options, const char *scene,
-                               const uint32_t size[2], const lobe_log *log, lobe_scene **result);
+                               const uint32_t size[2], const lobe_host *host, lobe_scene **result);
 
 /// Whether `result`, of opening `scene`, only says that there are no assets for it: then others can
 /// still be measured.

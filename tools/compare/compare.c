@@ -21,13 +21,13 @@ static const compared *reference_of(const compare_job *job) {
 static lobe_result read_images(compare_job *job) {
     for (size_t index = 0; index <= job->test_count; index++) {
         compared *image = &job->images[index];
-        lobe_result result = image_input_read(image->path, &job->log, &image->input);
+        lobe_result result = image_input_read(image->path, &job->host, &image->input);
         if (result != LOBE_OK)
             return result;
         if (image->input.high_dynamic_range != job->images[0].input.high_dynamic_range) {
-            lobe_log_print(&job->log, LOBE_LOG_ERROR,
-                           "%s and %s: an OpenEXR image cannot be compared with a PNG",
-                           job->images[0].path, image->path);
+            lobe_host_log(&job->host, LOBE_LOG_ERROR,
+                          "%s and %s: an OpenEXR image cannot be compared with a PNG",
+                          job->images[0].path, image->path);
             return LOBE_ERROR_INVALID_ARGUMENT;
         }
     }
@@ -46,7 +46,7 @@ static lobe_result measure(compare_job *job) {
         };
         lobe_result result =
             error_metrics_measure(&test->input.image, &reference->input.image, &parameters,
-                                  &job->log, &test->metrics, &test->flip_errors);
+                                  &job->host, &test->metrics, &test->flip_errors);
         if (result != LOBE_OK)
             return result;
     }
@@ -99,7 +99,7 @@ static lobe_result print_json(const compare_job *job) {
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     if (text == NULL) {
-        lobe_log_print(&job->log, LOBE_LOG_ERROR, "no memory to print JSON");
+        lobe_host_log(&job->host, LOBE_LOG_ERROR, "no memory to print JSON");
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     puts(text);
@@ -116,7 +116,7 @@ static lobe_result print_metrics(const compare_job *job) {
     else
         print_table(job);
     if (result == LOBE_OK && (fflush(stdout) != 0 || ferror(stdout))) {
-        lobe_log_print(&job->log, LOBE_LOG_ERROR, "standard output cannot be written");
+        lobe_host_log(&job->host, LOBE_LOG_ERROR, "standard output cannot be written");
         result = LOBE_ERROR_WRITE;
     }
     return result;
@@ -169,7 +169,7 @@ static int execute(compare_job *job) {
 }
 
 static int run(int argc, char **argv) {
-    compare_job job = {.log = console_log(false)};
+    compare_job job = {.host = console_host(false)};
     const option options[] = {
         {.name = "diff",
          .kind = OPTION_TEXT,

@@ -20,7 +20,7 @@ typedef struct compared {
 } compared;
 
 typedef struct compare_job {
-    lobe_log log;
+    lobe_host host;
     const char *difference_path, *side_by_side_path, *crop_text;
     bool json;
     double exposure, pixels_per_degree, magnification;

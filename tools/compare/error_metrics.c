@@ -14,7 +14,7 @@ static bool is_finite(const float *rgb) {
     return isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]);
 }
 
-static lobe_result check_finite(const lobe_image *image, const char *name, const lobe_log *log) {
+static lobe_result check_finite(const lobe_image *image, const char *name, const lobe_host *host) {
     const float *texels = image->texels;
     size_t count = (size_t)image->width * image->height, bad = 0, first = 0;
     for (size_t index = count; index-- > 0;) {
@@ -25,27 +25,27 @@ static lobe_result check_finite(const lobe_image *image, const char *name, const
     }
     if (bad == 0)
         return LOBE_OK;
-    lobe_log_print(log, LOBE_LOG_ERROR,
-                   "%s: %zu of %zu pixels are NaN or infinite, the first at x %zu, y %zu", name,
-                   bad, count, first % image->width, first / image->width);
+    lobe_host_log(host, LOBE_LOG_ERROR,
+                  "%s: %zu of %zu pixels are NaN or infinite, the first at x %zu, y %zu", name, bad,
+                  count, first % image->width, first / image->width);
     return LOBE_ERROR_INVALID_ARGUMENT;
 }
 
 static lobe_result check_images(const lobe_image *test, const lobe_image *reference,
-                                const error_metrics_parameters *parameters, const lobe_log *log) {
+                                const error_metrics_parameters *parameters, const lobe_host *host) {
     if (test->format != LOBE_FORMAT_RGBA32_FLOAT || reference->format != LOBE_FORMAT_RGBA32_FLOAT) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s and %s: only RGBA32_FLOAT images are compared",
-                       parameters->test_name, parameters->reference_name);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s and %s: only RGBA32_FLOAT images are compared",
+                      parameters->test_name, parameters->reference_name);
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
     if (test->width != reference->width || test->height != reference->height) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "sizes differ: %s is %ux%u, %s is %ux%u",
-                       parameters->test_name, test->width, test->height, parameters->reference_name,
-                       reference->width, reference->height);
+        lobe_host_log(host, LOBE_LOG_ERROR, "sizes differ: %s is %ux%u, %s is %ux%u",
+                      parameters->test_name, test->width, test->height, parameters->reference_name,
+                      reference->width, reference->height);
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
-    lobe_result result = check_finite(test, parameters->test_name, log);
-    return result == LOBE_OK ? check_finite(reference, parameters->reference_name, log) : result;
+    lobe_result result = check_finite(test, parameters->test_name, host);
+    return result == LOBE_OK ? check_finite(reference, parameters->reference_name, host) : result;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -100,12 +100,12 @@ static void derive(const error_sums *sums, bool linear, error_metrics *metrics) 
 }
 
 lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *reference,
-                                  const error_metrics_parameters *parameters, const lobe_log *log,
+                                  const error_metrics_parameters *parameters, const lobe_host *host,
                                   error_metrics *metrics, lobe_image *flip_errors) {
     lobe_image errors = {0};
     if (flip_errors != NULL)
         *flip_errors = errors;
-    lobe_result result = check_images(test, reference, parameters, log);
+    lobe_result result = check_images(test, reference, parameters, host);
     if (result != LOBE_OK)
         return result;
     error_sums sums = sum_errors(test, reference, parameters->high_dynamic_range);
@@ -113,8 +113,8 @@ lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *refe
     double pixels_per_degree = parameters->pixels_per_degree > 0.0 ? parameters->pixels_per_degree
                                                                    : FLIP_PIXELS_PER_DEGREE;
     result = parameters->high_dynamic_range
-                 ? flip_high_dynamic_range(test, reference, pixels_per_degree, log, &errors)
-                 : flip_low_dynamic_range(test, reference, pixels_per_degree, log, &errors);
+                 ? flip_high_dynamic_range(test, reference, pixels_per_degree, host, &errors)
+                 : flip_low_dynamic_range(test, reference, pixels_per_degree, host, &errors);
     if (result != LOBE_OK)
         return result;
     metrics->flip = flip_mean(&errors);

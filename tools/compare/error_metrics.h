@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// How far an image is from a reference.
@@ -32,7 +32,7 @@ typedef struct error_metrics_parameters {
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format, differing extents, values that are not
 /// finite: the line names image, count and first place), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *reference,
-                                  const error_metrics_parameters *parameters, const lobe_log *log,
+                                  const error_metrics_parameters *parameters, const lobe_host *host,
                                   error_metrics *metrics, lobe_image *flip_errors);
 
 /// The metrics in the order they are shown.

@@ -210,14 +210,14 @@ static float texel_error(const flip_job *job, size_t index) {
 // ---------------------------------------------------------------------------------------------
 // Jobs
 
-static lobe_result allocate(flip_job *job, const lobe_log *log) {
+static lobe_result allocate(flip_job *job, const lobe_host *host) {
     enum { PLANES = 2 * 5 + 3, ROWS = 4 };
     size_t plane = job->width * job->height;
     size_t padded = job->width + 2 * CONVOLUTION_MAXIMUM_RADIUS;
     job->memory = malloc((PLANES * plane + ROWS * job->width + padded) * sizeof *job->memory);
     if (job->memory == NULL) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "FLIP: no memory for images of %zux%zu", job->width,
-                       job->height);
+        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: no memory for images of %zux%zu", job->width,
+                      job->height);
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     float *next = job->memory;
@@ -237,17 +237,17 @@ static lobe_result allocate(flip_job *job, const lobe_log *log) {
 }
 
 static lobe_result begin(flip_job *job, const lobe_image *reference, double pixels_per_degree,
-                         const lobe_log *log, lobe_image *errors) {
+                         const lobe_host *host, lobe_image *errors) {
     *job = (flip_job){.width = reference->width, .height = reference->height};
     *errors = (lobe_image){0};
-    lobe_result result = allocate(job, log);
+    lobe_result result = allocate(job, host);
     if (result != LOBE_OK)
         return result;
     build_sensitivity(&job->filters, pixels_per_degree);
     build_detectors(&job->filters, pixels_per_degree);
     job->largest_distance = largest_distance();
     return lobe_image_allocate(errors, LOBE_FORMAT_R32_FLOAT, reference->width, reference->height,
-                               log);
+                               host);
 }
 
 /// Raises each error to that of this exposure, where that is larger.
@@ -261,10 +261,10 @@ static void accumulate(flip_job *job, const lobe_image *test, const lobe_image *
 }
 
 lobe_result flip_low_dynamic_range(const lobe_image *test, const lobe_image *reference,
-                                   double pixels_per_degree, const lobe_log *log,
+                                   double pixels_per_degree, const lobe_host *host,
                                    lobe_image *errors) {
     flip_job job;
-    lobe_result result = begin(&job, reference, pixels_per_degree, log, errors);
+    lobe_result result = begin(&job, reference, pixels_per_degree, host, errors);
     if (result == LOBE_OK)
         accumulate(&job, test, reference, clamp, 1.0f, errors);
     free(job.memory);
@@ -274,13 +274,13 @@ lobe_result flip_low_dynamic_range(const lobe_image *test, const lobe_image *ref
 // Andersson, Nilsson, Shirley, Akenine-Möller, 2021, "Visualizing Errors in Rendered High Dynamic
 // Range Images": the largest error over exposures.
 lobe_result flip_high_dynamic_range(const lobe_image *test, const lobe_image *reference,
-                                    double pixels_per_degree, const lobe_log *log,
+                                    double pixels_per_degree, const lobe_host *host,
                                     lobe_image *errors) {
     flip_job job;
     flip_exposures exposures;
-    lobe_result result = begin(&job, reference, pixels_per_degree, log, errors);
+    lobe_result result = begin(&job, reference, pixels_per_degree, host, errors);
     if (result == LOBE_OK)
-        result = flip_choose_exposures(reference, log, &exposures);
+        result = flip_choose_exposures(reference, host, &exposures);
     for (unsigned index = 0; result == LOBE_OK && index < exposures.count; index++) {
         double share = exposures.count > 1 ? (double)index / (exposures.count - 1) : 0.0;
         double stops = exposures.start + share * (exposures.stop - exposures.start);

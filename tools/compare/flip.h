@@ -1,8 +1,8 @@
 #ifndef TOOLS_COMPARE_FLIP_H
 #define TOOLS_COMPARE_FLIP_H
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// FLIP: the difference that a person sees who flips between two images. Each texel of `errors`
@@ -18,13 +18,13 @@
 
 /// Andersson et al. 2020, for images as a screen shows them: values are clamped to [0, 1].
 lobe_result flip_low_dynamic_range(const lobe_image *test, const lobe_image *reference,
-                                   double pixels_per_degree, const lobe_log *log,
+                                   double pixels_per_degree, const lobe_host *host,
                                    lobe_image *errors);
 
 /// Andersson et al. 2021, for radiance: the largest of the above over a range of exposures that
 /// follows from the reference. Negative values count as 0.
 lobe_result flip_high_dynamic_range(const lobe_image *test, const lobe_image *reference,
-                                    double pixels_per_degree, const lobe_log *log,
+                                    double pixels_per_degree, const lobe_host *host,
                                     lobe_image *errors);
 
 /// Mean of all texels of an R32_FLOAT image.

@@ -49,7 +49,7 @@ static float luminance(const float *rgb) {
     return sum;
 }
 
-lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_log *log,
+lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_host *host,
                                   flip_exposures *exposures) {
     // Bright values come down to 85 % of white, so that highlights can be compared, and the
     // median up to it, so that shadows can.
@@ -58,8 +58,8 @@ lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_log *l
     const float *texels = reference->texels;
     float *sorted = malloc(count * sizeof *sorted);
     if (sorted == NULL) {
-        lobe_log_print(log, LOBE_LOG_ERROR, "FLIP: no memory for images of %ux%u", reference->width,
-                       reference->height);
+        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: no memory for images of %ux%u", reference->width,
+                      reference->height);
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     for (size_t index = 0; index < count; index++)

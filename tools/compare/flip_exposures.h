@@ -1,8 +1,8 @@
 #ifndef TOOLS_COMPARE_FLIP_EXPOSURES_H
 #define TOOLS_COMPARE_FLIP_EXPOSURES_H
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// The range of exposures over which FLIP compares images of high dynamic range.
@@ -14,7 +14,7 @@ typedef struct flip_exposures {
 } flip_exposures;
 
 /// The range for a linear RGBA32_FLOAT image. LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_log *log,
+lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_host *host,
                                   flip_exposures *exposures);
 
 /// Radiance times `gain` to [0, 1], as FLIP assumes it is shown. Negative values and NaN give 0.

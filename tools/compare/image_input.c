@@ -27,13 +27,13 @@ static float decode(const lobe_image *encoded, size_t channel) {
     return channel % 4 == 3 ? value : lobe_srgb_decode(value);
 }
 
-static lobe_result read_png(const char *path, const lobe_log *log, lobe_image *image) {
+static lobe_result read_png(const char *path, const lobe_host *host, lobe_image *image) {
     lobe_image encoded;
-    lobe_result result = lobe_png_read(path, log, &encoded);
+    lobe_result result = lobe_png_read(path, host, &encoded);
     if (result != LOBE_OK)
         return result;
     result =
-        lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, encoded.width, encoded.height, log);
+        lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, encoded.width, encoded.height, host);
     if (result == LOBE_OK) {
         size_t count = (size_t)4 * encoded.width * encoded.height;
         float *texels = image->texels;
@@ -44,8 +44,8 @@ static lobe_result read_png(const char *path, const lobe_log *log, lobe_image *i
     return result;
 }
 
-lobe_result image_input_read(const char *path, const lobe_log *log, image_input *input) {
+lobe_result image_input_read(const char *path, const lobe_host *host, image_input *input) {
     *input = (image_input){.high_dynamic_range = !is_png(path)};
-    return input->high_dynamic_range ? lobe_exr_read(path, NULL, log, &input->image)
-                                     : read_png(path, log, &input->image);
+    return input->high_dynamic_range ? lobe_exr_read(path, NULL, host, &input->image)
+                                     : read_png(path, host, &input->image);
 }

@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// An image from a file, as linear RGBA32_FLOAT.
@@ -15,6 +15,6 @@ typedef struct image_input {
 
 /// Reads an OpenEXR (its main layer) or PNG file, told apart by its first bytes. Free the image
 /// with lobe_image_free. Errors: those of lobe_exr_read and lobe_png_read.
-lobe_result image_input_read(const char *path, const lobe_log *log, image_input *input);
+lobe_result image_input_read(const char *path, const lobe_host *host, image_input *input);
 
 #endif

@@ -12,7 +12,7 @@ lobe_result compare_write_difference(const compare_job *job) {
     const lobe_image *errors = &job->images[0].flip_errors;
     lobe_image picture;
     lobe_result result = lobe_image_allocate(&picture, LOBE_FORMAT_RGBA8_SRGB, errors->width,
-                                             errors->height, &job->log);
+                                             errors->height, &job->host);
     if (result != LOBE_OK)
         return result;
     uint8_t *texels = picture.texels;
@@ -21,7 +21,7 @@ lobe_result compare_write_difference(const compare_job *job) {
                          texels + 4 * index);
         texels[4 * index + 3] = 255;
     }
-    result = lobe_png_write(job->difference_path, &picture, &job->log);
+    result = lobe_png_write(job->difference_path, &picture, &job->host);
     lobe_image_free(&picture);
     return result;
 }
@@ -33,8 +33,8 @@ lobe_result compare_check_crop(const compare_job *job) {
         ((uint64_t)crop[0] + crop[2] <= image->width &&
          (uint64_t)crop[1] + crop[3] <= image->height))
         return LOBE_OK;
-    lobe_log_print(&job->log, LOBE_LOG_ERROR, "crop %s lies outside the images' %ux%u",
-                   job->crop_text, image->width, image->height);
+    lobe_host_log(&job->host, LOBE_LOG_ERROR, "crop %s lies outside the images' %ux%u",
+                  job->crop_text, image->width, image->height);
     return LOBE_ERROR_INVALID_ARGUMENT;
 }
 
@@ -42,7 +42,7 @@ static lobe_result crop_image(const compare_job *job, const lobe_image *source,
                               lobe_image *target) {
     const uint32_t whole[4] = {0, 0, source->width, source->height};
     const uint32_t *crop = job->crop[2] > 0 ? job->crop : whole;
-    lobe_result result = lobe_image_allocate(target, source->format, crop[2], crop[3], &job->log);
+    lobe_result result = lobe_image_allocate(target, source->format, crop[2], crop[3], &job->host);
     if (result != LOBE_OK)
         return result;
     size_t size = lobe_format_size(source->format);
@@ -69,7 +69,7 @@ static lobe_result make_picture(const compare_job *job, const compared *image,
     lobe_image linear;
     lobe_result result = crop_image(job, &image->input.image, &linear);
     if (result == LOBE_OK)
-        result = lobe_display_encode(&linear, &display, &job->log, picture);
+        result = lobe_display_encode(&linear, &display, &job->host, picture);
     lobe_image_free(&linear);
     return result;
 }
@@ -106,9 +106,9 @@ lobe_result compare_write_side_by_side(const compare_job *job) {
         result = fill_panel(job, &job->images[index], &contents[index], &panels[index]);
     if (result == LOBE_OK)
         result =
-            side_by_side_compose(panels, job->test_count + 1, &parameters, &job->log, &picture);
+            side_by_side_compose(panels, job->test_count + 1, &parameters, &job->host, &picture);
     if (result == LOBE_OK)
-        result = lobe_png_write(job->side_by_side_path, &picture, &job->log);
+        result = lobe_png_write(job->side_by_side_path, &picture, &job->host);
     lobe_image_free(&picture);
     for (size_t index = 0; index <= job->test_count; index++) {
         lobe_image_free(&contents[index].picture);

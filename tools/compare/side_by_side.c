@@ -27,26 +27,26 @@ typedef struct side_by_side_layout {
     size_t cell_width, cell_height; ///< of a panel's picture, zoomed
 } side_by_side_layout;
 
-static lobe_result fail(const lobe_log *log, lobe_result result, const char *message) {
-    lobe_log_print(log, LOBE_LOG_ERROR, "side by side: %s", message);
+static lobe_result fail(const lobe_host *host, lobe_result result, const char *message) {
+    lobe_host_log(host, LOBE_LOG_ERROR, "side by side: %s", message);
     return result;
 }
 
 static lobe_result check_panels(const side_by_side_panel *panels, size_t count,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     if (count == 0)
-        return fail(log, LOBE_ERROR_INVALID_ARGUMENT, "there is no image");
+        return fail(host, LOBE_ERROR_INVALID_ARGUMENT, "there is no image");
     for (size_t index = 0; index < count; index++) {
         const lobe_image *picture = panels[index].picture, *errors = panels[index].errors;
         if (picture->format != LOBE_FORMAT_RGBA8_SRGB ||
             (errors != NULL && errors->format != LOBE_FORMAT_R32_FLOAT))
-            return fail(log, LOBE_ERROR_INVALID_ARGUMENT,
+            return fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                         "pictures must be RGBA8_SRGB, errors R32_FLOAT");
         if (picture->width != panels[0].picture->width ||
             picture->height != panels[0].picture->height ||
             (errors != NULL &&
              (errors->width != picture->width || errors->height != picture->height)))
-            return fail(log, LOBE_ERROR_INVALID_ARGUMENT, "the images differ in size");
+            return fail(host, LOBE_ERROR_INVALID_ARGUMENT, "the images differ in size");
     }
     return LOBE_OK;
 }
@@ -160,19 +160,19 @@ static void draw_panel(lobe_image *picture, size_t left, size_t top,
 }
 
 lobe_result side_by_side_compose(const side_by_side_panel *panels, size_t count,
-                                 const side_by_side_parameters *parameters, const lobe_log *log,
+                                 const side_by_side_parameters *parameters, const lobe_host *host,
                                  lobe_image *picture) {
     *picture = (lobe_image){0};
-    lobe_result result = check_panels(panels, count, log);
+    lobe_result result = check_panels(panels, count, host);
     if (result != LOBE_OK)
         return result;
     side_by_side_layout layout = arrange(panels, count, parameters);
     size_t width = layout.columns * (layout.cell_width + GAP) + GAP;
     size_t height = layout.rows * row_height(&layout) + GAP;
     if (width > LOBE_IMAGE_MAXIMUM_EXTENT || height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return fail(log, LOBE_ERROR_LIMIT, "the picture would be too large");
+        return fail(host, LOBE_ERROR_LIMIT, "the picture would be too large");
     result = lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, (uint32_t)width, (uint32_t)height,
-                                 log);
+                                 host);
     if (result != LOBE_OK)
         return result;
     fill(picture, 0, 0, width, height, background);

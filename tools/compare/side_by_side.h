@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// One picture of several: each under a caption bar, and below it, where it has any, the errors
@@ -28,7 +28,7 @@ typedef struct side_by_side_parameters {
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no panel, another format, differing extents),
 /// LOBE_ERROR_LIMIT (the result is too large), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result side_by_side_compose(const side_by_side_panel *panels, size_t count,
-                                 const side_by_side_parameters *parameters, const lobe_log *log,
+                                 const side_by_side_parameters *parameters, const lobe_host *host,
                                  lobe_image *picture);
 
 #endif

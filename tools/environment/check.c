@@ -37,7 +37,7 @@ const char *environment_method_name(environment_method method) {
 
 static environment_check_request begin(const measurement *m, lobe_graph **graph,
                                        environment_maps *cubes) {
-    *graph = environment_maps_begin(m->maps, cubes);
+    *graph = passes_environment_maps_begin(m->maps, cubes);
     uint32_t count = m->job->directions;
     return (environment_check_request){
         .directions =
@@ -63,15 +63,16 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
     lobe_graph *graph;
     environment_maps cubes;
     environment_check_request request = begin(m, &graph, &cubes);
-    lobe_resource sums =
-        environment_check_exact(graph, &cubes, &request, m->findings->concentrations, first, count);
+    lobe_resource sums = passes_environment_check_exact(graph, &cubes, &request,
+                                                        m->findings->concentrations, first, count);
     lobe_graph_read_back(graph, sums, (lobe_range){0});
     lobe_result result = lobe_graph_execute(graph);
     if (result != LOBE_OK)
         return result;
     const float *data = lobe_graph_data(graph, sums, NULL);
     for (size_t i = 0; i < (size_t)CHECK_LOBES * m->job->directions; ++i) {
-        double peak = environment_check_peak(m->findings->concentrations[i / m->job->directions]);
+        double peak =
+            passes_environment_check_peak(m->findings->concentrations[i / m->job->directions]);
         for (int channel = 0; channel < 3; ++channel)
             m->exact[3 * i + channel] += peak * (double)data[4 * i + channel];
     }
@@ -123,7 +124,7 @@ static lobe_result look_up(measurement *m, uint32_t lobe, environment_method met
     request.concentration = m->findings->concentrations[lobe];
     request.samples = samples;
     request.rounds = m->repeats;
-    lobe_resource lights = environment_check(graph, &cubes, &request);
+    lobe_resource lights = passes_environment_check(graph, &cubes, &request);
     lobe_graph_read_back(graph, lights, (lobe_range){0});
     lobe_result result = lobe_graph_execute(graph);
     if (result != LOBE_OK)
@@ -207,7 +208,7 @@ static lobe_result prepare(measurement *m, bool between) {
             .parts_a_submission = 1,
             .progress = progress_part,
             .user = m->job->progress,
-            .log = m->job->log,
+            .host = m->job->host,
         },
         &m->maps);
 }
@@ -255,8 +256,8 @@ static lobe_result allocate(measurement *m) {
     m->directions = calloc(count, sizeof *m->directions);
     m->exact = calloc((size_t)3 * CHECK_LOBES * count, sizeof *m->exact);
     if (!m->directions || !m->exact)
-        return lobe_log_fail(m->job->log, LOBE_ERROR_OUT_OF_MEMORY, "environment: out of memory");
-    environment_check_directions(count, m->directions);
+        return lobe_host_fail(m->job->host, LOBE_ERROR_OUT_OF_MEMORY, "environment: out of memory");
+    passes_environment_check_directions(count, m->directions);
     return LOBE_OK;
 }
 

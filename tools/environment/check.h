@@ -42,7 +42,7 @@ typedef struct environment_findings {
 
 typedef struct environment_check_job {
     lobe_device *device;
-    const lobe_log *log;
+    const lobe_host *host;
     progress *progress;
     const lobe_environment *environment;
     double kappa;        ///< of the broadest lobe; each next one has four times as much

@@ -25,7 +25,7 @@ typedef struct environment_request {
 } environment_request;
 
 typedef struct environment_state {
-    lobe_log log;
+    lobe_host host;
     progress progress;
     lobe_device *device;
     lobe_environment *environment;
@@ -56,7 +56,7 @@ static lobe_result prepare(const environment_request *request, environment_state
         .environment = state->environment,
         .map = request->kernel == 0 ? LOBE_ENVIRONMENT_VON_MISES_FISHER : LOBE_ENVIRONMENT_GGX,
         .size = request->face,
-        .log = &state->log,
+        .host = &state->host,
     };
     char folder[CACHE_FOLDER_SIZE];
     lobe_environment_maps_parameters parameters = {
@@ -65,7 +65,7 @@ static lobe_result prepare(const environment_request *request, environment_state
         .parts_a_submission = 1,
         .progress = progress_part,
         .user = &state->progress,
-        .log = &state->log,
+        .host = &state->host,
     };
     parameters.wanted[output.map] = true;
     parameters.cache = cache_options_find(&request->cache, folder);
@@ -92,7 +92,7 @@ static lobe_result check_face(const environment_check_job *job, uint32_t face,
 static lobe_result check(const environment_request *request, environment_state *state) {
     environment_check_job job = {
         .device = state->device,
-        .log = &state->log,
+        .host = &state->host,
         .progress = &state->progress,
         .environment = state->environment,
         .kappa = request->kappa,
@@ -111,13 +111,13 @@ static lobe_result check(const environment_request *request, environment_state *
 }
 
 static lobe_result execute(const environment_request *request, environment_state *state) {
-    lobe_result result = output_file_check(request->output, &state->log);
+    lobe_result result = output_file_check(request->output, &state->host);
     if (result == LOBE_OK)
-        result = output_file_check(request->json, &state->log);
+        result = output_file_check(request->json, &state->host);
     if (result == LOBE_OK)
-        result = lobe_environment_open(request->file, &state->log, &state->environment);
+        result = lobe_environment_open(request->file, &state->host, &state->environment);
     if (result == LOBE_OK)
-        result = device_options_open(&request->device, &state->log, &state->device);
+        result = device_options_open(&request->device, &state->host, &state->device);
     if (result == LOBE_OK)
         lobe_environment_shrink(state->environment,
                                 lobe_device_describe(state->device)->maximum_image_extent);
@@ -126,12 +126,12 @@ static lobe_result execute(const environment_request *request, environment_state
     if (result == LOBE_OK && request->check)
         result = check(request, state);
     if (result == LOBE_OK)
-        result = device_options_check(state->device, &state->log);
+        result = device_options_check(state->device, &state->host);
     return result;
 }
 
 static int run_request(const option_table *table, const environment_request *request) {
-    environment_state state = {.log = console_log(false), .progress = progress_begin(false)};
+    environment_state state = {.host = console_host(false), .progress = progress_begin(false)};
     int status = check_usage(table, request);
     if (status != 0)
         return status;

@@ -45,7 +45,7 @@ static lobe_result take_face(const environment_output *output, cube_image *cube,
     lobe_result result = lobe_environment_maps_read(output->maps, output->map, level, face, &image);
     if (result != LOBE_OK)
         return result;
-    memcpy(cube_image_face(cube, level, face), image.texels,
+    memcpy(passes_cube_image_face(cube, level, face), image.texels,
            (size_t)image.width * image.height * lobe_format_size(image.format));
     lobe_image_free(&image);
     return LOBE_OK;
@@ -53,7 +53,7 @@ static lobe_result take_face(const environment_output *output, cube_image *cube,
 
 static lobe_result take_cube(const environment_output *output, cube_image *cube) {
     uint32_t width = lobe_environment_maps_describe(output->maps)->width[output->map];
-    lobe_result result = cube_image_allocate(cube, width, output->log);
+    lobe_result result = passes_cube_image_allocate(cube, width, output->host);
     for (uint32_t i = 0; result == LOBE_OK && i < 6 * cube->levels; ++i)
         result = take_face(output, cube, i / 6, i % 6);
     return result;
@@ -72,7 +72,7 @@ static void add_text(header *header, const char *name, const char *text) {
 }
 
 static void fill_header(const environment_output *output, const cube_image *cube, header *header) {
-    uint64_t key = environment_cache_key(output->environment, output->size, output->map);
+    uint64_t key = passes_environment_cache_key(output->environment, output->size, output->map);
     snprintf(header->key, sizeof header->key, "%016" PRIx64, key);
     add_text(header, "lobeVersion", lobe_version());
     add_text(header, "environment", output->environment->name);
@@ -96,8 +96,9 @@ lobe_result environment_output_write(const environment_output *output, const cha
     lobe_result result = take_cube(output, &cube);
     if (result == LOBE_OK) {
         fill_header(output, &cube, &header);
-        result = cube_image_write(path, &cube, header.attributes, header.count, output->log);
+        result =
+            passes_cube_image_write(path, &cube, header.attributes, header.count, output->host);
     }
-    cube_image_free(&cube);
+    passes_cube_image_free(&cube);
     return result;
 }

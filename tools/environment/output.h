@@ -9,7 +9,7 @@ typedef struct environment_output {
     lobe_environment_maps *maps;
     lobe_environment_map map; ///< a filtered one
     uint32_t size;            ///< texels along a face of the radiance
-    const lobe_log *log;
+    const lobe_host *host;
 } environment_output;
 
 /// A table of the map's levels, and the times of the passes that made all maps, on standard output.

@@ -118,8 +118,8 @@ lobe_result environment_check_write(const char *path, const environment_check_jo
                                     const environment_findings *findings, size_t count) {
     char *text = describe(job, findings, count);
     if (!text)
-        return lobe_log_fail(job->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
-    lobe_result result = output_file_write(path, text, job->log);
+        return lobe_host_fail(job->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    lobe_result result = output_file_write(path, text, job->host);
     free(text);
     return result;
 }

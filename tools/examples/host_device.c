@@ -24,7 +24,7 @@ static void print(void *user, lobe_log_level level, const char *message) {
         fprintf(stderr, "host_device: %s\n", message);
 }
 
-static const lobe_log messages = {.write = print};
+static const lobe_host messages = {.write = print};
 
 // ---------------------------------------------------------------------------------------------
 // A device: with what lobe asks for, and whatever else the program needs
@@ -246,7 +246,7 @@ int main(int argc, char **argv) {
     lobe_renderer *renderer = NULL;
     lobe_image pixels = {0};
     lobe_result result =
-        lobe_vulkan_import_device(&h.vulkan, &(lobe_device_parameters){.log = &messages}, &device);
+        lobe_vulkan_import_device(&h.vulkan, &(lobe_device_parameters){.host = &messages}, &device);
     result = result ? result : lobe_scene_open(argv[1], &messages, &scene);
     result = result ? result : lobe_renderer_create(device, &messages, &renderer);
     result = result ? result : lobe_renderer_set_scene(renderer, scene);

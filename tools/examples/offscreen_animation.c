@@ -35,7 +35,7 @@ static void release(void *user, void *memory, size_t size) {
 }
 
 static const lobe_allocator counted = {.allocate = allocate, .release = release};
-static const lobe_log messages = {.write = print, .allocator = &counted};
+static const lobe_host messages = {.write = print, .allocator = &counted};
 
 typedef struct animation {
     lobe_scene *scene; ///< changed in place, frame by frame
@@ -104,7 +104,7 @@ int main(int argc, char **argv) {
                    .width = (uint32_t)strtoul(argv[4], NULL, 10),
                    .height = (uint32_t)strtoul(argv[5], NULL, 10)};
     lobe_device *device = NULL;
-    lobe_result result = lobe_device_create(&(lobe_device_parameters){.log = &messages}, &device);
+    lobe_result result = lobe_device_create(&(lobe_device_parameters){.host = &messages}, &device);
     result = result ? result : lobe_scene_open(argv[1], &messages, &a.scene);
     result = result ? result : lobe_renderer_create(device, &messages, &a.renderer);
     result = result ? result : lobe_renderer_set_scene(a.renderer, a.scene);

@@ -16,7 +16,7 @@ static void print(void *user, lobe_log_level level, const char *message) {
         fprintf(stderr, "own_pass: %s\n", message);
 }
 
-static const lobe_log messages = {.write = print};
+static const lobe_host messages = {.write = print};
 
 /// lobe calls this while it declares the frame. Bindings have the names of the shader's variables.
 static void add_outlines(void *user, lobe_graph *graph, lobe_render_stage stage,
@@ -68,7 +68,7 @@ int main(int argc, char **argv) {
     lobe_scene *scene = NULL;
     lobe_renderer *renderer = NULL;
     const lobe_shader outline = {"outline.comp", outline_words, sizeof outline_words};
-    lobe_result result = lobe_device_create(&(lobe_device_parameters){.log = &messages}, &device);
+    lobe_result result = lobe_device_create(&(lobe_device_parameters){.host = &messages}, &device);
     result = result ? result : lobe_device_add_shader(device, &outline);
     result = result ? result : lobe_scene_open(argv[1], &messages, &scene);
     result = result ? result : lobe_renderer_create(device, &messages, &renderer);

@@ -49,15 +49,15 @@ static void print_device(const lobe_device *device) {
 }
 
 static int show(const device_options *options) {
-    const lobe_log log = console_log(false);
+    const lobe_host host = console_host(false);
     lobe_device_information *devices;
     lobe_device *device;
     size_t count;
-    if (lobe_device_list(&devices, &count, &log) != LOBE_OK)
+    if (lobe_device_list(&devices, &count, &host) != LOBE_OK)
         return 1;
     print_list(devices, count);
     lobe_device_list_free(&devices, count);
-    if (device_options_open(options, &log, &device) != LOBE_OK)
+    if (device_options_open(options, &host, &device) != LOBE_OK)
         return 1;
     print_device(device);
     lobe_device_destroy(&device);

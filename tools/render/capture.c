@@ -111,7 +111,7 @@ static size_t describe_layers(const capture *capture, lobe_exr_layer layers[MAXI
     return count;
 }
 
-lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_log *log) {
+lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_host *host) {
     lobe_exr_layer layers[MAXIMUM_LAYERS];
     size_t layer_count = describe_layers(capture, layers);
     attribute_list list = {0};
@@ -122,9 +122,9 @@ lobe_result capture_write_exr(const char *path, const capture *capture, const lo
                                                        .layer_count = layer_count,
                                                        .attributes = list.attributes,
                                                        .attribute_count = list.count},
-                                log);
+                                host);
     else
-        lobe_log_print(log, LOBE_LOG_ERROR, "%s: out of memory", path);
+        lobe_host_log(host, LOBE_LOG_ERROR, "%s: out of memory", path);
     attributes_free(&list);
     return result;
 }
@@ -134,11 +134,11 @@ lobe_result capture_write_exr(const char *path, const capture *capture, const lo
 
 /// Values are counts of lobes, of which a mixture has at most 8, or MIP levels, of which a map of
 /// 4096 texels has 12 above its own: fixed scales, so that pictures can be compared.
-static lobe_result heat_map(const capture *capture, float maximum, const lobe_log *log,
+static lobe_result heat_map(const capture *capture, float maximum, const lobe_host *host,
                             lobe_image *picture) {
     const lobe_image *values = &capture->frame->radiance;
     lobe_result result =
-        lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, values->width, values->height, log);
+        lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB, values->width, values->height, host);
     if (result != LOBE_OK)
         return result;
     const float *value = values->texels;
@@ -151,18 +151,18 @@ static lobe_result heat_map(const capture *capture, float maximum, const lobe_lo
     return LOBE_OK;
 }
 
-lobe_result capture_write_png(const char *path, const capture *capture, const lobe_log *log) {
+lobe_result capture_write_png(const char *path, const capture *capture, const lobe_host *host) {
     int view = (int)lobe_settings_get(capture->filter, capture->settings, "view");
     lobe_image picture;
     lobe_result result;
     if (view == 0)
         result = lobe_display_encode(
             &capture->frame->radiance,
-            &(lobe_display_parameters){.exposure = (float)capture->exposure}, log, &picture);
+            &(lobe_display_parameters){.exposure = (float)capture->exposure}, host, &picture);
     else
-        result = heat_map(capture, view == 1 ? 8.0f : 12.0f, log, &picture);
+        result = heat_map(capture, view == 1 ? 8.0f : 12.0f, host, &picture);
     if (result == LOBE_OK)
-        result = lobe_png_write(path, &picture, log);
+        result = lobe_png_write(path, &picture, host);
     lobe_image_free(&picture);
     return result;
 }

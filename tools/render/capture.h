@@ -23,10 +23,10 @@ typedef struct capture {
 
 /// Writes linear radiance as OpenEXR: layers for what else the frame has (normal, depth, lobes,
 /// level), all else as attributes of the header.
-lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_log *log);
+lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_host *host);
 
 /// Writes a picture for looking at: tone-mapped, or as a heat map where the knob "view" asks for
 /// something other than radiance.
-lobe_result capture_write_png(const char *path, const capture *capture, const lobe_log *log);
+lobe_result capture_write_png(const char *path, const capture *capture, const lobe_host *host);
 
 #endif

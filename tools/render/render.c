@@ -43,7 +43,7 @@ typedef struct render_request {
 
 /// What is made on the way.
 typedef struct render_state {
-    lobe_log log;
+    lobe_host host;
     lobe_scene *scene;
     sweep_results figures; ///< that filter and knobs are picked by
     lobe_device *device;
@@ -110,29 +110,29 @@ static int check_usage(const option_table *table, const render_request *request)
     return status == 0 ? check_outputs(table, request) : status;
 }
 
-static int choose_filter(render_request *request, const lobe_log *log) {
+static int choose_filter(render_request *request, const lobe_host *host) {
     if (budget_options_limit(&request->budget))
         return 0; // it is picked when scene and device are known
-    if (lobe_filter_find(request->filter_name, log, &request->filter) != LOBE_OK)
+    if (lobe_filter_find(request->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
     for (size_t i = 0; i < request->assignments.count; ++i) {
         if (lobe_settings_set(request->filter, &request->settings, request->assignments.values[i],
-                              log) != LOBE_OK)
+                              host) != LOBE_OK)
             return 2;
     }
     return 0;
 }
 
-static void warn_of_what_is_ignored(const render_request *request, const lobe_log *log) {
+static void warn_of_what_is_ignored(const render_request *request, const lobe_host *host) {
     if (!writes(request, false) && request->has_depth)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--depth is for .exr outputs; ignored");
+        lobe_host_log(host, LOBE_LOG_WARNING, "--depth is for .exr outputs; ignored");
     if (!writes(request, false) && request->layers)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
+        lobe_host_log(host, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
     if (!writes(request, true) && request->has_exposure)
-        lobe_log_print(log, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
+        lobe_host_log(host, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
     if (request->has_samples && !(request->filter && lobe_filter_supersamples(request->filter)))
-        lobe_log_print(log, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
+        lobe_host_log(host, LOBE_LOG_WARNING, "--samples is for the filter reference; ignored");
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -141,11 +141,12 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_lo
 static lobe_result open_scene(const render_request *request, render_state *state) {
     if (request->material) {
         lobe_result result = lobe_scene_open_material(
-            request->material, (lobe_carrier)request->carrier, &state->log, &state->scene);
-        return result == LOBE_OK ? scene_options_light(&request->opening, &state->log, state->scene)
-                                 : result;
+            request->material, (lobe_carrier)request->carrier, &state->host, &state->scene);
+        return result == LOBE_OK
+                   ? scene_options_light(&request->opening, &state->host, state->scene)
+                   : result;
     }
-    return scene_options_open(&request->opening, request->scene, request->size, &state->log,
+    return scene_options_open(&request->opening, request->scene, request->size, &state->host,
                               &state->scene);
 }
 
@@ -168,16 +169,16 @@ static lobe_result pick_filter(render_request *request, render_state *state) {
         .device = state->device,
         .size = {request->size[0], request->size[1]},
     };
-    return budget_pick(&request->budget, &picture, &state->log, &state->figures, &request->filter,
+    return budget_pick(&request->budget, &picture, &state->host, &state->figures, &request->filter,
                        &request->settings);
 }
 
 static lobe_result open_renderer(render_request *request, render_state *state) {
-    lobe_result result = device_options_open(&request->device, &state->log, &state->device);
+    lobe_result result = device_options_open(&request->device, &state->host, &state->device);
     if (result == LOBE_OK)
         result = pick_filter(request, state);
     if (result == LOBE_OK)
-        result = lobe_renderer_create(state->device, &state->log, &state->renderer);
+        result = lobe_renderer_create(state->device, &state->host, &state->renderer);
     if (state->scene->environment)
         state->cache = cache_options_find(&request->cache, state->cache_folder);
     if (result == LOBE_OK)
@@ -205,12 +206,12 @@ static lobe_result render_frame(const render_request *request, render_state *sta
             .user = &state->progress,
         },
         &state->frame);
-    return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->log) : result;
+    return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->host) : result;
 }
 
 /// The first frame builds the maps, later ones find them ready.
 static lobe_result render_frames(const render_request *request, render_state *state) {
-    lobe_result result = lobe_profile_create(&state->log, &state->profile);
+    lobe_result result = lobe_profile_create(&state->host, &state->profile);
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames; ++i) {
         progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
                       request->frames);
@@ -219,7 +220,7 @@ static lobe_result render_frames(const render_request *request, render_state *st
     progress_end(&state->progress);
     if (result == LOBE_OK)
         result = lobe_profile_statistics(state->profile, &state->times);
-    return result == LOBE_OK ? device_options_check(state->device, &state->log) : result;
+    return result == LOBE_OK ? device_options_check(state->device, &state->host) : result;
 }
 
 static lobe_result write_graph(const render_request *request, render_state *state) {
@@ -230,9 +231,9 @@ static lobe_result write_graph(const render_request *request, render_state *stat
                                                                 : lobe_graph_dump_graphviz(graph);
     lobe_result result = LOBE_ERROR_OUT_OF_MEMORY;
     if (text)
-        result = output_file_write(request->graph, text, &state->log);
+        result = output_file_write(request->graph, text, &state->host);
     else
-        lobe_log_print(&state->log, LOBE_LOG_ERROR, "%s: out of memory", request->graph);
+        lobe_host_log(&state->host, LOBE_LOG_ERROR, "%s: out of memory", request->graph);
     lobe_release(text);
     return result;
 }
@@ -253,8 +254,8 @@ static lobe_result write_images(const render_request *request, render_state *sta
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i) {
         const char *path = request->outputs.values[i];
-        result = is_png(path) ? capture_write_png(path, &capture, &state->log)
-                              : capture_write_exr(path, &capture, &state->log);
+        result = is_png(path) ? capture_write_png(path, &capture, &state->host)
+                              : capture_write_exr(path, &capture, &state->host);
     }
     return result;
 }
@@ -276,24 +277,24 @@ static void print_times(const render_request *request, const render_state *state
 }
 
 /// Nobody should wait minutes to learn of a misspelt folder.
-static lobe_result check_files(const render_request *request, const lobe_log *log) {
-    lobe_result result = output_file_check(request->graph, log);
+static lobe_result check_files(const render_request *request, const lobe_host *host) {
+    lobe_result result = output_file_check(request->graph, host);
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i)
-        result = output_file_check(request->outputs.values[i], log);
+        result = output_file_check(request->outputs.values[i], host);
     return result;
 }
 
 static lobe_result render(render_request *request, render_state *state) {
-    lobe_result result = check_files(request, &state->log);
+    lobe_result result = check_files(request, &state->host);
     if (result == LOBE_OK)
-        result = budget_read(&request->budget, request->scene, &state->log, &state->figures);
+        result = budget_read(&request->budget, request->scene, &state->host, &state->figures);
     if (result == LOBE_OK)
         result = open_scene(request, state);
     if (result != LOBE_OK)
         return result;
     if (!view_options_apply(&request->view, request->lights, state->scene)) {
-        lobe_log_print(&state->log, LOBE_LOG_ERROR,
-                       "camera: eye and target are the same point, it looks nowhere");
+        lobe_host_log(&state->host, LOBE_LOG_ERROR,
+                      "camera: eye and target are the same point, it looks nowhere");
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
     request->lights = NULL; // the scene's now
@@ -319,15 +320,15 @@ static void free_state(render_state *state) {
 }
 
 static int run_request(const option_table *table, render_request *request) {
-    render_state state = {.log = console_log(false), .progress = progress_begin(false)};
+    render_state state = {.host = console_host(false), .progress = progress_begin(false)};
     int status = check_usage(table, request);
     if (status == 0)
-        status = choose_filter(request, &state.log);
+        status = choose_filter(request, &state.host);
     if (status == 0)
         status = view_options_parse_lights(table, &request->view, &request->lights);
     if (status != 0)
         return status;
-    warn_of_what_is_ignored(request, &state.log);
+    warn_of_what_is_ignored(request, &state.host);
     lobe_result result = render(request, &state);
     free_state(&state);
     lobe_release(request->lights);

@@ -16,7 +16,7 @@
 typedef struct report_request {
     const char *results, *folder;
     uint32_t picture_width;
-    lobe_log log;
+    lobe_host host;
 } report_request;
 
 // ---------------------------------------------------------------------------------------------
@@ -36,8 +36,8 @@ static lobe_result find_filters(report *report) {
         if (is_known(report, filter))
             continue;
         if (report->filter_count == REPORT_MAXIMUM_FILTERS)
-            return lobe_log_fail(report->log, LOBE_ERROR_LIMIT, "%s: more than %d filters",
-                                 report->path, REPORT_MAXIMUM_FILTERS);
+            return lobe_host_fail(report->host, LOBE_ERROR_LIMIT, "%s: more than %d filters",
+                                  report->path, REPORT_MAXIMUM_FILTERS);
         report->filters[report->filter_count++] = filter;
     }
     return LOBE_OK;
@@ -64,8 +64,8 @@ static lobe_result write_text(report *report, char **text, size_t *size) {
         failed = fclose(report->page) != 0 || failed;
     }
     if (result == LOBE_OK && failed)
-        result = lobe_log_fail(report->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory for the page",
-                               report->path);
+        result = lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY,
+                                "%s: no memory for the page", report->path);
     return result;
 }
 
@@ -73,14 +73,14 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
     sweep_results results;
     struct stat status;
     *text = NULL;
-    lobe_result result = sweep_results_read(request->results, &request->log, &results);
+    lobe_result result = sweep_results_read(request->results, &request->host, &results);
     if (result != LOBE_OK)
         return result;
     leave_out_noise(&results);
     report report = {.results = &results,
                      .path = request->results,
                      .picture_width = request->picture_width,
-                     .log = &request->log};
+                     .host = &request->host};
     if (stat(request->results, &status) == 0)
         report.time = status.st_mtime;
     result = find_filters(&report);
@@ -97,14 +97,14 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
 static lobe_result write_page(const report_request *request, const char *text, size_t size) {
     bool made = mkdir(request->folder, 0777) == 0;
     if (!made && errno != EEXIST)
-        return lobe_log_fail(&request->log, LOBE_ERROR_WRITE, "%s: cannot be made: %s",
-                             request->folder, strerror(errno));
+        return lobe_host_fail(&request->host, LOBE_ERROR_WRITE, "%s: cannot be made: %s",
+                              request->folder, strerror(errno));
     char *path = malloc(strlen(request->folder) + sizeof "/index.html");
     if (!path)
-        return lobe_log_fail(&request->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                             request->folder);
+        return lobe_host_fail(&request->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              request->folder);
     sprintf(path, "%s/index.html", request->folder);
-    lobe_result result = lobe_file_write(path, text, size, &request->log);
+    lobe_result result = lobe_file_write(path, text, size, &request->host);
     if (result != LOBE_OK && made)
         rmdir(request->folder);
     free(path);
@@ -125,7 +125,7 @@ static int make_report(const report_request *request) {
 // Command line
 
 static int run(int argc, char **argv) {
-    report_request request = {.log = console_log(false)};
+    report_request request = {.host = console_host(false)};
     const option options[] = {
         {.name = "output",
          .letter = 'o',

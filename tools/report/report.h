@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <time.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #include "tools/sweep/results.h"
@@ -23,7 +23,7 @@ typedef struct report {
     uint32_t picture_width;       ///< pixels; wider pictures are reduced
     const char *filters[REPORT_MAXIMUM_FILTERS]; ///< in the order of their first rows
     size_t filter_count;
-    const lobe_log *log;
+    const lobe_host *host;
 } report;
 
 /// Writes the whole page. Errors: those of its parts.

@@ -102,8 +102,8 @@ lobe_result report_write_pass_bars(const report *report, size_t scene) {
     free(bars.parts);
     free(bars.kinds);
     return allocated ? LOBE_OK
-                     : lobe_log_fail(report->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                                     report->path);
+                     : lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                                      report->path);
 }
 
 // ---------------------------------------------------------------------------------------------

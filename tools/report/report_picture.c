@@ -17,9 +17,9 @@ static size_t texel_count(const lobe_image *image) {
 }
 
 lobe_result report_error_map(const lobe_image *test, const lobe_image *reference,
-                             const lobe_log *log, lobe_image *errors) {
+                             const lobe_host *host, lobe_image *errors) {
     lobe_result result = lobe_image_allocate(errors, LOBE_FORMAT_R32_FLOAT, reference->width,
-                                             reference->height, log);
+                                             reference->height, host);
     if (result != LOBE_OK)
         return result;
     const float *a = test->texels, *b = reference->texels;
@@ -125,16 +125,16 @@ static float average_error(const lobe_image *errors, const report_window *block)
     return (float)(window_sum(errors, block) / ((double)block->width * block->height));
 }
 
-static lobe_result allocate_reduced(const lobe_image *source, uint32_t factor, const lobe_log *log,
-                                    lobe_image *picture) {
+static lobe_result allocate_reduced(const lobe_image *source, uint32_t factor,
+                                    const lobe_host *host, lobe_image *picture) {
     return lobe_image_allocate(picture, LOBE_FORMAT_RGBA8_SRGB,
                                (source->width + factor - 1) / factor,
-                               (source->height + factor - 1) / factor, log);
+                               (source->height + factor - 1) / factor, host);
 }
 
-static lobe_result reduce(const lobe_image *whole, uint32_t factor, const lobe_log *log,
+static lobe_result reduce(const lobe_image *whole, uint32_t factor, const lobe_host *host,
                           lobe_image *picture) {
-    lobe_result result = allocate_reduced(whole, factor, log, picture);
+    lobe_result result = allocate_reduced(whole, factor, host, picture);
     if (result != LOBE_OK)
         return result;
     float decoded[256];
@@ -152,20 +152,20 @@ static lobe_result reduce(const lobe_image *whole, uint32_t factor, const lobe_l
 
 // ---------------------------------------------------------------------------------------------
 
-lobe_result report_show(const lobe_image *linear, uint32_t factor, const lobe_log *log,
+lobe_result report_show(const lobe_image *linear, uint32_t factor, const lobe_host *host,
                         lobe_image *picture) {
     lobe_image whole;
-    lobe_result result = lobe_display_encode(linear, NULL, log, factor > 1 ? &whole : picture);
+    lobe_result result = lobe_display_encode(linear, NULL, host, factor > 1 ? &whole : picture);
     if (result != LOBE_OK || factor == 1)
         return result;
-    result = reduce(&whole, factor, log, picture);
+    result = reduce(&whole, factor, host, picture);
     lobe_image_free(&whole);
     return result;
 }
 
 lobe_result report_show_errors(const lobe_image *errors, double scale, uint32_t factor,
-                               const lobe_log *log, lobe_image *picture) {
-    lobe_result result = allocate_reduced(errors, factor, log, picture);
+                               const lobe_host *host, lobe_image *picture) {
+    lobe_result result = allocate_reduced(errors, factor, host, picture);
     if (result != LOBE_OK)
         return result;
     uint8_t *texels = picture->texels;
@@ -181,10 +181,10 @@ lobe_result report_show_errors(const lobe_image *errors, double scale, uint32_t 
 }
 
 lobe_result report_show_window(const lobe_image *linear, const report_window *window,
-                               const lobe_log *log, lobe_image *picture) {
+                               const lobe_host *host, lobe_image *picture) {
     lobe_image part;
     lobe_result result =
-        lobe_image_allocate(&part, linear->format, window->width, window->height, log);
+        lobe_image_allocate(&part, linear->format, window->width, window->height, host);
     if (result != LOBE_OK)
         return result;
     size_t size = lobe_format_size(linear->format);
@@ -193,7 +193,7 @@ lobe_result report_show_window(const lobe_image *linear, const report_window *wi
                (const uint8_t *)linear->texels +
                    ((window->y + y) * linear->width + window->x) * size,
                window->width * size);
-    result = lobe_display_encode(&part, NULL, log, picture);
+    result = lobe_display_encode(&part, NULL, host, picture);
     lobe_image_free(&part);
     return result;
 }

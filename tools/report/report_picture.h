@@ -3,8 +3,8 @@
 
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 /// From renderings to the pictures that the report shows.
@@ -20,7 +20,7 @@ typedef struct report_window {
 /// R32_FLOAT; where the reference is black all over, none is finite. Errors:
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result report_error_map(const lobe_image *test, const lobe_image *reference,
-                             const lobe_log *log, lobe_image *errors);
+                             const lobe_host *host, lobe_image *errors);
 
 /// The value that a part [0, 1] of the finite texels of some R32_FLOAT images do not exceed, to
 /// within 5 %; 0 where there are none.
@@ -28,16 +28,16 @@ double report_quantile(const lobe_image *images, size_t count, double part);
 
 /// A tone-mapped picture, each block of `factor` x `factor` texels averaged as a screen would
 /// show it from farther away. `picture` becomes RGBA8_SRGB. Errors: LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result report_show(const lobe_image *linear, uint32_t factor, const lobe_log *log,
+lobe_result report_show(const lobe_image *linear, uint32_t factor, const lobe_host *host,
                         lobe_image *picture);
 
 /// A heat map of errors up to `scale`, each block averaged likewise.
 lobe_result report_show_errors(const lobe_image *errors, double scale, uint32_t factor,
-                               const lobe_log *log, lobe_image *picture);
+                               const lobe_host *host, lobe_image *picture);
 
 /// A part of a linear picture, tone-mapped.
 lobe_result report_show_window(const lobe_image *linear, const report_window *window,
-                               const lobe_log *log, lobe_image *picture);
+                               const lobe_host *host, lobe_image *picture);
 
 /// The window of an extent, of those that begin at multiples of half of it, where the sum of some
 /// error maps of one extent is greatest.

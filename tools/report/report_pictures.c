@@ -44,9 +44,9 @@ static char *path_beside(const char *results, const char *name) {
 static lobe_result read_picture(const report *report, const char *name, lobe_image *picture) {
     char *path = path_beside(report->path, name);
     if (!path)
-        return lobe_log_fail(report->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
+        return lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", name);
     image_input input;
-    lobe_result result = image_input_read(path, report->log, &input);
+    lobe_result result = image_input_read(path, report->host, &input);
     *picture = result == LOBE_OK ? input.image : (lobe_image){0};
     free(path);
     return result;
@@ -64,11 +64,11 @@ static lobe_result read_row(const report *report, const sweep_row *row, size_t f
     ++gallery->count;
     const lobe_image *reference = &gallery->reference;
     if (picture->width != reference->width || picture->height != reference->height)
-        return lobe_log_fail(report->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: %ux%u pixels, but the reference of scene '%s' has %ux%u",
-                             row->picture, picture->width, picture->height, row->scene,
-                             reference->width, reference->height);
-    return report_error_map(picture, reference, report->log, &gallery->errors[index]);
+        return lobe_host_fail(report->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: %ux%u pixels, but the reference of scene '%s' has %ux%u",
+                              row->picture, picture->width, picture->height, row->scene,
+                              reference->width, reference->height);
+    return report_error_map(picture, reference, report->host, &gallery->errors[index]);
 }
 
 static lobe_result read_gallery(const report *report, const sweep_scene *scene, gallery *gallery) {
@@ -113,7 +113,7 @@ static lobe_result write_picture(const report *report, lobe_image *picture, cons
                                  const char *what, const char *name) {
     uint8_t *data;
     size_t size;
-    lobe_result result = lobe_png_encode(name, picture, report->log, &data, &size);
+    lobe_result result = lobe_png_encode(name, picture, report->host, &data, &size);
     if (result == LOBE_OK) {
         fprintf(report->page, "<img class=\"%s\" width=\"%u\" height=\"%u\" alt=\"%s", class,
                 picture->width, picture->height, what);
@@ -130,12 +130,12 @@ static lobe_result write_picture(const report *report, lobe_image *picture, cons
 static lobe_result write_views(const report *report, const gallery *gallery,
                                const lobe_image *linear, const char *name) {
     lobe_image picture;
-    lobe_result result = report_show(linear, gallery->factor, report->log, &picture);
+    lobe_result result = report_show(linear, gallery->factor, report->host, &picture);
     if (result == LOBE_OK)
         result = write_picture(report, &picture, "whole", "", name);
     if (result != LOBE_OK || gallery->detail.width == 0)
         return result;
-    result = report_show_window(linear, &gallery->detail, report->log, &picture);
+    result = report_show_window(linear, &gallery->detail, report->host, &picture);
     return result == LOBE_OK ? write_picture(report, &picture, "detail", "detail of ", name)
                              : result;
 }
@@ -165,7 +165,7 @@ static lobe_result write_filter(const report *report, const gallery *gallery, si
     lobe_image heat;
     if (result == LOBE_OK)
         result = report_show_errors(&gallery->errors[index], gallery->scale, gallery->factor,
-                                    report->log, &heat);
+                                    report->host, &heat);
     if (result == LOBE_OK)
         result = write_picture(report, &heat, "errors", "error map of ", row->filter);
     fputs("</figure>\n", report->page);
@@ -238,8 +238,8 @@ lobe_result report_write_pictures(const report *report, size_t scene) {
     }
     gallery *gallery = calloc(1, sizeof *gallery);
     if (!gallery)
-        return lobe_log_fail(report->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                             report->path);
+        return lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              report->path);
     lobe_result result = read_gallery(report, described, gallery);
     if (result == LOBE_OK) {
         choose_views(report, gallery);

@@ -150,9 +150,9 @@ lobe_result report_write_trade(const report *report, size_t scene) {
     const char *name = report->results->scenes[scene].name;
     size_t count = report_count_rows(report->results, name);
     if (count > PLOT_MAXIMUM_POINTS)
-        return lobe_log_fail(report->log, LOBE_ERROR_LIMIT,
-                             "%s: scene '%s' has %zu rows, a plot shows at most %d", report->path,
-                             name, count, PLOT_MAXIMUM_POINTS);
+        return lobe_host_fail(report->host, LOBE_ERROR_LIMIT,
+                              "%s: scene '%s' has %zu rows, a plot shows at most %d", report->path,
+                              name, count, PLOT_MAXIMUM_POINTS);
     trade_rows rows;
     lobe_result result = LOBE_OK;
     if (allocate(&rows, count)) {
@@ -160,8 +160,8 @@ lobe_result report_write_trade(const report *report, size_t scene) {
         for (size_t i = 0; i < sizeof trades / sizeof *trades; ++i)
             write_trade(report, scene, &trades[i], &rows);
     } else {
-        result =
-            lobe_log_fail(report->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", report->path);
+        result = lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                                report->path);
     }
     free(rows.rows);
     free(rows.names);

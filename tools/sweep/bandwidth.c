@@ -56,15 +56,15 @@ static bool add_sizes(sweep_copies *copies, const sweep_row *row) {
 
 lobe_result sweep_copies_create(const sweep_job *job, const sweep_row *rows, size_t row_count,
                                 sweep_copies **copies) {
-    const lobe_log *log = job->bench.log;
+    const lobe_host *host = job->bench.host;
     *copies = calloc(1, sizeof **copies);
     bool fits = *copies != NULL;
     for (size_t i = 0; fits && i < row_count; ++i)
         fits = add_sizes(*copies, &rows[i]);
     if (!fits)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
     (*copies)->job = job;
-    lobe_result result = lobe_profile_create(log, &(*copies)->profile);
+    lobe_result result = lobe_profile_create(host, &(*copies)->profile);
     return result == LOBE_OK ? lobe_graph_create(job->bench.device, &(*copies)->graph) : result;
 }
 

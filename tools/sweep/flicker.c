@@ -72,10 +72,11 @@ lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
     for (int k = 0; k < 2; ++k) {
         path->changes[k] = calloc(job->stations + 1, sizeof *path->changes[k]);
         if (!path->changes[k])
-            return lobe_log_fail(job->bench.log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
+            return lobe_host_fail(job->bench.host, LOBE_ERROR_OUT_OF_MEMORY,
+                                  "sweep: out of memory");
     }
     sweep_variant reference = {.filter.settings = job->bench.truth};
-    lobe_result result = lobe_filter_find("reference", job->bench.log, &reference.filter.filter);
+    lobe_result result = lobe_filter_find("reference", job->bench.host, &reference.filter.filter);
     lobe_render_parameters parameters = sweep_parameters(job, &reference);
     parameters.samples = job->path_samples;
     for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); ++i) {

@@ -20,7 +20,7 @@ typedef struct scene_run {
     const sweep_job *job;
     const lobe_scene *scene;
     const char *name; ///< of the results
-    lobe_log errors;  ///< passes on errors alone: warnings of a filter come once, not in every turn
+    lobe_host errors; ///< passes on errors alone: warnings of a filter come once, not in every turn
     sweep_row *rows;
     row_times *times; ///< one a row
     lobe_image truth, truth_lobe_base;
@@ -28,19 +28,19 @@ typedef struct scene_run {
 } scene_run;
 
 static void write_error(void *user, lobe_log_level level, const char *message) {
-    const lobe_log *log = user;
+    const lobe_host *host = user;
     if (level == LOBE_LOG_ERROR)
-        lobe_log_print(log, level, "%s", message);
+        lobe_host_log(host, level, "%s", message);
 }
 
 static lobe_result out_of_memory(const scene_run *run) {
-    return lobe_log_fail(run->job->bench.log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                         run->scene->name);
+    return lobe_host_fail(run->job->bench.host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                          run->scene->name);
 }
 
-static lobe_result open_renderer(const scene_run *run, const lobe_log *log,
+static lobe_result open_renderer(const scene_run *run, const lobe_host *host,
                                  lobe_renderer **renderer) {
-    lobe_result result = lobe_renderer_create(run->job->bench.device, log, renderer);
+    lobe_result result = lobe_renderer_create(run->job->bench.device, host, renderer);
     return result == LOBE_OK ? lobe_renderer_set_scene(*renderer, run->scene) : result;
 }
 
@@ -137,7 +137,7 @@ static lobe_result render_truth(const scene_run *run, lobe_renderer *renderer,
                                 lobe_image *image) {
     const bench_job *bench = &run->job->bench;
     sweep_variant reference = {.filter.settings = *settings, .varied = ""};
-    lobe_result result = lobe_filter_find("reference", bench->log, &reference.filter.filter);
+    lobe_result result = lobe_filter_find("reference", bench->host, &reference.filter.filter);
     if (result != LOBE_OK)
         return result;
     const uint32_t half = run->scene->environment ? bench->samples / 2 : 0;
@@ -211,7 +211,7 @@ static lobe_result measure_memory(const scene_run *run, const sweep_variant *var
     lobe_device_memory_query(bench->device, &before);
     lobe_result result = LOBE_OK;
     if (!*renderer)
-        result = open_renderer(run, quiet ? &run->errors : bench->log, renderer);
+        result = open_renderer(run, quiet ? &run->errors : bench->host, renderer);
     lobe_render_parameters parameters = sweep_parameters(run->job, variant);
     parameters.rebuild = parameters.keep_environment = true;
     parameters.samples = 1; // the memory does not depend on them
@@ -230,7 +230,7 @@ static lobe_result compare(const scene_run *run, const lobe_image *image, const 
                                  &(error_metrics_parameters){.test_name = row->filter,
                                                              .reference_name = row->scene,
                                                              .high_dynamic_range = true},
-                                 run->job->bench.log, error, NULL);
+                                 run->job->bench.host, error, NULL);
 }
 
 static lobe_result measure_error(const scene_run *run, const sweep_variant *variant,
@@ -321,7 +321,7 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
     lobe_result result = lobe_renderer_render(renderer, &parameters, &frame);
     if (result == LOBE_OK && keep && !sweep_stopped(run->job)) {
         result =
-            timing_add(rebuild ? times->rebuilt : times->retained, &frame, run->job->bench.log);
+            timing_add(rebuild ? times->rebuilt : times->retained, &frame, run->job->bench.host);
         if (result == LOBE_OK && rebuild) {
             count_passes(&run->rows[index], &frame);
             result = add_parts(run, index, &frame);
@@ -497,7 +497,7 @@ static lobe_result name_row(const scene_run *run, const sweep_variant *variant, 
 }
 
 static lobe_result open_rows(scene_run *run, const char *scene) {
-    const lobe_log *log = run->job->bench.log;
+    const lobe_host *host = run->job->bench.host;
     run->times = calloc(run->job->plan.count, sizeof *run->times);
     lobe_result result = run->times ? LOBE_OK : out_of_memory(run);
     for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; ++i) {
@@ -505,7 +505,7 @@ static lobe_result open_rows(scene_run *run, const char *scene) {
                                            &run->times[i].parts};
         result = name_row(run, &run->job->plan.variants[i], scene, &run->rows[i]);
         for (int k = 0; result == LOBE_OK && k < 3; ++k)
-            result = lobe_profile_create(log, profiles[k]);
+            result = lobe_profile_create(host, profiles[k]);
     }
     return result;
 }
@@ -524,11 +524,11 @@ static void close_run(scene_run *run) {
 
 lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows) {
-    lobe_log log = *job->bench.log;
+    lobe_host host = *job->bench.host;
     scene_run run = {.job = job,
                      .scene = scene,
                      .name = entry->name,
-                     .errors = {.write = write_error, .user = &log},
+                     .errors = {.write = write_error, .user = &host},
                      .rows = rows};
     lobe_result result = open_rows(&run, entry->name);
     if (result == LOBE_OK)

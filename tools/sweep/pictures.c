@@ -15,7 +15,7 @@
 // The folder
 
 static lobe_result out_of_memory(const sweep_job *job) {
-    return lobe_log_fail(job->bench.log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
+    return lobe_host_fail(job->bench.host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
 }
 
 static char *default_folder(const char *json) {
@@ -70,9 +70,9 @@ lobe_result sweep_pictures_open(sweep_job *job) {
     mkdir(job->picture_folder, 0777); // an existing folder makes it fail, which is fine
     int error = errno;
     if (stat(job->picture_folder, &status) != 0 || !S_ISDIR(status.st_mode))
-        return lobe_log_fail(job->bench.log, LOBE_ERROR_WRITE,
-                             "%s: the folder for pictures cannot be made: %s", job->picture_folder,
-                             strerror(error));
+        return lobe_host_fail(job->bench.host, LOBE_ERROR_WRITE,
+                              "%s: the folder for pictures cannot be made: %s", job->picture_folder,
+                              strerror(error));
     return find_prefix(job);
 }
 
@@ -108,17 +108,17 @@ static void name_scene(const char *scene, char name[96]) {
 }
 
 static lobe_result write_picture(const sweep_job *job, const char *path, capture *capture) {
-    const lobe_log *log = job->bench.log;
+    const lobe_host *host = job->bench.host;
     lobe_profile *profile = NULL;
     lobe_profile_summary times = {0};
-    lobe_result result = lobe_profile_create(log, &profile);
+    lobe_result result = lobe_profile_create(host, &profile);
     if (result == LOBE_OK)
-        result = timing_add(profile, capture->frame, log);
+        result = timing_add(profile, capture->frame, host);
     if (result == LOBE_OK)
         result = lobe_profile_statistics(profile, &times);
     capture->times = &times;
     if (result == LOBE_OK)
-        result = capture_write_exr(path, capture, log);
+        result = capture_write_exr(path, capture, host);
     lobe_profile_destroy(&profile);
     return result;
 }

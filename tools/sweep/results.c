@@ -239,13 +239,13 @@ static cJSON *describe_structure(const structure *structure, const void *object)
 }
 
 lobe_result sweep_results_write(const char *path, const sweep_results *results,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     cJSON *root = describe_structure(&results_structure, results);
     char *text = root ? cJSON_Print(root) : NULL;
     cJSON_Delete(root);
     if (!text)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
-    lobe_result result = output_file_write(path, text, log);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    lobe_result result = output_file_write(path, text, host);
     free(text);
     return result;
 }
@@ -256,7 +256,7 @@ lobe_result sweep_results_write(const char *path, const sweep_results *results,
 /// Where in the file the reader is: "rows[3].passes[0]", for messages.
 typedef struct reader {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
     char place[256];
 } reader;
 
@@ -264,8 +264,8 @@ static lobe_result read_structure(reader *reader, const structure *structure, co
                                   void *object);
 
 static lobe_result malformed(const reader *reader, const char *what) {
-    return lobe_log_fail(reader->log, LOBE_ERROR_MALFORMED, "%s: %s: %s", reader->path,
-                         reader->place[0] ? reader->place : "the whole", what);
+    return lobe_host_fail(reader->host, LOBE_ERROR_MALFORMED, "%s: %s: %s", reader->path,
+                          reader->place[0] ? reader->place : "the whole", what);
 }
 
 /// Appends to the place; the result goes to leave().
@@ -313,8 +313,8 @@ static lobe_result read_text(const reader *reader, const cJSON *item, char **tex
         return malformed(reader, "not a text");
     *text = strdup(item->valuestring);
     return *text ? LOBE_OK
-                 : lobe_log_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                                 reader->path);
+                 : lobe_host_fail(reader->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                                  reader->path);
 }
 
 static lobe_result read_fixed_text(const reader *reader, const cJSON *item, char *text,
@@ -340,8 +340,8 @@ static lobe_result read_list(reader *reader, const structure *element, const cJS
         return malformed(reader, "not a list");
     *elements = calloc((size_t)cJSON_GetArraySize(item) + 1, element->size);
     if (!*elements)
-        return lobe_log_fail(reader->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
-                             reader->path);
+        return lobe_host_fail(reader->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              reader->path);
     const cJSON *child;
     cJSON_ArrayForEach(child, item) {
         size_t length = enter(reader, "[%zu]", *count);
@@ -410,21 +410,21 @@ static lobe_result read_structure(reader *reader, const structure *structure, co
     return result;
 }
 
-lobe_result sweep_results_read(const char *path, const lobe_log *log, sweep_results *results) {
+lobe_result sweep_results_read(const char *path, const lobe_host *host, sweep_results *results) {
     *results = (sweep_results){0};
     uint8_t *text;
     size_t size;
-    lobe_result result = lobe_file_read(path, NULL, log, &text, &size);
+    lobe_result result = lobe_file_read(path, NULL, host, &text, &size);
     if (result != LOBE_OK)
         return result;
     const char *end = NULL;
     cJSON *root = cJSON_ParseWithLengthOpts((const char *)text, size + 1, &end, true);
-    reader reader = {.path = path, .log = log};
+    reader reader = {.path = path, .host = host};
     if (root)
         result = read_structure(&reader, &results_structure, root, results);
     else
-        result = lobe_log_fail(log, LOBE_ERROR_MALFORMED, "%s: not JSON, or cut off, at byte %zu",
-                               path, end ? (size_t)(end - (const char *)text) : size);
+        result = lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: not JSON, or cut off, at byte %zu",
+                                path, end ? (size_t)(end - (const char *)text) : size);
     cJSON_Delete(root);
     lobe_release(text);
     if (result != LOBE_OK)

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #include "tools/compare/error_metrics.h"
@@ -93,11 +93,11 @@ typedef struct sweep_results {
 /// zero. Free with sweep_results_free.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (the line names the file
 /// and the member), LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result sweep_results_read(const char *path, const lobe_log *log, sweep_results *results);
+lobe_result sweep_results_read(const char *path, const lobe_host *host, sweep_results *results);
 
 /// Writes JSON, whole or not at all. Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result sweep_results_write(const char *path, const sweep_results *results,
-                                const lobe_log *log);
+                                const lobe_host *host);
 
 /// Frees all that `*results` points to, each text and list a block of malloc, and zeroes it.
 void sweep_results_free(sweep_results *results);

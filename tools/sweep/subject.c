@@ -31,20 +31,20 @@ static bool same(const char *a, const char *b) {
 }
 
 /// Of one name must be one scene in one environment.
-static lobe_result check_name(const sweep_subject *subjects, size_t index, const lobe_log *log) {
+static lobe_result check_name(const sweep_subject *subjects, size_t index, const lobe_host *host) {
     const sweep_subject *added = &subjects[index];
     for (size_t i = 0; i < index; ++i) {
         const sweep_subject *other = &subjects[i];
         if (strcmp(other->name, added->name) == 0 && !same(other->environment, added->environment))
-            return lobe_log_fail(log, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "--environment: results of %s and %s would both be called '%s'",
-                                 other->environment, added->environment, added->name);
+            return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                                  "--environment: results of %s and %s would both be called '%s'",
+                                  other->environment, added->environment, added->name);
     }
     return LOBE_OK;
 }
 
 lobe_result sweep_subjects_list(const option_list *scenes, const option_list *environments,
-                                const lobe_log *log, sweep_subject **subjects, size_t *count) {
+                                const lobe_host *host, sweep_subject **subjects, size_t *count) {
     const size_t each = environments->count > 0 ? environments->count : 1;
     *count = 0;
     *subjects = calloc(scenes->count * each + 1, sizeof **subjects);
@@ -54,10 +54,10 @@ lobe_result sweep_subjects_list(const option_list *scenes, const option_list *en
         added->scene = scenes->values[i / each];
         added->environment = environments->count > 0 ? environments->values[i % each] : NULL;
         added->name = name_subject(added);
-        result = added->name ? check_name(*subjects, i, log) : LOBE_ERROR_OUT_OF_MEMORY;
+        result = added->name ? check_name(*subjects, i, host) : LOBE_ERROR_OUT_OF_MEMORY;
     }
     if (!*subjects || result == LOBE_ERROR_OUT_OF_MEMORY)
-        return lobe_log_fail(log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
     return result;
 }
 
@@ -78,8 +78,8 @@ lobe_result sweep_subject_check(const sweep_job *job, const sweep_subject *subje
         environment = NULL;
     if (sweep_scene_is(former, subject->scene, environment, lighting))
         return LOBE_OK;
-    return lobe_log_fail(
-        job->bench.log, LOBE_ERROR_INVALID_ARGUMENT,
+    return lobe_host_fail(
+        job->bench.host, LOBE_ERROR_INVALID_ARGUMENT,
         "%s: '%s' was measured in environment %s (%s), now it is %s (%s): "
         "--resume cannot mix them",
         job->json, subject->name, former->environment ? former->environment : "none",

@@ -39,7 +39,7 @@ lobe_render_parameters sweep_parameters(const sweep_job *job, const sweep_varian
 }
 
 static lobe_result out_of_memory(const sweep_job *job) {
-    return lobe_log_fail(job->bench.log, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
+    return lobe_host_fail(job->bench.host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -64,9 +64,9 @@ static lobe_result describe_sweep(const sweep_job *job, sweep_results *results) 
 
 static lobe_result differs(const sweep_job *job, const char *what, const char *former,
                            const char *now) {
-    return lobe_log_fail(job->bench.log, LOBE_ERROR_INVALID_ARGUMENT,
-                         "%s: measured with %s %s, now it is %s: --resume cannot mix them",
-                         job->json, what, former, now);
+    return lobe_host_fail(job->bench.host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: measured with %s %s, now it is %s: --resume cannot mix them",
+                          job->json, what, former, now);
 }
 
 static lobe_result same_text(const sweep_job *job, const char *what, const char *former,
@@ -111,7 +111,7 @@ static lobe_result start_results(const sweep_job *job, sweep_results *results) {
     lobe_result result = describe_sweep(job, results);
     if (result != LOBE_OK || !job->resume || access(job->json, F_OK) != 0)
         return result;
-    result = sweep_results_read(job->json, job->bench.log, &former);
+    result = sweep_results_read(job->json, job->bench.host, &former);
     if (result != LOBE_OK)
         return result;
     result = check_same(job, &former, results);
@@ -184,7 +184,7 @@ static lobe_result add_scene(const sweep_job *job, sweep_results *results, const
 
 /// A log that keeps the line of a failure instead of handing it on.
 typedef struct reason_log {
-    const lobe_log *log;
+    const lobe_host *host;
     char reason[1024];
 } reason_log;
 
@@ -193,7 +193,7 @@ static void keep_reason(void *user, lobe_log_level level, const char *message) {
     if (level == LOBE_LOG_ERROR)
         snprintf(kept->reason, sizeof kept->reason, "%s", message);
     else
-        lobe_log_print(kept->log, level, "%s", message);
+        lobe_host_log(kept->host, level, "%s", message);
 }
 
 /// The job as it is for scenes with or without an environment.
@@ -210,13 +210,13 @@ static double work_of(const sweep_job *job, const sweep_subject *subject) {
 
 /// A scene that the device takes.
 static lobe_result try_scene(const sweep_job *job, const sweep_subject *subject,
-                             const lobe_log *log, lobe_scene **scene) {
+                             const lobe_host *host, lobe_scene **scene) {
     lobe_renderer *renderer = NULL;
     scene_options opening = *job->opening;
     opening.environment = subject->environment;
-    lobe_result result = scene_options_open(&opening, subject->scene, job->bench.size, log, scene);
+    lobe_result result = scene_options_open(&opening, subject->scene, job->bench.size, host, scene);
     if (result == LOBE_OK)
-        result = lobe_renderer_create(job->bench.device, log, &renderer);
+        result = lobe_renderer_create(job->bench.device, host, &renderer);
     if (result == LOBE_OK)
         result = lobe_renderer_set_scene(renderer, *scene);
     lobe_renderer_destroy(&renderer);
@@ -226,16 +226,16 @@ static lobe_result try_scene(const sweep_job *job, const sweep_subject *subject,
 /// NULL, and the entry says why, where the scene cannot be opened or drawn.
 static lobe_result open_scene(const sweep_job *job, const sweep_subject *subject,
                               sweep_scene *entry, lobe_scene **scene) {
-    reason_log kept = {.log = job->bench.log};
-    const lobe_log log = {.write = keep_reason, .user = &kept};
-    if (try_scene(job, subject, &log, scene) == LOBE_OK) {
+    reason_log kept = {.host = job->bench.host};
+    const lobe_host host = {.write = keep_reason, .user = &kept};
+    if (try_scene(job, subject, &host, scene) == LOBE_OK) {
         for (size_t i = 0; i < (*scene)->instance_count; ++i)
             entry->triangles += (*scene)->meshes[(*scene)->instances[i].mesh].index_count / 3;
         return LOBE_OK;
     }
     lobe_scene_destroy(scene);
     progress_spare(job->bench.progress, work_of(job, subject));
-    lobe_log_print(job->bench.log, LOBE_LOG_WARNING, "%s: skipped: %s", entry->name, kept.reason);
+    lobe_host_log(job->bench.host, LOBE_LOG_WARNING, "%s: skipped: %s", entry->name, kept.reason);
     entry->skipped = strdup(kept.reason);
     return entry->skipped ? LOBE_OK : out_of_memory(job);
 }
@@ -332,7 +332,7 @@ static lobe_result check_former(const sweep_job *job, const subject_list *list,
 static lobe_result write_results(const sweep_job *job, const subject_list *list,
                                  sweep_results *results) {
     results->complete = count_done(job, results, list) == list->count;
-    return sweep_results_write(job->json, results, job->bench.log);
+    return sweep_results_write(job->json, results, job->bench.host);
 }
 
 static void expect_work(const sweep_job *job, const sweep_results *results,
@@ -355,7 +355,7 @@ static lobe_result measure_scenes(const sweep_job *job, const subject_list *list
             continue;
         result = measure_scene(job, &list->subjects[i], results);
         if (result == LOBE_OK)
-            result = device_options_check(job->bench.device, job->bench.log);
+            result = device_options_check(job->bench.device, job->bench.host);
         if (result == LOBE_OK)
             result = write_results(job, list, results);
     }
@@ -366,21 +366,21 @@ static lobe_result measure_scenes(const sweep_job *job, const subject_list *list
 static lobe_result make_plans(sweep_job *job) {
     const bench_job *bench = &job->bench;
     sweep_plan_request request = {bench->filters, bench->filter_count, false, job->knobs};
-    lobe_result result = sweep_plan_make(&request, bench->log, &job->plan);
+    lobe_result result = sweep_plan_make(&request, bench->host, &job->plan);
     request.environment = true;
-    return result == LOBE_OK ? sweep_plan_make(&request, bench->log, &job->environment_plan)
+    return result == LOBE_OK ? sweep_plan_make(&request, bench->host, &job->environment_plan)
                              : result;
 }
 
 static lobe_result check_outcome(const sweep_job *job, const subject_list *list,
                                  const sweep_results *results) {
     if (!results->complete)
-        lobe_log_print(job->bench.log, LOBE_LOG_WARNING,
-                       "interrupted: %s holds %zu of %zu scenes, --resume goes on", job->json,
-                       count_done(job, results, list), list->count);
+        lobe_host_log(job->bench.host, LOBE_LOG_WARNING,
+                      "interrupted: %s holds %zu of %zu scenes, --resume goes on", job->json,
+                      count_done(job, results, list), list->count);
     if (results->complete && results->row_count == 0)
-        return lobe_log_fail(job->bench.log, LOBE_ERROR_NOT_FOUND, "%s: no scene could be measured",
-                             job->json);
+        return lobe_host_fail(job->bench.host, LOBE_ERROR_NOT_FOUND,
+                              "%s: no scene could be measured", job->json);
     return LOBE_OK;
 }
 
@@ -388,7 +388,7 @@ lobe_result sweep_run(sweep_job *job, const option_list *scenes, const option_li
     sweep_results results = {0};
     subject_list list = {0};
     lobe_result result =
-        sweep_subjects_list(scenes, environments, job->bench.log, &list.subjects, &list.count);
+        sweep_subjects_list(scenes, environments, job->bench.host, &list.subjects, &list.count);
     if (result == LOBE_OK)
         result = make_plans(job);
     if (result == LOBE_OK)

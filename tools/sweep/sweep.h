@@ -94,7 +94,7 @@ typedef struct sweep_plan_request {
 /// the default; a supersampling filter only with its defaults. Of a filter given twice the second
 /// is passed over. Free with sweep_plan_free. Errors: LOBE_ERROR_INVALID_ARGUMENT (a value that its
 /// own knob refuses), LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result sweep_plan_make(const sweep_plan_request *request, const lobe_log *log,
+lobe_result sweep_plan_make(const sweep_plan_request *request, const lobe_host *host,
                             sweep_plan *plan);
 void sweep_plan_free(sweep_plan *plan);
 
@@ -110,7 +110,7 @@ size_t sweep_variant_settings(const sweep_variant *variant, sweep_setting *setti
 /// Every scene in every environment, scene by scene. Free with sweep_subjects_free, after a failure
 /// too. Errors: LOBE_ERROR_INVALID_ARGUMENT (two would have one name), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result sweep_subjects_list(const option_list *scenes, const option_list *environments,
-                                const lobe_log *log, sweep_subject **subjects, size_t *count);
+                                const lobe_host *host, sweep_subject **subjects, size_t *count);
 void sweep_subjects_free(sweep_subject **subjects, size_t count);
 
 /// Whether it can be known to have an environment before it is opened.

@@ -8,18 +8,18 @@ lobe_result viewer_frame_open(const viewer_device *device, viewer_frame *frame) 
                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                           .queueFamilyIndex = device->vulkan.queue_family};
     const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    lobe_result result =
-        VULKAN_CHECK(&device->log, vkCreateCommandPool(vulkan, &pool, NULL, &frame->pool), "frame");
+    lobe_result result = VULKAN_CHECK(
+        &device->host, vkCreateCommandPool(vulkan, &pool, NULL, &frame->pool), "frame");
     if (result == LOBE_OK)
         result =
-            VULKAN_CHECK(&device->log, vkCreateFence(vulkan, &fence, NULL, &frame->done), "frame");
+            VULKAN_CHECK(&device->host, vkCreateFence(vulkan, &fence, NULL, &frame->done), "frame");
     const VkCommandBufferAllocateInfo commands = {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .commandPool = frame->pool,
         .commandBufferCount = VIEWER_COMMANDS};
     if (result == LOBE_OK)
         result = VULKAN_CHECK(
-            &device->log, vkAllocateCommandBuffers(vulkan, &commands, frame->commands), "frame");
+            &device->host, vkAllocateCommandBuffers(vulkan, &commands, frame->commands), "frame");
     if (result != LOBE_OK)
         viewer_frame_close(device, frame);
     return result;
@@ -42,11 +42,11 @@ lobe_result viewer_frame_finish(const viewer_device *device, viewer_frame *frame
     if (!frame->under_way)
         return LOBE_OK;
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkWaitForFences(vulkan, 1, &frame->done, VK_TRUE, UINT64_MAX), "frame");
+        &device->host, vkWaitForFences(vulkan, 1, &frame->done, VK_TRUE, UINT64_MAX), "frame");
     if (result != LOBE_OK)
         return result;
     frame->under_way = false;
-    result = VULKAN_CHECK(&device->log, vkResetFences(vulkan, 1, &frame->done), "frame");
+    result = VULKAN_CHECK(&device->host, vkResetFences(vulkan, 1, &frame->done), "frame");
     for (int i = 0; i < 2 && result == LOBE_OK; ++i)
         result = viewer_side_finish(&sides[i]);
     return result;
@@ -55,11 +55,11 @@ lobe_result viewer_frame_finish(const viewer_device *device, viewer_frame *frame
 static lobe_result begin(const viewer_device *device, VkCommandBuffer commands) {
     const VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    return VULKAN_CHECK(&device->log, vkBeginCommandBuffer(commands, &begin), "frame");
+    return VULKAN_CHECK(&device->host, vkBeginCommandBuffer(commands, &begin), "frame");
 }
 
 static lobe_result end(const viewer_device *device, VkCommandBuffer commands) {
-    return VULKAN_CHECK(&device->log, vkEndCommandBuffer(commands), "frame");
+    return VULKAN_CHECK(&device->host, vkEndCommandBuffer(commands), "frame");
 }
 
 /// A side of its own command buffer: that of one which fails is not submitted.
@@ -93,7 +93,7 @@ static lobe_result submit(const viewer_device *device, viewer_frame *frame,
         .pSignalSemaphores = &swapchain->drawn[swapchain->current],
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkQueueSubmit(device->vulkan.queue, 1, &submit, frame->done), "frame");
+        &device->host, vkQueueSubmit(device->vulkan.queue, 1, &submit, frame->done), "frame");
     frame->under_way = result == LOBE_OK;
     return result;
 }
@@ -106,7 +106,7 @@ lobe_result viewer_frame_draw(const viewer_view *view, viewer_frame *frame, view
     VkCommandBuffer recorded[VIEWER_COMMANDS];
     uint32_t count = 0;
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkResetCommandPool(device->vulkan.device, frame->pool, 0), "frame");
+        &device->host, vkResetCommandPool(device->vulkan.device, frame->pool, 0), "frame");
     for (int i = 0; i < side_count && result == LOBE_OK; ++i) {
         bool is_recorded;
         result = record_side(view, &sides[i], frame->commands[i], &is_recorded);

@@ -67,10 +67,10 @@ static void set_title(const viewer *v) {
 lobe_result viewer_open_first_scene(viewer *v) {
     const viewer_request *request = v->request;
     lobe_result result =
-        scene_options_open(&v->opening, request->scene, request->size, &v->log, &v->scene);
+        scene_options_open(&v->opening, request->scene, request->size, &v->host, &v->scene);
     if (result == LOBE_OK && !view_options_apply(&request->view, request->lights, v->scene))
-        result = lobe_log_fail(&v->log, LOBE_ERROR_INVALID_ARGUMENT,
-                               "camera: eye and target are the same point, it looks nowhere");
+        result = lobe_host_fail(&v->host, LOBE_ERROR_INVALID_ARGUMENT,
+                                "camera: eye and target are the same point, it looks nowhere");
     if (result != LOBE_OK) {
         lobe_release(request->lights); // else they are the scene's now
         return result;
@@ -92,7 +92,7 @@ static lobe_result give_scene(viewer *v, const lobe_scene *scene) {
 static lobe_result replace_scene(viewer *v, const char *name) {
     const uint32_t size[2] = {v->view.width, v->view.height};
     lobe_scene *scene = NULL;
-    if (scene_options_open(&v->opening, name, size, &v->log, &scene) != LOBE_OK)
+    if (scene_options_open(&v->opening, name, size, &v->host, &scene) != LOBE_OK)
         return LOBE_OK;
     if (give_scene(v, scene) != LOBE_OK) {
         lobe_scene_destroy(&scene);
@@ -113,7 +113,7 @@ static lobe_result replace_scene(viewer *v, const char *name) {
 
 static lobe_result replace_environment(viewer *v, const char *name) {
     lobe_environment *environment = NULL;
-    if (strcmp(name, "none") != 0 && lobe_environment_open(name, &v->log, &environment) != LOBE_OK)
+    if (strcmp(name, "none") != 0 && lobe_environment_open(name, &v->host, &environment) != LOBE_OK)
         return LOBE_OK;
     lobe_scene_set_environment(v->scene, environment);
     v->scene->environment_visible = environment != NULL;

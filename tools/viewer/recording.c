@@ -68,18 +68,18 @@ static lobe_result write_file(const viewer *v, const viewer_side *side, const lo
             .times = times,
             .depth = LOBE_EXR_HALF,
         },
-        &v->log);
+        &v->host);
 }
 
 static lobe_result record(viewer *v, viewer_side *side, const char *path) {
     lobe_frame frame = {0};
     lobe_profile *profile = NULL;
     lobe_profile_summary times;
-    lobe_result result = lobe_profile_create(&v->log, &profile);
+    lobe_result result = lobe_profile_create(&v->host, &profile);
     if (result == LOBE_OK)
         result = draw(v, side, &frame);
     if (result == LOBE_OK)
-        result = timing_add(profile, &frame, &v->log);
+        result = timing_add(profile, &frame, &v->host);
     if (result == LOBE_OK)
         result = lobe_profile_statistics(profile, &times);
     if (result == LOBE_OK)
@@ -93,8 +93,8 @@ void viewer_record(viewer *v) {
     char path[PATH_MAX], text[PATH_MAX + 32];
     v->records_frame = false;
     if (!choose_path(v, path))
-        lobe_log_print(&v->log, LOBE_LOG_ERROR, "%s: no name is free for a recorded frame",
-                       v->request->folder);
+        lobe_host_log(&v->host, LOBE_LOG_ERROR, "%s: no name is free for a recorded frame",
+                      v->request->folder);
     else if (record(v, &v->sides[0], path) == LOBE_OK) {
         snprintf(text, sizeof text, "recorded %s", path);
         viewer_say(v, text);

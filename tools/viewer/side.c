@@ -16,7 +16,7 @@ bool viewer_side_supersamples(const viewer_side *side) {
 
 lobe_result viewer_side_open(const viewer_view *view, viewer_side *side) {
     side->stale = true;
-    lobe_result result = lobe_renderer_create(view->device->lobe, view->log, &side->renderer);
+    lobe_result result = lobe_renderer_create(view->device->lobe, view->host, &side->renderer);
     if (result == LOBE_OK)
         result = viewer_side_set_scene(view, side);
     return result;
@@ -112,9 +112,9 @@ static lobe_result start_mean(const viewer_view *view, viewer_side *side) {
     }
     side->sum = calloc(count, sizeof *side->sum);
     if (!side->sum)
-        return lobe_log_fail(view->log, LOBE_ERROR_OUT_OF_MEMORY, "reference: out of memory");
+        return lobe_host_fail(view->host, LOBE_ERROR_OUT_OF_MEMORY, "reference: out of memory");
     lobe_result result = lobe_image_allocate(&side->mean_image, LOBE_FORMAT_RGBA32_FLOAT,
-                                             view->width, view->height, view->log);
+                                             view->width, view->height, view->host);
     if (result == LOBE_OK)
         result = lobe_texture_create(
             view->device->lobe,

@@ -57,7 +57,7 @@ typedef struct viewer_view {
     uint32_t width, height;   ///< pixels
     uint32_t maximum_samples; ///< at which refining ends
     const char *cache;        ///< folder of filtered environments; NULL: none
-    const lobe_log *log;
+    const lobe_host *host;
 } viewer_view;
 
 /// Whether its picture is the mean of many samples. Normals and depth never are: one sample shows

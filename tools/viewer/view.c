@@ -14,13 +14,13 @@ typedef struct view_texts {
     option_list assignments; ///< "KNOB=VALUE"
 } view_texts;
 
-static int choose_filter(const view_texts *texts, viewer_request *request, const lobe_log *log) {
-    if (lobe_filter_find(texts->filter_name, log, &request->filter) != LOBE_OK)
+static int choose_filter(const view_texts *texts, viewer_request *request, const lobe_host *host) {
+    if (lobe_filter_find(texts->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
     for (size_t i = 0; i < texts->assignments.count; ++i)
         if (lobe_settings_set(request->filter, &request->settings, texts->assignments.values[i],
-                              log) != LOBE_OK)
+                              host) != LOBE_OK)
             return 2;
     return 0;
 }
@@ -35,15 +35,15 @@ static int check_usage(const option_table *table, const viewer_request *request)
 
 static int run_request(const option_table *table, const view_texts *texts,
                        viewer_request *request) {
-    const lobe_log log = console_log(false);
+    const lobe_host host = console_host(false);
     int status = check_usage(table, request);
     if (status == 0)
-        status = choose_filter(texts, request, &log);
+        status = choose_filter(texts, request, &host);
     if (status == 0)
         status = view_options_parse_lights(table, &request->view, &request->lights);
     if (status != 0)
         return status;
-    return viewer_run(request, &log) == LOBE_OK ? 0 : 1;
+    return viewer_run(request, &host) == LOBE_OK ? 0 : 1;
 }
 
 /// The keys, from the table that the window's help is made of.

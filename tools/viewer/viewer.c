@@ -97,7 +97,7 @@ static void write_log(void *user, lobe_log_level level, const char *message) {
 // ---------------------------------------------------------------------------------------------
 // Opening and closing
 
-static void prepare(const viewer_request *request, const lobe_log *console, viewer *v) {
+static void prepare(const viewer_request *request, const lobe_host *console, viewer *v) {
     const lobe_filter *reference = NULL;
     for (size_t i = 0; i < lobe_filter_count() && !reference; ++i)
         if (lobe_filter_supersamples(lobe_filter_get(i)))
@@ -105,7 +105,7 @@ static void prepare(const viewer_request *request, const lobe_log *console, view
     *v = (viewer){
         .request = request,
         .console = *console,
-        .log = {write_log, v},
+        .host = {write_log, v},
         .opening = request->opening,
         .look = {.exposure = request->exposure, .divider = 0.5, .error_maximum = 0.5},
         .sides = {{.filter = request->filter, .settings = request->settings},
@@ -114,7 +114,7 @@ static void prepare(const viewer_request *request, const lobe_log *console, view
         .redraws = REDRAWS,
     };
     v->view.device = &v->device;
-    v->view.log = &v->log;
+    v->view.host = &v->host;
     v->view.maximum_samples = request->samples;
     v->view.cache = cache_options_find(&request->cache, v->cache_folder);
     lobe_settings_default(reference, &v->sides[1].settings);
@@ -299,11 +299,11 @@ static lobe_result show_until_closed(viewer *v) {
 static lobe_result check_faults(const viewer *v) {
     const unsigned long long count = v->device.fault_count;
     return count == 0 ? LOBE_OK
-                      : lobe_log_fail(&v->log, LOBE_ERROR_UNSUPPORTED,
-                                      "the validation layer found %llu faults", count);
+                      : lobe_host_fail(&v->host, LOBE_ERROR_UNSUPPORTED,
+                                       "the validation layer found %llu faults", count);
 }
 
-lobe_result viewer_run(const viewer_request *request, const lobe_log *console) {
+lobe_result viewer_run(const viewer_request *request, const lobe_host *console) {
     viewer v;
     prepare(request, console, &v);
     lobe_result result = viewer_open_first_scene(&v);

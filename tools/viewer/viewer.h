@@ -44,8 +44,8 @@ typedef enum viewer_drag {
 /// The whole program, from open to close.
 typedef struct viewer {
     const viewer_request *request;
-    lobe_log console;
-    lobe_log log; ///< to the console, and the last line into `message`
+    lobe_host console;
+    lobe_host host; ///< to the console, and the last line into `message`
     char message[VIEWER_MESSAGE_SIZE];
     struct GLFWwindow *window;
     viewer_device device;
@@ -85,7 +85,7 @@ typedef struct viewer {
 
 /// Opens the window, shows the scene until the window is closed. Returns after a line on the log
 /// where something is in the way.
-lobe_result viewer_run(const viewer_request *request, const lobe_log *console);
+lobe_result viewer_run(const viewer_request *request, const lobe_host *console);
 
 // ---------------------------------------------------------------------------------------------
 // What keys and panels ask for

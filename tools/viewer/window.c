@@ -152,8 +152,8 @@ static void listen(viewer *v) {
 static lobe_result fail(const viewer *v, const char *what) {
     const char *why = NULL;
     glfwGetError(&why);
-    return lobe_log_fail(&v->log, LOBE_ERROR_UNSUPPORTED, "window: %s: %s", what,
-                         why ? why : "GLFW does not say why");
+    return lobe_host_fail(&v->host, LOBE_ERROR_UNSUPPORTED, "window: %s: %s", what,
+                          why ? why : "GLFW does not say why");
 }
 
 lobe_result viewer_window_open(viewer *v) {
@@ -172,8 +172,8 @@ lobe_result viewer_window_open(viewer *v) {
     float other;
     glfwGetWindowContentScale(v->window, &v->scale, &other);
     return imgui_open(v->window, v->scale) ? LOBE_OK
-                                           : lobe_log_fail(&v->log, LOBE_ERROR_OUT_OF_MEMORY,
-                                                           "window: panels cannot be opened");
+                                           : lobe_host_fail(&v->host, LOBE_ERROR_OUT_OF_MEMORY,
+                                                            "window: panels cannot be opened");
 }
 
 void viewer_window_close(viewer *v) {

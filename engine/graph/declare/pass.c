@@ -18,7 +18,7 @@ lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const c
     const char *kept = engine_arena_copy_text(&graph->arena, name);
     uint32_t index = graph->dependencies.pass_count;
     if (!pass || !kept ||
-        !engine_array_reserve(graph->device->log.allocator, (void **)&graph->passes,
+        !engine_array_reserve(graph->device->host.allocator, (void **)&graph->passes,
                               &graph->pass_capacity, (uint64_t)index + 1, sizeof *graph->passes) ||
         engine_dependency_add_pass(&graph->dependencies, kept) == ENGINE_DEPENDENCY_NONE) {
         engine_graph_fail_memory(graph);

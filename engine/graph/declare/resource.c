@@ -21,7 +21,7 @@ bool engine_graph_may_declare(lobe_graph *graph, const char *what) {
 lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
                                         const engine_dependency_resource *dependency) {
     uint32_t index = graph->dependencies.resource_count;
-    if (!engine_array_reserve(graph->device->log.allocator, (void **)&graph->resources,
+    if (!engine_array_reserve(graph->device->host.allocator, (void **)&graph->resources,
                               &graph->resource_capacity, (uint64_t)index + 1,
                               sizeof *graph->resources)) {
         engine_graph_fail_memory(graph);

@@ -109,7 +109,7 @@ static lobe_result create_pool(lobe_graph *graph) {
         .poolSizeCount = used,
         .pPoolSizes = sizes,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkCreateDescriptorPool(device->vulkan, &create, device->callbacks,
                                                &graph->flight->descriptors),
                         "render graph");
@@ -126,7 +126,7 @@ static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
             large_enough = false;
         }
     if (large_enough)
-        return VULKAN_CHECK(&device->log,
+        return VULKAN_CHECK(&device->host,
                             vkResetDescriptorPool(device->vulkan, flight->descriptors, 0),
                             "render graph");
     vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
@@ -141,7 +141,7 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
     engine_graph_flight *flight = graph->flight;
     uint32_t filled = 0;
     VkDescriptorSetLayout *layouts = engine_arena_allocate(&graph->arena, count * sizeof *layouts);
-    if (!layouts || !engine_array_reserve(graph->device->log.allocator, (void **)&flight->sets,
+    if (!layouts || !engine_array_reserve(graph->device->host.allocator, (void **)&flight->sets,
                                           &flight->set_capacity, count, sizeof *flight->sets))
         return engine_graph_fail_memory(graph);
     for (command_walk walk = {0}; next_command(graph, &walk);)
@@ -153,7 +153,7 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
         .descriptorSetCount = count,
         .pSetLayouts = layouts,
     };
-    return VULKAN_CHECK(&graph->device->log,
+    return VULKAN_CHECK(&graph->device->host,
                         vkAllocateDescriptorSets(graph->device->vulkan, &allocate, flight->sets),
                         "render graph");
 }

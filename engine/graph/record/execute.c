@@ -64,10 +64,10 @@ static lobe_result begin_recording(lobe_graph *graph) {
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
+        &device->host, vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
         "render graph");
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(&device->log, vkBeginCommandBuffer(graph->commands, &begin),
+        result = VULKAN_CHECK(&device->host, vkBeginCommandBuffer(graph->commands, &begin),
                               "render graph");
     return result;
 }
@@ -98,7 +98,7 @@ static lobe_result record(lobe_graph *graph, VkCommandBuffer host) {
         result = record_passes(graph);
     if (result == LOBE_OK && !host)
         result =
-            VULKAN_CHECK(&graph->device->log, vkEndCommandBuffer(graph->commands), "render graph");
+            VULKAN_CHECK(&graph->device->host, vkEndCommandBuffer(graph->commands), "render graph");
     return result;
 }
 
@@ -121,7 +121,7 @@ static lobe_result prepare(lobe_graph *graph) {
 static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     engine_graph_flight *flight = graph->flight;
     lobe_result result = LOBE_OK;
-    engine_graph_doubt_retained(graph);
+    engine_graph_invalidate_retained(graph);
     if (!submission || !submission->commands)
         result =
             engine_device_submit(graph->device, graph->commands, submission, &flight->submission);
@@ -156,6 +156,6 @@ lobe_result engine_graph_finish(lobe_graph *graph) {
         result = engine_graph_read_timestamps(graph);
     if (result == LOBE_OK)
         return engine_graph_report_executed(graph);
-    engine_graph_doubt_retained(graph);
+    engine_graph_invalidate_retained(graph);
     return result;
 }

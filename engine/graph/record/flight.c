@@ -15,7 +15,7 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
     lobe_result result = LOBE_OK;
     if (!flight->command_pool)
         result = VULKAN_CHECK(
-            &device->log,
+            &device->host,
             vkCreateCommandPool(device->vulkan, &pool, device->callbacks, &flight->command_pool),
             "render graph");
     if (result != LOBE_OK)
@@ -26,7 +26,7 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkAllocateCommandBuffers(device->vulkan, &commands, &flight->commands),
                         "render graph");
 }

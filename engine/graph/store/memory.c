@@ -68,13 +68,13 @@ static lobe_result allocate_tables(lobe_graph *graph) {
     for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
         count += is_placed(graph, n);
     transients->objects =
-        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->objects);
+        lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->objects);
     transients->requests =
-        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->requests);
+        lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->requests);
     transients->blocks =
-        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->blocks);
+        lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->blocks);
     transients->memory =
-        lobe_allocate(graph->device->log.allocator, count + 1, sizeof *transients->memory);
+        lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->memory);
     if (!transients->objects || !transients->requests || !transients->blocks || !transients->memory)
         return engine_graph_fail_memory(graph);
     transients->count = count;
@@ -148,7 +148,7 @@ static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
     for (uint32_t n = 0; n < transients->count; n++)
         if (transients->blocks[n] == block)
             scratch[count++] = transients->requests[n];
-    if (!engine_alias_plan(graph->device->log.allocator, scratch, count, &shared, &separate))
+    if (!engine_alias_plan(graph->device->host.allocator, scratch, count, &shared, &separate))
         return false;
     for (uint32_t n = 0, m = 0; n < transients->count; n++)
         if (transients->blocks[n] == block)
@@ -181,7 +181,7 @@ static lobe_result allocate_block(lobe_graph *graph, uint32_t block, const block
 static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
     engine_graph_transients *transients = &graph->transients;
     engine_alias_request *scratch =
-        lobe_allocate(graph->device->log.allocator, transients->count + 1, sizeof *scratch);
+        lobe_allocate(graph->device->host.allocator, transients->count + 1, sizeof *scratch);
     lobe_result result = scratch ? LOBE_OK : engine_graph_fail_memory(graph);
     for (uint32_t n = 0; result == LOBE_OK && n < transients->block_count; n++) {
         if (!plan_block(graph, n, &blocks[n], scratch))
@@ -211,7 +211,7 @@ static lobe_result bind_objects(lobe_graph *graph) {
 static lobe_result make_transients(lobe_graph *graph) {
     lobe_result result = allocate_tables(graph);
     block_plan *blocks =
-        lobe_allocate(graph->device->log.allocator, graph->transients.count + 1, sizeof *blocks);
+        lobe_allocate(graph->device->host.allocator, graph->transients.count + 1, sizeof *blocks);
     if (result == LOBE_OK && !blocks)
         result = engine_graph_fail_memory(graph);
     if (result == LOBE_OK)

@@ -37,11 +37,11 @@ lobe_result engine_graph_bind_object(lobe_device *device, const char *name,
                                      const engine_graph_object *object,
                                      const engine_allocation *allocation, uint64_t offset) {
     if (object->image)
-        return VULKAN_CHECK(&device->log,
+        return VULKAN_CHECK(&device->host,
                             vkBindImageMemory(device->vulkan, object->image, allocation->memory,
                                               allocation->offset + offset),
                             "image '%s'", name);
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkBindBufferMemory(device->vulkan, object->buffer, allocation->memory,
                                            allocation->offset + offset),
                         "buffer '%s'", name);
@@ -65,10 +65,10 @@ void engine_graph_free_object(lobe_device *device, engine_graph_object *object) 
 
 static lobe_result add_view(lobe_device *device, const engine_graph_resource *resource,
                             VkImageViewType type, const lobe_range *range) {
-    engine_graph_view *added = lobe_allocate(device->log.allocator, 1, sizeof *added);
+    engine_graph_view *added = lobe_allocate(device->host.allocator, 1, sizeof *added);
     if (!added)
-        return lobe_log_fail(&device->log, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
-                             resource->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
+                              resource->name);
     engine_view_parameters parameters = {
         .name = resource->name,
         .image = resource->object->image,

@@ -120,7 +120,7 @@ void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
 static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) {
     const engine_graph_resource *resource = &graph->resources[index];
     uint32_t subresources = resource->levels * resource->layers;
-    const lobe_allocator *allocator = graph->device->log.allocator;
+    const lobe_allocator *allocator = graph->device->host.allocator;
     engine_graph_retained *kept = lobe_allocate(allocator, 1, sizeof *kept);
     if (!kept)
         return NULL;
@@ -216,7 +216,7 @@ static void forget_subresource(lobe_graph *graph, uint32_t access, uint32_t subr
     graph->resources[resource].retained->stamps[subresource] = ENGINE_STAMP_NONE;
 }
 
-void engine_graph_doubt_retained(lobe_graph *graph) {
+void engine_graph_invalidate_retained(lobe_graph *graph) {
     for_each_written(graph, forget_subresource);
 }
 

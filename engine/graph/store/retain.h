@@ -15,7 +15,7 @@ lobe_result engine_graph_release_retained(lobe_graph *graph);
 lobe_result engine_graph_place_retained(lobe_graph *graph);
 
 /// Execution: what running passes write holds nothing reliable until they are done.
-void engine_graph_doubt_retained(lobe_graph *graph);
+void engine_graph_invalidate_retained(lobe_graph *graph);
 /// Execution: remembers what each subresource holds now.
 void engine_graph_record_retained(lobe_graph *graph);
 

@@ -230,7 +230,7 @@ static lobe_result decode_by_openexr(exr_reader *reader) {
             source.channels[component] = reader->channels->entries[index].name.str;
     }
     char message[OPENEXR_MESSAGE_SIZE];
-    if (!openexr_read(&source, message))
+    if (!third_party_openexr_read(&source, message))
         return engine_exr_fail_damaged(&reader->input, message);
     if (grey)
         spread_grey(reader);
@@ -268,7 +268,7 @@ lobe_result engine_exr_decode_level(exr_reader *reader, uint32_t level, lobe_ima
     if (result == LOBE_OK)
         result =
             lobe_image_allocate(image, LOBE_FORMAT_RGBA32_FLOAT, (uint32_t)reader->display.width,
-                                (uint32_t)reader->display.height, reader->input.log);
+                                (uint32_t)reader->display.height, reader->input.host);
     if (result != LOBE_OK)
         return result;
     reader->image = image;

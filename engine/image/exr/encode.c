@@ -67,7 +67,7 @@ static exr_result_t reserve(exr_writer *writer, const exr_block *block) {
     if (size <= writer->block_size)
         return EXR_ERR_SUCCESS;
     lobe_release(writer->block);
-    writer->block = lobe_allocate(lobe_log_allocator(writer->log), size, 1);
+    writer->block = lobe_allocate(lobe_host_allocator(writer->host), size, 1);
     writer->block_size = writer->block != NULL ? size : 0;
     return writer->block != NULL ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
 }

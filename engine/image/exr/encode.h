@@ -23,7 +23,7 @@ typedef struct exr_channel {
 /// A file that is being written into memory.
 typedef struct exr_writer {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
     uint32_t width, height; ///< texels of the finest level
     uint32_t level_count;   ///< above 1: MIP levels in tiles
     exr_channel *channels;  ///< sorted by name, as the format demands

@@ -52,24 +52,24 @@ lobe_result engine_exr_fail(exr_input *input, exr_result_t code) {
     const char *message =
         input->message[0] != '\0' ? input->message : exr_get_default_error_message(code);
     if (is_out_of_memory(code, message))
-        return lobe_log_fail(input->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
-                             input->path);
+        return lobe_host_fail(input->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
+                              input->path);
     bool unsupported = code == EXR_ERR_FEATURE_NOT_IMPLEMENTED;
-    return lobe_log_fail(input->log, unsupported ? LOBE_ERROR_UNSUPPORTED : LOBE_ERROR_MALFORMED,
-                         "%s: %s OpenEXR file: %s", input->path,
-                         unsupported ? "unsupported" : "damaged", message);
+    return lobe_host_fail(input->host, unsupported ? LOBE_ERROR_UNSUPPORTED : LOBE_ERROR_MALFORMED,
+                          "%s: %s OpenEXR file: %s", input->path,
+                          unsupported ? "unsupported" : "damaged", message);
 }
 
 lobe_result engine_exr_fail_damaged(const exr_input *input, const char *cause) {
-    return lobe_log_fail(input->log, LOBE_ERROR_MALFORMED, "%s: damaged OpenEXR file: %s",
-                         input->path, cause);
+    return lobe_host_fail(input->host, LOBE_ERROR_MALFORMED, "%s: damaged OpenEXR file: %s",
+                          input->path, cause);
 }
 
 static lobe_result open_context(exr_input *input) {
     static const uint8_t magic[4] = {0x76, 0x2f, 0x31, 0x01};
     if (input->size < 4 || memcmp(input->data, magic, 4) != 0)
-        return lobe_log_fail(input->log, LOBE_ERROR_MALFORMED, "%s: not an OpenEXR file",
-                             input->path);
+        return lobe_host_fail(input->host, LOBE_ERROR_MALFORMED, "%s: not an OpenEXR file",
+                              input->path);
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
     settings.error_handler_fn = remember_error;
     settings.user_data = input;
@@ -81,12 +81,12 @@ static lobe_result open_context(exr_input *input) {
     return code == EXR_ERR_SUCCESS ? LOBE_OK : engine_exr_fail(input, code);
 }
 
-lobe_result engine_exr_open(const exr_origin *origin, const lobe_log *log, exr_input *input) {
+lobe_result engine_exr_open(const exr_origin *origin, const lobe_host *host, exr_input *input) {
     *input =
-        (exr_input){.path = origin->path, .log = log, .data = origin->data, .size = origin->size};
+        (exr_input){.path = origin->path, .host = host, .data = origin->data, .size = origin->size};
     if (origin->data)
         return open_context(input);
-    lobe_result result = lobe_file_read(origin->path, NULL, log, &input->read, &input->size);
+    lobe_result result = lobe_file_read(origin->path, NULL, host, &input->read, &input->size);
     input->data = input->read;
     return result == LOBE_OK ? open_context(input) : result;
 }

@@ -5,13 +5,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 /// An OpenEXR file in memory, open for reading. It must not be moved while it is open.
 typedef struct exr_input {
     const char *path;
-    const lobe_log *log;
+    const lobe_host *host;
     const uint8_t *data;
     size_t size;
     uint8_t *read; ///< the same, where it was read from the file system; owned
@@ -27,7 +27,7 @@ typedef struct exr_origin {
 } exr_origin;
 
 /// Overwrites `input`; engine_exr_close it in all cases.
-lobe_result engine_exr_open(const exr_origin *origin, const lobe_log *log, exr_input *input);
+lobe_result engine_exr_open(const exr_origin *origin, const lobe_host *host, exr_input *input);
 void engine_exr_close(exr_input *input);
 
 /// Logs what OpenEXRCore found fault with.

@@ -102,14 +102,14 @@ static bool has_flat_part(const exr_reader *reader) {
 
 static lobe_result choose_channels(exr_reader *reader, const char *layer) {
     if (!has_flat_part(reader))
-        return lobe_log_fail(reader->input.log, LOBE_ERROR_UNSUPPORTED,
-                             "%s: deep OpenEXR data is not supported", reader->input.path);
+        return lobe_host_fail(reader->input.host, LOBE_ERROR_UNSUPPORTED,
+                              "%s: deep OpenEXR data is not supported", reader->input.path);
     if (!find_part(reader, layer, false) && (layer == NULL || !find_part(reader, layer, true))) {
         if (layer != NULL)
-            return lobe_log_fail(reader->input.log, LOBE_ERROR_NOT_FOUND, "%s: has no layer '%s'",
-                                 reader->input.path, layer);
-        return lobe_log_fail(reader->input.log, LOBE_ERROR_UNSUPPORTED,
-                             "%s: has neither channels R, G, B nor Y", reader->input.path);
+            return lobe_host_fail(reader->input.host, LOBE_ERROR_NOT_FOUND, "%s: has no layer '%s'",
+                                  reader->input.path, layer);
+        return lobe_host_fail(reader->input.host, LOBE_ERROR_UNSUPPORTED,
+                              "%s: has neither channels R, G, B nor Y", reader->input.path);
     }
     for (int index = 0; index < reader->channels->num_channels; index++) {
         if (reader->channels->entries[index].x_sampling < 1 ||
@@ -120,13 +120,13 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
         int source = reader->sources[component];
         if (source >= 0 && (reader->channels->entries[source].x_sampling != 1 ||
                             reader->channels->entries[source].y_sampling != 1))
-            return lobe_log_fail(reader->input.log, LOBE_ERROR_UNSUPPORTED,
-                                 "%s: subsampled channels are not supported", reader->input.path);
+            return lobe_host_fail(reader->input.host, LOBE_ERROR_UNSUPPORTED,
+                                  "%s: subsampled channels are not supported", reader->input.path);
     }
     if (find_channel(reader->channels, NULL, "RY") >= 0)
-        lobe_log_print(reader->input.log, LOBE_LOG_WARNING,
-                       "%s: colour differences RY and BY are ignored, the image is read as grey",
-                       reader->input.path);
+        lobe_host_log(reader->input.host, LOBE_LOG_WARNING,
+                      "%s: colour differences RY and BY are ignored, the image is read as grey",
+                      reader->input.path);
     return LOBE_OK;
 }
 
@@ -137,15 +137,15 @@ static lobe_result check_window(const exr_reader *reader, const exr_attr_box2i_t
                                 const char *name) {
     exr_block block = engine_exr_block_of_window(window);
     if (block.width < 1 || block.height < 1)
-        return lobe_log_fail(reader->input.log, LOBE_ERROR_MALFORMED,
-                             "%s: damaged OpenEXR file: the %s window is empty", reader->input.path,
-                             name);
+        return lobe_host_fail(reader->input.host, LOBE_ERROR_MALFORMED,
+                              "%s: damaged OpenEXR file: the %s window is empty",
+                              reader->input.path, name);
     if (block.width > LOBE_IMAGE_MAXIMUM_EXTENT || block.height > LOBE_IMAGE_MAXIMUM_EXTENT ||
         (uint64_t)block.width * (uint64_t)block.height > LOBE_EXR_MAXIMUM_TEXELS)
-        return lobe_log_fail(reader->input.log, LOBE_ERROR_LIMIT,
-                             "%s: the %s window of %lldx%lld texels is too large",
-                             reader->input.path, name, (long long)block.width,
-                             (long long)block.height);
+        return lobe_host_fail(reader->input.host, LOBE_ERROR_LIMIT,
+                              "%s: the %s window of %lldx%lld texels is too large",
+                              reader->input.path, name, (long long)block.width,
+                              (long long)block.height);
     return LOBE_OK;
 }
 
@@ -164,9 +164,9 @@ static lobe_result check_sizes(exr_reader *reader) {
     if (result == LOBE_OK)
         result = check_window(reader, &reader->display_window, "display");
     if (result == LOBE_OK && block_size > BLOCK_MAXIMUM_SIZE)
-        return lobe_log_fail(reader->input.log, LOBE_ERROR_LIMIT,
-                             "%s: blocks of %llu bytes are too large", reader->input.path,
-                             (unsigned long long)block_size);
+        return lobe_host_fail(reader->input.host, LOBE_ERROR_LIMIT,
+                              "%s: blocks of %llu bytes are too large", reader->input.path,
+                              (unsigned long long)block_size);
     return result;
 }
 
@@ -194,8 +194,8 @@ static lobe_result count_levels(exr_reader *reader) {
 }
 
 static lobe_result open_layer(exr_reader *reader, const exr_origin *origin, const char *layer,
-                              const lobe_log *log) {
-    lobe_result result = engine_exr_open(origin, log, &reader->input);
+                              const lobe_host *host) {
+    lobe_result result = engine_exr_open(origin, host, &reader->input);
     if (result == LOBE_OK)
         result = choose_channels(reader, layer);
     if (result == LOBE_OK)
@@ -211,11 +211,11 @@ static void close_layer(exr_reader *reader) {
     engine_exr_close(&reader->input);
 }
 
-lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *log,
+lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
                           lobe_image *image) {
     *image = (lobe_image){0};
     exr_reader reader = {0};
-    lobe_result result = open_layer(&reader, &(exr_origin){.path = path}, layer, log);
+    lobe_result result = open_layer(&reader, &(exr_origin){.path = path}, layer, host);
     if (result == LOBE_OK)
         result = engine_exr_decode_level(&reader, 0, image);
     if (result != LOBE_OK)
@@ -228,12 +228,12 @@ lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *l
 // All of a file
 
 static lobe_result fail_without_memory(const exr_reader *reader) {
-    return lobe_log_fail(reader->input.log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
-                         reader->input.path);
+    return lobe_host_fail(reader->input.host, LOBE_ERROR_OUT_OF_MEMORY,
+                          "%s: no memory to decode it", reader->input.path);
 }
 
 static lobe_result read_levels(exr_reader *reader, lobe_exr_contents *contents) {
-    contents->levels = lobe_allocate(lobe_log_allocator(reader->input.log), reader->level_count,
+    contents->levels = lobe_allocate(lobe_host_allocator(reader->input.host), reader->level_count,
                                      sizeof *contents->levels);
     if (contents->levels == NULL)
         return fail_without_memory(reader);
@@ -277,7 +277,7 @@ static bool copy_attribute(const lobe_allocator *allocator, const exr_attribute_
 }
 
 static lobe_result read_attributes(exr_reader *reader, lobe_exr_contents *contents) {
-    const lobe_allocator *allocator = lobe_log_allocator(reader->input.log);
+    const lobe_allocator *allocator = lobe_host_allocator(reader->input.host);
     int32_t count = 0;
     exr_result_t code = exr_get_attribute_count(reader->input.context, reader->part, &count);
     if (code != EXR_ERR_SUCCESS)
@@ -310,11 +310,11 @@ static lobe_exr_environment find_environment(const exr_reader *reader) {
     return kind == EXR_ENVMAP_CUBE ? LOBE_EXR_CUBE : LOBE_EXR_LATITUDE_LONGITUDE;
 }
 
-static lobe_result read_contents(const exr_origin *origin, const char *layer, const lobe_log *log,
+static lobe_result read_contents(const exr_origin *origin, const char *layer, const lobe_host *host,
                                  lobe_exr_contents *contents) {
     *contents = (lobe_exr_contents){0};
     exr_reader reader = {0};
-    lobe_result result = open_layer(&reader, origin, layer, log);
+    lobe_result result = open_layer(&reader, origin, layer, host);
     if (result == LOBE_OK)
         result = read_attributes(&reader, contents);
     if (result == LOBE_OK)
@@ -327,15 +327,15 @@ static lobe_result read_contents(const exr_origin *origin, const char *layer, co
     return result;
 }
 
-lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
+lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_host *host,
                                    lobe_exr_contents *contents) {
-    return read_contents(&(exr_origin){.path = path}, layer, log, contents);
+    return read_contents(&(exr_origin){.path = path}, layer, host, contents);
 }
 
 lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
-                                     const char *layer, const lobe_log *log,
+                                     const char *layer, const lobe_host *host,
                                      lobe_exr_contents *contents) {
-    return read_contents(&(exr_origin){name, data, size}, layer, log, contents);
+    return read_contents(&(exr_origin){name, data, size}, layer, host, contents);
 }
 
 const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,

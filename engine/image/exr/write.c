@@ -47,9 +47,9 @@ static lobe_result add_channel(exr_writer *writer, const lobe_exr_layer *layer, 
     int length = snprintf(channel->name, sizeof channel->name, "%s%s%s",
                           prefixed ? layer->name : "", prefixed ? "." : "", name);
     if (name[0] == '\0' || length > EXR_NAME_MAXIMUM_LENGTH)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: a channel name must have 1 to %d bytes", writer->path,
-                             EXR_NAME_MAXIMUM_LENGTH);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: a channel name must have 1 to %d bytes", writer->path,
+                              EXR_NAME_MAXIMUM_LENGTH);
     channel->layer = layer;
     channel->component = component;
     return LOBE_OK;
@@ -67,20 +67,20 @@ static lobe_result check_level(const exr_writer *writer, const lobe_exr_layer *l
                                uint32_t level) {
     const lobe_image *image = &layer->image[level];
     if (!is_float_format(image->format))
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: layer '%s' has format %s, which is not a float format",
-                             writer->path, layer_name(layer), lobe_format_name(image->format));
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: layer '%s' has format %s, which is not a float format",
+                              writer->path, layer_name(layer), lobe_format_name(image->format));
     uint32_t width = level_extent(writer->width, level);
     uint32_t height = level_extent(writer->height, level);
     if (image->width != width || image->height != height)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: layer '%s' has %ux%u texels on level %u instead of %ux%u",
-                             writer->path, layer_name(layer), image->width, image->height, level,
-                             width, height);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: layer '%s' has %ux%u texels on level %u instead of %ux%u",
+                              writer->path, layer_name(layer), image->width, image->height, level,
+                              width, height);
     if (lobe_format_channels(image->format) != lobe_format_channels(layer->image->format))
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: levels of layer '%s' differ in their channels", writer->path,
-                             layer_name(layer));
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: levels of layer '%s' differ in their channels", writer->path,
+                              layer_name(layer));
     return LOBE_OK;
 }
 
@@ -94,9 +94,9 @@ static lobe_result add_layer(exr_writer *writer, const lobe_exr_layer *layer) {
         if (names[component] == NULL)
             continue;
         if (component >= lobe_format_channels(image->format))
-            return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "%s: layer '%s' names more channels than %s has", writer->path,
-                                 layer_name(layer), lobe_format_name(image->format));
+            return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                                  "%s: layer '%s' names more channels than %s has", writer->path,
+                                  layer_name(layer), lobe_format_name(image->format));
         result = add_channel(writer, layer, component, names[component]);
     }
     return result;
@@ -108,8 +108,8 @@ static int compare_channels(const void *left, const void *right) {
 
 static lobe_result choose_extent(exr_writer *writer, const lobe_exr_parameters *parameters) {
     if (parameters->layer_count == 0)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT, "%s: no layer to write",
-                             writer->path);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT, "%s: no layer to write",
+                              writer->path);
     writer->width = parameters->layers[0].image->width;
     writer->height = parameters->layers[0].image->height;
     writer->level_count = parameters->level_count > 0 ? parameters->level_count : 1;
@@ -117,11 +117,11 @@ static lobe_result choose_extent(exr_writer *writer, const lobe_exr_parameters *
 }
 
 static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameters *parameters) {
-    writer->channels = lobe_allocate(lobe_log_allocator(writer->log), 4 * parameters->layer_count,
+    writer->channels = lobe_allocate(lobe_host_allocator(writer->host), 4 * parameters->layer_count,
                                      sizeof *writer->channels);
     if (writer->channels == NULL)
-        return lobe_log_fail(writer->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
-                             writer->path);
+        return lobe_host_fail(writer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
+                              writer->path);
     for (size_t index = 0; index < parameters->layer_count; index++) {
         lobe_result result = add_layer(writer, &parameters->layers[index]);
         if (result != LOBE_OK)
@@ -130,9 +130,9 @@ static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameter
     qsort(writer->channels, writer->channel_count, sizeof *writer->channels, compare_channels);
     for (size_t index = 1; index < writer->channel_count; index++) {
         if (compare_channels(&writer->channels[index - 1], &writer->channels[index]) == 0)
-            return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                                 "%s: channel '%s' is there twice", writer->path,
-                                 writer->channels[index].name);
+            return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                                  "%s: channel '%s' is there twice", writer->path,
+                                  writer->channels[index].name);
     }
     return LOBE_OK;
 }
@@ -160,10 +160,10 @@ static void ignore_error(exr_const_context_t context, exr_result_t code, const c
 static lobe_result fail_from_library(const exr_writer *writer, exr_result_t code,
                                      const char *what) {
     bool memory = writer->out_of_memory || code == EXR_ERR_OUT_OF_MEMORY;
-    return lobe_log_fail(writer->log,
-                         memory ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_INVALID_ARGUMENT,
-                         "%s: cannot encode %s: %s", writer->path, what,
-                         memory ? "out of memory" : exr_get_default_error_message(code));
+    return lobe_host_fail(writer->host,
+                          memory ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: cannot encode %s: %s", writer->path, what,
+                          memory ? "out of memory" : exr_get_default_error_message(code));
 }
 
 /// ITU-R BT.709, item 1.4: the primaries, and the white point D65.
@@ -224,14 +224,14 @@ static exr_result_t set_attribute(exr_context_t context, const lobe_exr_attribut
 static lobe_result add_attribute(const exr_writer *writer, const lobe_exr_attribute *attribute) {
     if (attribute->name == NULL || attribute->name[0] == '\0' ||
         strlen(attribute->name) > EXR_NAME_MAXIMUM_LENGTH)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: an attribute name must have 1 to %d bytes", writer->path,
-                             EXR_NAME_MAXIMUM_LENGTH);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: an attribute name must have 1 to %d bytes", writer->path,
+                              EXR_NAME_MAXIMUM_LENGTH);
     const exr_attribute_t *existing;
     if (exr_get_attribute_by_name(writer->context, 0, attribute->name, &existing) ==
         EXR_ERR_SUCCESS)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: attribute '%s' is already there", writer->path, attribute->name);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: attribute '%s' is already there", writer->path, attribute->name);
     exr_result_t code = set_attribute(writer->context, attribute);
     return code == EXR_ERR_SUCCESS ? LOBE_OK : fail_from_library(writer, code, attribute->name);
 }
@@ -245,9 +245,9 @@ static lobe_result check_level_count(const exr_writer *writer) {
     if (code != EXR_ERR_SUCCESS)
         return fail_from_library(writer, code, "the levels");
     if (writer->level_count != (uint32_t)count)
-        return lobe_log_fail(writer->log, LOBE_ERROR_INVALID_ARGUMENT,
-                             "%s: %u levels given, %ux%u texels have %d", writer->path,
-                             writer->level_count, writer->width, writer->height, count);
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: %u levels given, %ux%u texels have %d", writer->path,
+                              writer->level_count, writer->width, writer->height, count);
     return LOBE_OK;
 }
 
@@ -279,10 +279,10 @@ static lobe_result finish(exr_writer *writer) {
     if (code != EXR_ERR_SUCCESS)
         return fail_from_library(writer, code, "the table of blocks");
     if (writer->clamped > 0)
-        lobe_log_print(writer->log, LOBE_LOG_WARNING,
-                       "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
-                       writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
-    return lobe_file_write(writer->path, writer->output.data, writer->output.size, writer->log);
+        lobe_host_log(writer->host, LOBE_LOG_WARNING,
+                      "%s: %zu values beyond the range of 16 bits were clamped to +-%.0f",
+                      writer->path, writer->clamped, (double)ENGINE_HALF_MAXIMUM);
+    return lobe_file_write(writer->path, writer->output.data, writer->output.size, writer->host);
 }
 
 static lobe_result encode(exr_writer *writer) {
@@ -294,8 +294,8 @@ static lobe_result encode(exr_writer *writer) {
 }
 
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
-                           const lobe_log *log) {
-    exr_writer writer = {.path = path, .log = log, .output.allocator = lobe_log_allocator(log)};
+                           const lobe_host *host) {
+    exr_writer writer = {.path = path, .host = host, .output.allocator = lobe_host_allocator(host)};
     lobe_result result = choose_extent(&writer, parameters);
     if (result == LOBE_OK)
         result = collect_channels(&writer, parameters);

@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/// Where a host gives lobe memory. It travels with the log (lobe_log.allocator), which every call
+/// Where a host gives lobe memory. It travels with the log (lobe_host.allocator), which every call
 /// is given that may need memory: what takes memory can fail, and what fails says so. All that a
 /// call makes comes from there; all that is made on a device (renderers, graphs, textures, frames)
 /// comes from where the device does.

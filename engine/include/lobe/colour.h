@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -44,7 +44,7 @@ typedef struct lobe_display_parameters {
 /// `parameters` may be NULL. `picture` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
-                                const lobe_log *log, lobe_image *picture);
+                                const lobe_host *host, lobe_image *picture);
 
 /// Colour of a value [0, 1] for heat maps (clamped; NaN is black), as sRGB-encoded bytes. From
 /// near black over violet, red and orange to pale yellow: equal steps of the value look about

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -46,7 +46,7 @@ typedef struct lobe_device_parameters {
     /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY. 0: no limit but the device's own.
     uint64_t memory_limit;
     /// Copied. NULL: silent. Its allocator serves the device and all that is made on it.
-    const lobe_log *log;
+    const lobe_host *host;
 } lobe_device_parameters;
 
 /// Creates a device. `parameters` may be NULL for all defaults. On failure `*device` is NULL.
@@ -88,7 +88,8 @@ const lobe_device_information *lobe_device_describe(const lobe_device *device);
 
 /// Lists every Vulkan device of this machine, suited or not, as information that the caller
 /// frees with lobe_device_list_free. LOBE_ERROR_NO_DEVICE where there is none.
-lobe_result lobe_device_list(lobe_device_information **devices, size_t *count, const lobe_log *log);
+lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
+                             const lobe_host *host);
 void lobe_device_list_free(lobe_device_information **devices, size_t count);
 
 typedef struct lobe_device_memory {

@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -73,7 +73,7 @@ typedef struct lobe_exr_parameters {
 /// another format, a channel or attribute twice or without a name), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
-                           const lobe_log *log);
+                           const lobe_host *host);
 
 /// Most texels that lobe_exr_read takes (4 GiB of memory).
 #define LOBE_EXR_MAXIMUM_TEXELS ((uint64_t)1 << 28)
@@ -91,7 +91,7 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
 /// LOBE_ERROR_MALFORMED (damaged or truncated), LOBE_ERROR_UNSUPPORTED (deep data, no suitable
 /// channels, subsampled colour), LOBE_ERROR_LIMIT (too large),
 /// LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_log *log,
+lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
                           lobe_image *image);
 
 /// All that is known of one layer.
@@ -107,13 +107,13 @@ typedef struct lobe_exr_contents {
 
 /// As lobe_exr_read, with every level, and what the header says. `contents` is overwritten; free it
 /// with lobe_exr_contents_free. The same errors.
-lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_log *log,
+lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_host *host,
                                    lobe_exr_contents *contents);
 
 /// The same of a whole file in memory, which is needed during the call only. `name` stands for it
 /// in messages.
 lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
-                                     const char *layer, const lobe_log *log,
+                                     const char *layer, const lobe_host *host,
                                      lobe_exr_contents *contents);
 
 /// NULL where there is none of this name and type.

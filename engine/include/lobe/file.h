@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -22,8 +22,8 @@ extern "C" {
 /// `owner`: the file that refers to this one, named in the log line too; NULL: none.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ (no permission, not a regular file),
 /// LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_file_read(const char *path, const char *owner, const lobe_log *log, uint8_t **data,
-                           size_t *size);
+lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
+                           uint8_t **data, size_t *size);
 
 /// Where a host keeps files that are not in the file system: in memory, or in an archive.
 typedef struct lobe_file_source {
@@ -39,7 +39,7 @@ typedef struct lobe_file_source {
 /// Writes a file under a temporary name in the same folder, then gives it its name, replacing an
 /// old one. What is not a regular file (a device, a pipe) is written to directly.
 /// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; nothing new is left behind.
-lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_log *log);
+lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_host *host);
 
 #ifdef __cplusplus
 }

@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 #include <lobe/device.h>
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -230,8 +230,8 @@ void lobe_pass_keep(lobe_pass *pass);
 
 /// Makes the frame fail as a mistake in its declaration does, for whoever finds that a pass cannot
 /// be declared. Only a frame's first failure is logged and counts: its code is returned.
-LOBE_LOG_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
-                                            const char *format, ...);
+LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
+                                             const char *format, ...);
 
 // ---------------------------------------------------------------------------------------------
 // Outputs and execution

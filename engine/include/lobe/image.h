@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -54,9 +54,9 @@ typedef struct lobe_image {
 
 /// Allocates zeroed texels. `image` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_LIMIT for an extent of 0 or above LOBE_IMAGE_MAXIMUM_EXTENT,
-/// LOBE_ERROR_OUT_OF_MEMORY. `log` may be NULL.
+/// LOBE_ERROR_OUT_OF_MEMORY. `host` may be NULL.
 lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
-                                uint32_t height, const lobe_log *log);
+                                uint32_t height, const lobe_host *host);
 
 /// Frees the texels and zeroes the structure. NULL and an already freed image are fine.
 void lobe_image_free(lobe_image *image);

@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -16,12 +16,12 @@ extern "C" {
 /// RGBA. Equal images give equal bytes. The file appears whole or not at all.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_log *log);
+lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_host *host);
 
 /// Makes in memory what lobe_png_write would write. `*data` is for the caller to lobe_release;
 /// `name` is for messages. On failure `*data` is NULL. Errors: those of lobe_png_write but
 /// LOBE_ERROR_WRITE.
-lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_log *log,
+lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_host *host,
                             uint8_t **data, size_t *size);
 
 /// Reads any PNG: into RGBA16_UNORM where it has 16 bits a channel, else into RGBA8_SRGB. Grey is
@@ -30,7 +30,7 @@ lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lob
 /// lobe_image_free.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (damaged or truncated),
 /// LOBE_ERROR_LIMIT (too large), LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_png_read(const char *path, const lobe_log *log, lobe_image *image);
+lobe_result lobe_png_read(const char *path, const lobe_host *host, lobe_image *image);
 
 #ifdef __cplusplus
 }

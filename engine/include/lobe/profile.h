@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include <lobe/graph.h>
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -17,8 +17,8 @@ extern "C" {
 /// Not thread-safe: one profile, one thread.
 typedef struct lobe_profile lobe_profile;
 
-/// `log` is copied; NULL: silent. Errors: LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_profile_create(const lobe_log *log, lobe_profile **profile);
+/// `host` is copied; NULL: silent. Errors: LOBE_ERROR_OUT_OF_MEMORY.
+lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile);
 /// Clears the pointer; NULL is fine.
 void lobe_profile_destroy(lobe_profile **profile);
 

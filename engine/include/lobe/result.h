@@ -6,7 +6,7 @@ extern "C" {
 #endif
 
 /// What a call of the library came to. Every function that can fail returns one of these; the
-/// one-line explanation for people goes to the log (see lobe/log.h), once, from the function
+/// one-line explanation for people goes to the log (see lobe/host.h), once, from the function
 /// that found the fault.
 typedef enum lobe_result {
     LOBE_OK = 0,

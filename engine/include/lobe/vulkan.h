@@ -10,7 +10,7 @@
 #include <lobe/allocator.h>
 #include <lobe/device.h>
 #include <lobe/graph.h>
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -117,7 +117,7 @@ typedef struct lobe_vulkan_device {
 /// Validation messages go to the host's messenger; lobe_device_validation_count stays 0.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (a handle or the features are missing, one callback without
 /// the other), LOBE_ERROR_NO_DEVICE (the log line says what the device lacks).
-lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *host,
+lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
                                       const lobe_device_parameters *parameters,
                                       lobe_device **device);
 

@@ -33,8 +33,8 @@ static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
     return hash;
 }
 
-uint64_t environment_cache_key(const lobe_environment *environment, uint32_t size,
-                               lobe_environment_map map) {
+uint64_t passes_environment_cache_key(const lobe_environment *environment, uint32_t size,
+                                      lobe_environment_map map) {
     const lobe_image *image = &environment->image;
     uint64_t hash = mix(CACHE_VERSION, size);
     hash = mix(hash, (uint64_t)map);
@@ -44,7 +44,7 @@ uint64_t environment_cache_key(const lobe_environment *environment, uint32_t siz
 }
 
 static uint64_t checksum_of(const cube_image *cube) {
-    return mix_texels(0, cube->texels, cube_image_texels(cube));
+    return mix_texels(0, cube->texels, passes_cube_image_texels(cube));
 }
 
 typedef struct number_as_text {
@@ -74,50 +74,50 @@ static bool says(const lobe_exr_contents *contents, const char *name, uint64_t n
     return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
 }
 
-static bool load(const char *path, uint64_t key, uint32_t width, const lobe_log *log,
+static bool load(const char *path, uint64_t key, uint32_t width, const lobe_host *host,
                  cube_image *cube) {
-    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
+    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     lobe_exr_contents contents;
     if (lobe_exr_read_contents(path, NULL, &silent, &contents) != LOBE_OK)
         return false;
     bool whole = says(&contents, key_attribute, key) &&
-                 cube_image_from(path, &contents, &silent, cube) == LOBE_OK;
+                 passes_cube_image_from(path, &contents, &silent, cube) == LOBE_OK;
     whole = whole && cube->width == width && says(&contents, checksum_attribute, checksum_of(cube));
     if (!whole)
-        cube_image_free(cube);
+        passes_cube_image_free(cube);
     lobe_exr_contents_free(&contents);
     return whole;
 }
 
-bool environment_cache_load(const char *folder, uint64_t key, uint32_t width, const lobe_log *log,
-                            cube_image *cube) {
+bool passes_environment_cache_load(const char *folder, uint64_t key, uint32_t width,
+                                   const lobe_host *host, cube_image *cube) {
     *cube = (cube_image){0};
-    char *path = path_of(lobe_log_allocator(log), folder, key);
+    char *path = path_of(lobe_host_allocator(host), folder, key);
     bool there = path && access(path, F_OK) == 0;
-    bool loaded = there && load(path, key, width, log, cube);
+    bool loaded = there && load(path, key, width, host, cube);
     if (there && !loaded)
-        lobe_log_print(log, LOBE_LOG_NOTICE, "%s: damaged or foreign: it is made again", path);
+        lobe_host_log(host, LOBE_LOG_NOTICE, "%s: damaged or foreign: it is made again", path);
     lobe_release(path);
     return loaded;
 }
 
 static lobe_result store(const char *path, uint64_t key, const cube_image *cube,
-                         const lobe_log *log) {
-    const lobe_log silent = {.allocator = lobe_log_allocator(log)};
+                         const lobe_host *host) {
+    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
         {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
         {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},
     };
-    return cube_image_write(path, cube, attributes, 2, &silent);
+    return passes_cube_image_write(path, cube, attributes, 2, &silent);
 }
 
-void environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
-                             const lobe_log *log) {
-    char *path = path_of(lobe_log_allocator(log), folder, key);
-    if (!path || store(path, key, cube, log) != LOBE_OK)
-        lobe_log_print(log, LOBE_LOG_WARNING,
-                       "%s: the filtered environment cannot be kept there for the next time",
-                       folder);
+void passes_environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
+                                    const lobe_host *host) {
+    char *path = path_of(lobe_host_allocator(host), folder, key);
+    if (!path || store(path, key, cube, host) != LOBE_OK)
+        lobe_host_log(host, LOBE_LOG_WARNING,
+                      "%s: the filtered environment cannot be kept there for the next time",
+                      folder);
     lobe_release(path);
 }

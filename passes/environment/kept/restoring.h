@@ -15,12 +15,13 @@ typedef struct stored_cube {
     uint32_t count;
 } stored_cube;
 
-/// Free it with stored_cube_free, after a failure too.
-lobe_result stored_cube_create(lobe_device *device, const cube_image *cube, stored_cube *stored);
+/// Free it with passes_stored_cube_free, after a failure too.
+lobe_result passes_stored_cube_create(lobe_device *device, const cube_image *cube,
+                                      stored_cube *stored);
 /// Waits until the device has finished with it; zeroes the structure.
-void stored_cube_free(stored_cube *stored);
+void passes_stored_cube_free(stored_cube *stored);
 
 /// Adds the passes that fill all levels of `cube`, which has the stored cube's width.
-void environment_restoring(lobe_graph *graph, const stored_cube *stored, reduced_map *cube);
+void passes_environment_restoring(lobe_graph *graph, const stored_cube *stored, reduced_map *cube);
 
 #endif

@@ -33,7 +33,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
     glm_mat4_inv(object_to_world, world_to_object);
     mat3 linear, world_to_camera, rotation;
     glm_mat4_pick3(object_to_world, linear);
-    camera_rotation(context->camera, world_to_camera);
+    passes_camera_rotation(context->camera, world_to_camera);
     glm_mat3_mul(world_to_camera, linear, rotation);
     // Of a rotation and a uniform scale: rows of equal length.
     float scale = glm_vec3_norm(linear[0]);
@@ -42,7 +42,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
             constants->rotation[row][column] = scale > 0 ? rotation[column][row] / scale : 0;
     }
     vec4 eye, object_eye;
-    camera_eye(context->camera, eye);
+    passes_camera_eye(context->camera, eye);
     glm_mat4_mulv(world_to_object, eye, object_eye);
     // Of a surface with two sides nothing faces away.
     if (double_sided)
@@ -56,15 +56,15 @@ static void object_constants(struct atlas_constants *constants) {
     constants->eye[3] = -1;
 }
 
-mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe_map_space space,
-                            uint32_t subdivision, bool mean) {
+mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
+                                   lobe_map_space space, uint32_t subdivision, bool mean) {
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
     uint32_t width, height;
-    lobe_map_extent(material, &width, &height);
+    passes_lobe_map_extent(material, &width, &height);
 
     mixture_map mixture = {
-        .format = filtered_map_format(context), .subdivision = subdivision, .space = space};
+        .format = passes_filtered_map_format(context), .subdivision = subdivision, .space = space};
     uint32_t layers = layers_of(subdivision);
     mixture.mean_layer = mean ? layers : 0;
     char name[64];
@@ -72,22 +72,22 @@ mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
     else
         snprintf(name, sizeof name, "mixture of instance %zu", instance);
-    mixture.map = reduced_map_declare(context->graph, name, mixture.format, width, height,
-                                      layers + (mean ? 1 : 0));
+    mixture.map = passes_reduced_map_declare(context->graph, name, mixture.format, width, height,
+                                             layers + (mean ? 1 : 0));
 
     surface_atlas atlas = {0};
     if (space != LOBE_SPACE_TANGENT)
-        atlas = surface_atlas_draw(context, instance, width, height);
+        atlas = passes_surface_atlas_draw(context, instance, width, height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
-    base_maps_read(context, material, false, pass);
+    passes_base_maps_read(context, material, false, pass);
     mixture.map.resource =
         lobe_pass_write(pass, &(lobe_binding){"mixture_map", mixture.map.resource,
                                               .range = {0, 1, 0, mixture.map.layers}});
 
     specialisation_list list = {0};
-    material_specialise(material, &list);
-    specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
-    specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
+    passes_material_specialise(material, &list);
+    passes_specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
+    passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
     struct clustering_constants tangent_constants = {width, height};
     struct atlas_constants atlas_constants = {.width = width, .height = height};
     lobe_dispatch dispatch = {

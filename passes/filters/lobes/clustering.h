@@ -16,7 +16,7 @@ typedef struct mixture_map {
 /// Declares a mixture map for an instance's material and adds the passes that fill level 0:
 /// characteristic vectors (Xu et al. 2017, Eqs. 8-14) and clustering by direction (section 3.2).
 /// `subdivision` and `mean` say what shading will read. The material has a normal or width map.
-mixture_map lobe_clustering(const filter_context *context, size_t instance, lobe_map_space space,
-                            uint32_t subdivision, bool mean);
+mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
+                                   lobe_map_space space, uint32_t subdivision, bool mean);
 
 #endif

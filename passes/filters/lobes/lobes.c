@@ -55,15 +55,24 @@ static const lobe_knob blend_knob = {
     .initial = 0.02,
 };
 static const lobe_knob *const knobs[] = {
-    &space_knob,  &subdivision_knob, &threshold_knob, &epsilon0_knob, &epsilon1_knob, &blend_knob,
-    &knob_probes, &knob_bias,        &knob_curvature, &knob_storage,  NULL,
+    &space_knob,
+    &subdivision_knob,
+    &threshold_knob,
+    &epsilon0_knob,
+    &epsilon1_knob,
+    &blend_knob,
+    &passes_knob_probes,
+    &passes_knob_bias,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 /// The space asked for by the user, or else by the material; tangent where the mesh's texture
 /// coordinates are no atlas, or where the instance stretches the mesh.
 static lobe_map_space space_of(const filter_context *context, size_t instance) {
     const device_instance *drawn = &context->scene->instances[instance];
-    lobe_map_space space = (lobe_map_space)filter_setting(context, "space");
+    lobe_map_space space = (lobe_map_space)passes_filter_setting(context, "space");
     if (space == LOBE_SPACE_AUTOMATIC)
         space = context->scene->materials[drawn->material].material->space;
     // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
@@ -85,7 +94,7 @@ static uint32_t subdivision_of(const filter_context *context, const device_mater
                           material->material->lobe_count == 1);
     if (one_direction)
         return 0;
-    uint32_t choice = (uint32_t)filter_setting(context, "subdivision");
+    uint32_t choice = (uint32_t)passes_filter_setting(context, "subdivision");
     if (choice > 0)
         return choice - 1;
     return space == LOBE_SPACE_TANGENT ? material->subdivision : 2;
@@ -102,7 +111,7 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     bool derivable = along_normal && !material->widths_differ && !material->maps[MAP_WIDTH].use;
     bool diffuse =
         source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
-    bool wanted = microfacet || diffuse || filter_setting(context, "threshold") != 0;
+    bool wanted = microfacet || diffuse || passes_filter_setting(context, "threshold") != 0;
     return wanted && !derivable;
 }
 
@@ -112,15 +121,16 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
                             const mixture_map *mixture) {
     const lobe_material *source = material->material;
     if (source->model == LOBE_MATERIAL_MICROFACET || mixture->subdivision == 0 ||
-        filter_setting(context, "threshold") != 0)
+        passes_filter_setting(context, "threshold") != 0)
         return 0;
     float mean[3] = {0};
     for (uint32_t i = 0; i < source->lobe_count; ++i) {
         for (int axis = 0; axis < 3; ++axis)
-            mean[axis] += material_lobe_share(source, i) * source->lobes[i].direction[axis];
+            mean[axis] += passes_material_lobe_share(source, i) * source->lobes[i].direction[axis];
     }
     double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
-    return length < filter_setting(context, "epsilon0") - filter_setting(context, "blend");
+    return length <
+           passes_filter_setting(context, "epsilon0") - passes_filter_setting(context, "blend");
 }
 
 static bool has_one_hue(const lobe_material *material) {
@@ -142,23 +152,23 @@ static bool has_one_hue(const lobe_material *material) {
 static void specialise_mixture(const filter_context *context, const lobe_material *material,
                                const mixture_map *mixture, uint32_t coarsest,
                                filtered_appearance *appearance) {
-    appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
-    appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
-    appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
-    appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
-    appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
-    appearance_specialise(appearance, SPECIALISE_SPACE,
-                          mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
-                          : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
-                                                                : SPACE_TANGENT);
-    appearance_specialise(appearance, SPECIALISE_THRESHOLD,
-                          (uint32_t)filter_setting(context, "threshold"));
-    appearance_specialise_number(appearance, SPECIALISE_EPSILON_0,
-                                 (float)filter_setting(context, "epsilon0"));
-    appearance_specialise_number(appearance, SPECIALISE_EPSILON_1,
-                                 (float)filter_setting(context, "epsilon1"));
-    appearance_specialise_number(appearance, SPECIALISE_BLEND,
-                                 (float)filter_setting(context, "blend"));
+    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
+    passes_appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
+    passes_appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
+    passes_appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
+    passes_appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
+    passes_appearance_specialise(appearance, SPECIALISE_SPACE,
+                                 mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
+                                 : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
+                                                                       : SPACE_TANGENT);
+    passes_appearance_specialise(appearance, SPECIALISE_THRESHOLD,
+                                 (uint32_t)passes_filter_setting(context, "threshold"));
+    passes_appearance_specialise_number(appearance, SPECIALISE_EPSILON_0,
+                                        (float)passes_filter_setting(context, "epsilon0"));
+    passes_appearance_specialise_number(appearance, SPECIALISE_EPSILON_1,
+                                        (float)passes_filter_setting(context, "epsilon1"));
+    passes_appearance_specialise_number(appearance, SPECIALISE_BLEND,
+                                        (float)passes_filter_setting(context, "blend"));
 }
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
@@ -166,23 +176,24 @@ static void build(const filter_context *context, size_t instance, filtered_appea
     const device_material *material = &context->scene->materials[index];
     uint32_t width, height;
     lobe_resource resource;
-    if (lobe_map_extent(material, &width, &height) && width * height > 1) {
+    if (passes_lobe_map_extent(material, &width, &height) && width * height > 1) {
         lobe_map_space space = space_of(context, instance);
-        mixture_map mixture =
-            lobe_clustering(context, instance, space, subdivision_of(context, material, space),
-                            needs_mean(context, material));
-        level_reduction(context->graph, &mixture.map);
+        mixture_map mixture = passes_lobe_clustering(context, instance, space,
+                                                     subdivision_of(context, material, space),
+                                                     needs_mean(context, material));
+        passes_level_reduction(context->graph, &mixture.map);
         specialise_mixture(context, material->material, &mixture,
                            coarsest_of(context, material, &mixture), appearance);
-        appearance->bytes = reduced_map_bytes(&mixture.map, mixture.format);
+        appearance->bytes = passes_reduced_map_bytes(&mixture.map, mixture.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = mixture.map.resource;
     } else {
         resource = lobe_graph_import_texture(context->graph, context->scene->white);
     }
     uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
-    appearance_bind(appearance, "mixture_map", resource, filtered_map_sampler(material, map));
-    filtered_maps_build(context, index, appearance);
+    passes_appearance_bind(appearance, "mixture_map", resource,
+                           passes_filtered_map_sampler(material, map));
+    passes_filtered_maps_build(context, index, appearance);
 }
 
 /// One mixture serves all lobes of a material: its colour is that of their sum.
@@ -192,7 +203,7 @@ static const char *ignores(const lobe_material *material) {
     return "lobes of different hue get their mean hue";
 }
 
-const lobe_filter filter_lobes = {
+const lobe_filter passes_filter_lobes = {
     .name = "lobes",
     .summary = "MIP-mapped mixtures of lobes, subdivided where a pixel needs it",
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",

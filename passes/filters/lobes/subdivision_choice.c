@@ -17,7 +17,7 @@ static double concentration(double length) {
     double kappa = r * (3 - r * r) / (1 - r * r);
     for (int i = 0; i < 3 && kappa > 1e-3; ++i) {
         double sinh_kappa = sinh(fmin(kappa, 300));
-        kappa -= (mean_resultant_length(kappa) - r) /
+        kappa -= (passes_mean_resultant_length(kappa) - r) /
                  (1 / (kappa * kappa) - 1 / (sinh_kappa * sinh_kappa));
     }
     return kappa;
@@ -39,7 +39,7 @@ static size_t make_mixture(const material_patch *source, uint32_t subdivision,
     for (size_t i = 0; i < source->count; ++i) {
         const material_lobe *lobe = &source->lobes[i];
         double *sum = sums[cluster_of(lobe->axis) / clusters_a_lobe[subdivision]];
-        double length = mean_resultant_length(lobe->concentration);
+        double length = passes_mean_resultant_length(lobe->concentration);
         for (int axis = 0; axis < 3; ++axis)
             sum[axis] += lobe->weight * length * lobe->axis[axis];
         sum[3] += lobe->weight;
@@ -66,22 +66,22 @@ static void add_errors(const material_patch *source, double errors[3]) {
         counts[subdivision] = make_mixture(source, subdivision, mixtures[subdivision]);
     for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; ++i) {
         double direction[3];
-        material_patch_draw(source, i, direction);
-        double truth = material_patch_evaluate(source, direction);
+        passes_material_patch_draw(source, i, direction);
+        double truth = passes_material_patch_evaluate(source, direction);
         for (int subdivision = 0; truth > 0 && subdivision < 3; ++subdivision) {
-            double value =
-                material_lobes_evaluate(mixtures[subdivision], counts[subdivision], direction);
+            double value = passes_material_lobes_evaluate(mixtures[subdivision],
+                                                          counts[subdivision], direction);
             errors[subdivision] +=
                 fabs(value - truth) / truth / (MATERIAL_PATCHES * MATERIAL_PATCH_DIRECTIONS);
         }
     }
 }
 
-uint32_t subdivision_choose(const lobe_scene *scene, const device_material *material) {
+uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material) {
     double errors[3] = {0};
     material_patch source;
     for (uint32_t i = 0; i < MATERIAL_PATCHES; ++i) {
-        if (!material_patch_read(scene, material, i, &source))
+        if (!passes_material_patch_read(scene, material, i, &source))
             return 2;
         add_errors(&source, errors);
     }

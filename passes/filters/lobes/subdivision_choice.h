@@ -6,6 +6,6 @@
 /// The least subdivision [0, 2] whose mixtures come as near the material's lobes as the best does,
 /// in tangent space. Decided once, from a few patches of its maps: the truth is the mean of all
 /// lobes of a patch, the candidates are its mixtures of one, four and eight.
-uint32_t subdivision_choose(const lobe_scene *scene, const device_material *material);
+uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material);
 
 #endif

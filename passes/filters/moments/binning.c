@@ -14,18 +14,19 @@ static void read_colours(const filter_context *context, const device_material *m
     for (int i = 0; i < 2; ++i)
         lobe_pass_read(pass,
                        &(lobe_binding){.name = names[i],
-                                       .resource = device_map_import(context->graph, context->scene,
-                                                                     material, maps[i])});
+                                       .resource = passes_device_map_import(
+                                           context->graph, context->scene, material, maps[i])});
 }
 
 static void specialise_binning(const filter_context *context, const device_material *material,
                                const moment_partition *partition, bool colour,
                                specialisation_list *list) {
-    material_specialise(material, list);
-    specialise(list, SPECIALISE_BASE_AS_LOBE, (uint32_t)filter_setting(context, "base"));
-    specialise(list, SPECIALISE_BINS, partition->bins);
-    specialise(list, SPECIALISE_PARTITION, partition->kind);
-    specialise(list, SPECIALISE_BIN_COLOUR, colour);
+    passes_material_specialise(material, list);
+    passes_specialise(list, SPECIALISE_BASE_AS_LOBE,
+                      (uint32_t)passes_filter_setting(context, "base"));
+    passes_specialise(list, SPECIALISE_BINS, partition->bins);
+    passes_specialise(list, SPECIALISE_PARTITION, partition->kind);
+    passes_specialise(list, SPECIALISE_BIN_COLOUR, colour);
 }
 
 static lobe_resource upload_bins(lobe_graph *graph, uint32_t material,
@@ -37,19 +38,19 @@ static lobe_resource upload_bins(lobe_graph *graph, uint32_t material,
     return lobe_graph_upload(graph, name, &constants, sizeof constants);
 }
 
-moment_map moment_binning(const filter_context *context, uint32_t index,
-                          const moment_partition *partition, lobe_format format, bool colour,
-                          float largest_colour) {
+moment_map passes_moment_binning(const filter_context *context, uint32_t index,
+                                 const moment_partition *partition, lobe_format format, bool colour,
+                                 float largest_colour) {
     const device_material *material = &context->scene->materials[index];
     char name[64];
     snprintf(name, sizeof name, "moments of material %u", index);
     uint32_t layers = colour ? 3 * partition->bins + 1 : 2 * partition->bins;
     moment_map result = {.format = format};
-    result.map = reduced_map_declare(context->graph, name, format, partition->width,
-                                     partition->height, layers);
+    result.map = passes_reduced_map_declare(context->graph, name, format, partition->width,
+                                            partition->height, layers);
     result.range = upload_bins(context->graph, index, partition, largest_colour);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
-    base_maps_read(context, material, colour, pass);
+    passes_base_maps_read(context, material, colour, pass);
     read_colours(context, material, pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = result.range});
     result.map.resource = lobe_pass_write(
@@ -65,6 +66,6 @@ moment_map moment_binning(const filter_context *context, uint32_t index,
                                  .specialisation = list.items,
                                  .specialisation_count = list.count,
                              });
-    level_reduction(context->graph, &result.map);
+    passes_level_reduction(context->graph, &result.map);
     return result;
 }

@@ -15,8 +15,8 @@ typedef struct moment_map {
 /// Adds the pass that shares a material's lobes out to bins, and the reduction of what it writes.
 /// The material has a normal or width map. `colour`: bins keep their mean specular colour, of
 /// which none is above `largest_colour`.
-moment_map moment_binning(const filter_context *context, uint32_t material,
-                          const moment_partition *partition, lobe_format format, bool colour,
-                          float largest_colour);
+moment_map passes_moment_binning(const filter_context *context, uint32_t material,
+                                 const moment_partition *partition, lobe_format format, bool colour,
+                                 float largest_colour);
 
 #endif

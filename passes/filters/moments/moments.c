@@ -55,14 +55,15 @@ static const lobe_knob storage_knob = {
     .sweep = "float16,float32",
 };
 static const lobe_knob *const knobs[] = {
-    &partition_knob, &bins_knob,    &colour_knob, &least_share_knob, &knob_probes, &knob_bias,
-    &knob_curvature, &storage_knob, NULL,
+    &partition_knob,        &bins_knob,          &colour_knob,
+    &least_share_knob,      &passes_knob_probes, &passes_knob_bias,
+    &passes_knob_curvature, &storage_knob,       NULL,
 };
 
 static lobe_format format_of(const filter_context *context) {
     static const lobe_format formats[] = {LOBE_FORMAT_RGBA16_SNORM, LOBE_FORMAT_RGBA16_FLOAT,
                                           LOBE_FORMAT_RGBA32_FLOAT};
-    return formats[(int)filter_setting(context, "storage")];
+    return formats[(int)passes_filter_setting(context, "storage")];
 }
 
 /// Whether the texels of a map lie under those of the lobes: read at the same coordinates, and no
@@ -72,7 +73,7 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
     const device_map *own = &material->maps[map];
     const device_map *lobes =
         &material->maps[material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH];
-    lobe_map_extent(material, &width, &height);
+    passes_lobe_map_extent(material, &width, &height);
     return !own->use ||
            (own->width <= width && own->height <= height &&
             own->use->texture_coordinates == lobes->use->texture_coordinates &&
@@ -83,7 +84,7 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
 /// width surely go together.
 static bool has_bin_colour(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN };
-    int wanted = (int)filter_setting(context, "colour");
+    int wanted = (int)passes_filter_setting(context, "colour");
     if (wanted == MEAN || (wanted == AUTOMATIC && !material->metallic_varies))
         return false;
     return lies_under_lobes(material, MAP_BASE_COLOUR) &&
@@ -95,7 +96,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
     const lobe_image *image = map->use ? &scene->images[map->use->image].image : NULL;
     float largest = 1, texel[4];
     for (uint32_t i = 0; image && i < image->width * image->height; ++i) {
-        if (!image_texel(image, i % image->width, i / image->width, texel))
+        if (!passes_image_texel(image, i % image->width, i / image->width, texel))
             return largest;
         largest = fmaxf(largest, fmaxf(texel[0], fmaxf(texel[1], texel[2])));
     }
@@ -111,7 +112,7 @@ static float largest_colour(const lobe_scene *scene, const device_material *mate
         for (uint32_t k = 0; source->model != LOBE_MATERIAL_MICROFACET && k < source->lobe_count;
              ++k)
             specular = fmaxf(specular, source->lobes[k].colour[i] /
-                                           fmaxf(material_lobe_share(source, k), 1e-6f));
+                                           fmaxf(passes_material_lobe_share(source, k), 1e-6f));
     }
     return fmaxf(base * largest_texel(scene, &material->maps[MAP_BASE_COLOUR]),
                  specular * largest_texel(scene, &material->maps[MAP_SPECULAR]));
@@ -119,22 +120,22 @@ static float largest_colour(const lobe_scene *scene, const device_material *mate
 
 static void specialise_bins(const filter_context *context, const moment_partition *partition,
                             bool colour, filtered_appearance *appearance) {
-    appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
-    appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
-    appearance_specialise_number(appearance, SPECIALISE_LEAST_SHARE,
-                                 (float)filter_setting(context, "least_share"));
+    passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
+    passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
+    passes_appearance_specialise_number(appearance, SPECIALISE_LEAST_SHARE,
+                                        (float)passes_filter_setting(context, "least_share"));
 }
 
 static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
     uint32_t index = context->scene->instances[instance].material;
     const device_material *material = &context->scene->materials[index];
     uint32_t width, height;
-    bool binned = lobe_map_extent(material, &width, &height) && width * height > 1;
+    bool binned = passes_lobe_map_extent(material, &width, &height) && width * height > 1;
     lobe_resource resource, range;
     if (binned) {
-        const moment_partition *partition = moment_partition_of(
-            context->scene, index, (uint32_t)filter_setting(context, "partition"),
-            (uint32_t)filter_setting(context, "bins"));
+        const moment_partition *partition = passes_moment_partition_of(
+            context->scene, index, (uint32_t)passes_filter_setting(context, "partition"),
+            (uint32_t)passes_filter_setting(context, "bins"));
         if (!partition) {
             lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY,
                             "material '%s': no memory to partition its lobes",
@@ -144,9 +145,9 @@ static void build(const filter_context *context, size_t instance, filtered_appea
         bool colour = has_bin_colour(context, material);
         float largest = colour ? largest_colour(context->scene->scene, material) : 1;
         moment_map moments =
-            moment_binning(context, index, partition, format_of(context), colour, largest);
+            passes_moment_binning(context, index, partition, format_of(context), colour, largest);
         specialise_bins(context, partition, colour, appearance);
-        appearance->bytes = reduced_map_bytes(&moments.map, moments.format);
+        appearance->bytes = passes_reduced_map_bytes(&moments.map, moments.format);
         appearance->base_texels = (uint64_t)width * height;
         resource = moments.map.resource;
         range = moments.range;
@@ -156,13 +157,14 @@ static void build(const filter_context *context, size_t instance, filtered_appea
         range = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
     }
     uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
-    appearance_bind(appearance, "moment_map", resource, filtered_map_sampler(material, map));
-    appearance_bind(appearance, "binning_block", range, (lobe_sampler){0});
-    appearance_specialise(appearance, SPECIALISE_MIXTURE, binned);
-    filtered_maps_build(context, index, appearance);
+    passes_appearance_bind(appearance, "moment_map", resource,
+                           passes_filtered_map_sampler(material, map));
+    passes_appearance_bind(appearance, "binning_block", range, (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, binned);
+    passes_filtered_maps_build(context, index, appearance);
 }
 
-const lobe_filter filter_moments = {
+const lobe_filter passes_filter_moments = {
     .name = "moments",
     .summary = "moments of lobes in bins fitted to the material",
     .paper = "",

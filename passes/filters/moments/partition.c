@@ -57,14 +57,14 @@ static void plane_from_direction(const double direction[3], double place[2]) {
 static uint32_t take_samples(const lobe_scene *scene, const device_material *material,
                              sample samples[SAMPLES * LOBE_MATERIAL_MAXIMUM_LOBES]) {
     uint32_t width, height, count = 0;
-    material_lobe_extent(material, &width, &height);
+    passes_material_lobe_extent(material, &width, &height);
     for (uint32_t i = 0; i < SAMPLES; ++i) {
         float position[2];
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
-        sample_position(i, SAMPLES, position);
+        passes_sample_position(i, SAMPLES, position);
         uint32_t found =
-            material_lobes_read(scene, material, (uint32_t)(position[0] * (float)width),
-                                (uint32_t)(position[1] * (float)height), lobes);
+            passes_material_lobes_read(scene, material, (uint32_t)(position[0] * (float)width),
+                                       (uint32_t)(position[1] * (float)height), lobes);
         for (uint32_t k = 0; k < found; ++k) {
             sample *taken = &samples[count++];
             plane_from_direction(lobes[k].axis, taken->place);
@@ -235,7 +235,7 @@ typedef struct extremes {
 static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double square = fmin(2 / kappa, 0.9), clamped = fmax(kappa, 1e-6);
-    double projected = 0.5 * (1 + mean_resultant_length(clamped / 2)) / (1 + exp(-clamped));
+    double projected = 0.5 * (1 + passes_mean_resultant_length(clamped / 2)) / (1 + exp(-clamped));
     double peak = clamped / -expm1(-2 * clamped);
     double mass = variance_of(kappa) * peak / (microfacet ? projected : 1);
     return microfacet ? fmax(mass, fmax(1 / (1 - square), 1 + variance_of(kappa))) : mass;
@@ -257,13 +257,13 @@ static const extremes everything = {{-2, -2}, {2, 2}, 1e3, 10};
 static extremes scan(const lobe_scene *scene, const device_material *material) {
     extremes range = {{2, 2}, {-2, -2}, 0.4, 1e-6};
     uint32_t width, height;
-    material_lobe_extent(material, &width, &height);
+    passes_material_lobe_extent(material, &width, &height);
     uint32_t columns = width < SCAN ? width : SCAN, rows = height < SCAN ? height : SCAN;
     for (uint32_t i = 0; i < columns * rows; ++i) {
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
         uint32_t x = (uint32_t)((uint64_t)(i % columns) * width / columns);
         uint32_t y = (uint32_t)((uint64_t)(i / columns) * height / rows);
-        uint32_t count = material_lobes_read(scene, material, x, y, lobes);
+        uint32_t count = passes_material_lobes_read(scene, material, x, y, lobes);
         if (count == 0)
             return everything;
         double mass = 0; // of all lobes, which one bin may get
@@ -368,8 +368,8 @@ static void add_error(const material_patch *patch, const mixture *m, double inte
     uint32_t count = collect(patch, m, bins);
     for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; ++i) {
         double direction[3];
-        material_patch_draw(patch, i, direction);
-        double truth = material_patch_evaluate(patch, direction);
+        passes_material_patch_draw(patch, i, direction);
+        double truth = passes_material_patch_evaluate(patch, direction);
         double error = evaluate_bins(bins, count, direction) - truth;
         integrals[0] += truth > 0 ? error * error / truth : 0;
         integrals[1] += truth;
@@ -433,7 +433,7 @@ static bool choose_for_material(const lobe_allocator *allocator, const lobe_scen
         return false;
     bool readable = count > 0;
     for (uint32_t i = 0; readable && i < MATERIAL_PATCHES; ++i)
-        readable = material_patch_read(scene, material, i, &patches[i]);
+        readable = passes_material_patch_read(scene, material, i, &patches[i]);
     if (readable)
         choose(patches, samples, count, bins, chosen);
     lobe_release(patches);
@@ -450,7 +450,7 @@ static bool make_partition(const device_scene *uploaded, const device_material *
     partition->kind = kind;
     extremes range = scan(scene, material);
     set_range(&range, &partition->constants.range);
-    material_lobe_extent(material, &partition->width, &partition->height);
+    passes_material_lobe_extent(material, &partition->width, &partition->height);
     if (kind != PARTITION_FITTED) {
         set_hats(samples, count, partition);
         return true;
@@ -462,8 +462,8 @@ static bool make_partition(const device_scene *uploaded, const device_material *
     return true;
 }
 
-const moment_partition *moment_partition_of(const device_scene *scene, uint32_t index,
-                                            uint32_t kind, uint32_t bins) {
+const moment_partition *passes_moment_partition_of(const device_scene *scene, uint32_t index,
+                                                   uint32_t kind, uint32_t bins) {
     device_material *material = &scene->materials[index];
     moment_partition_cache *cache = &material->partition;
     if (cache->filled && cache->kind == kind && cache->bins == bins)

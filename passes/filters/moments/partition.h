@@ -36,7 +36,7 @@ struct device_scene;
 /// for [1, MOMENT_MAXIMUM_BINS], or 0: the least number that serves some patches of the maps about
 /// as well as the best number does; or by hats, which have a number of their own. Kept with the
 /// scene until another is asked for. NULL without memory.
-const moment_partition *moment_partition_of(const struct device_scene *scene, uint32_t material,
-                                            uint32_t kind, uint32_t bins);
+const moment_partition *passes_moment_partition_of(const struct device_scene *scene,
+                                                   uint32_t material, uint32_t kind, uint32_t bins);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include <lobe/device.h>
 #include <lobe/environment.h>
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/renderer.h>
 #include <lobe/result.h>
 
@@ -60,7 +60,7 @@ typedef struct lobe_environment_maps_parameters {
     /// LOBE_OK and no maps. NULL: none.
     bool (*progress)(void *user, double part);
     void *user;
-    const lobe_log *log; ///< copied; NULL: silent. Memory comes from where the device gets it.
+    const lobe_host *host; ///< copied; NULL: silent. Memory comes from where the device gets it.
 } lobe_environment_maps_parameters;
 
 /// Makes the maps and waits for them. On failure, or when stopped, `*maps` is NULL.

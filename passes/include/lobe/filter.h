@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -47,8 +47,8 @@ typedef struct lobe_knob {
 size_t lobe_filter_count(void);
 /// NULL for an index out of range.
 const lobe_filter *lobe_filter_get(size_t index);
-/// LOBE_ERROR_NOT_FOUND with a line that lists the filters there are. `log` may be NULL.
-lobe_result lobe_filter_find(const char *name, const lobe_log *log, const lobe_filter **filter);
+/// LOBE_ERROR_NOT_FOUND with a line that lists the filters there are. `host` may be NULL.
+lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe_filter **filter);
 
 const char *lobe_filter_name(const lobe_filter *filter);
 const char *lobe_filter_summary(const lobe_filter *filter); ///< one line
@@ -71,7 +71,7 @@ void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings);
 /// those there are), LOBE_ERROR_INVALID_ARGUMENT (no '=', not a number, out of range, not one of
 /// the choices; the line says what is allowed). `settings` is unchanged then.
 lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
-                              const char *assignment, const lobe_log *log);
+                              const char *assignment, const lobe_host *host);
 /// The value of a knob by name; 0 for a name the filter lacks.
 double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
                          const char *name);

@@ -11,8 +11,8 @@
 #include <lobe/file.h>
 #include <lobe/filter.h>
 #include <lobe/graph.h>
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/png.h>
 #include <lobe/profile.h>
 #include <lobe/renderer.h>

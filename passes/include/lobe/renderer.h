@@ -19,9 +19,9 @@ extern "C" {
 /// Not thread-safe: one renderer, one thread.
 typedef struct lobe_renderer lobe_renderer;
 
-/// `log` is copied; NULL: silent. Memory comes from where the device gets it: see
+/// `host` is copied; NULL: silent. Memory comes from where the device gets it: see
 /// lobe_device_allocator.
-lobe_result lobe_renderer_create(lobe_device *device, const lobe_log *log,
+lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
                                  lobe_renderer **renderer);
 /// Clears the pointer; NULL is fine. The device stays.
 void lobe_renderer_destroy(lobe_renderer **renderer);

@@ -20,7 +20,7 @@ static void place_arch(const void *unused, double u, double v, lobe_scene_vertex
     (void)unused;
     int row = (int)floor(v * STRETCHES + 0.5);
     double point[2], length = 0;
-    circle_point(0.5 - u / 2, point);
+    scenes_circle_point(0.5 - u / 2, point);
     for (int i = 0; i < row; i++) {
         double radius = moulding[i + 1][0] - moulding[i][0],
                z = moulding[i + 1][1] - moulding[i][1];
@@ -33,10 +33,10 @@ static void place_arch(const void *unused, double u, double v, lobe_scene_vertex
     vertex->texture_coordinates[0][1] = (float)(length / HALL_MARBLE_TILE);
 }
 
-lobe_result hall_make_arch(const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_hall_make_arch(const lobe_host *host, lobe_mesh *mesh) {
     static const grid_mesh grid = {
         .name = "arch", .rows = STRETCHES, .columns = ARCH_COLUMNS, .place = place_arch};
-    return grid_mesh_make(&grid, log, mesh);
+    return scenes_grid_mesh_make(&grid, host, mesh);
 }
 
 // The wall between the arch and a rectangle: each point of the rectangle's sides and top is
@@ -54,9 +54,9 @@ static void place_spandrel(const void *unused, double u, double v, lobe_scene_ve
     vertex->texture_coordinates[0][1] = (float)(-y * scale / HALL_MASONRY_TILE);
 }
 
-lobe_result hall_make_spandrels(const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_hall_make_spandrels(const lobe_host *host, lobe_mesh *mesh) {
     // A column ends at each corner of the rectangle: its sides are 3.2, 3.6 and 3.2 m long.
     static const grid_mesh grid = {
         .name = "spandrels", .rows = 1, .columns = 50, .place = place_spandrel};
-    return grid_mesh_make(&grid, log, mesh);
+    return scenes_grid_mesh_make(&grid, host, mesh);
 }

@@ -23,11 +23,11 @@ static bool is_gold(uint32_t column, uint32_t row) {
 
 static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     double slub[2], yarn[2];
-    noise_gradient((column + 0.5) / 16, (row + 0.5) / 16, EXTENT / 16, 81, slub);
-    noise_gradient((column + 0.5) / 3.2, (row + 0.5) / 3.2, 160, 82, yarn);
+    scenes_noise_gradient((column + 0.5) / 16, (row + 0.5) / 16, EXTENT / 16, 81, slub);
+    scenes_noise_gradient((column + 0.5) / 3.2, (row + 0.5) / 3.2, 160, 82, yarn);
     double rough = is_gold(column, row) ? 0.15 : 0.3;
-    normal_map_store_slope(texel, 0.06 * slub[0] + rough * yarn[0],
-                           0.06 * slub[1] + rough * yarn[1]);
+    scenes_normal_map_store_slope(texel, 0.06 * slub[0] + rough * yarn[0],
+                                  0.06 * slub[1] + rough * yarn[1]);
 }
 
 static void store_colour(uint8_t *texel, const double colour[3], double scale) {
@@ -38,7 +38,7 @@ static void store_colour(uint8_t *texel, const double colour[3], double scale) {
 
 static void fill_diffuse(uint32_t column, uint32_t row, void *texel) {
     static const double wool[3] = {150, 28, 36}, gold[3] = {170, 122, 56};
-    double grain = 1 + 0.3 * noise_gradient(column / 2.0, row / 2.0, EXTENT / 2, 83, NULL);
+    double grain = 1 + 0.3 * scenes_noise_gradient(column / 2.0, row / 2.0, EXTENT / 2, 83, NULL);
     store_colour(texel, is_gold(column, row) ? gold : wool, grain);
 }
 
@@ -51,7 +51,7 @@ static void fill_exponent(uint32_t column, uint32_t row, void *texel) {
     *(float *)texel = is_gold(column, row) ? 180 : 6;
 }
 
-lobe_result hall_add_cloth(lobe_scene *scene, const lobe_log *log) {
+lobe_result scenes_hall_add_cloth(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map normals = {"cloth normals", LOBE_FORMAT_RGBA8_UNORM, EXTENT, EXTENT,
                                         fill_normal};
     static const builtin_map diffuse = {"cloth diffuse colours", LOBE_FORMAT_RGBA8_SRGB, EXTENT,
@@ -62,13 +62,13 @@ lobe_result hall_add_cloth(lobe_scene *scene, const lobe_log *log) {
                                           fill_exponent};
     lobe_material material;
     lobe_material_default(&material);
-    lobe_result status = builtin_add_map(scene, &normals, log, &material.normal_map.image);
+    lobe_result status = scenes_builtin_add_map(scene, &normals, host, &material.normal_map.image);
     if (!status)
-        status = builtin_add_map(scene, &diffuse, log, &material.base_colour_map.image);
+        status = scenes_builtin_add_map(scene, &diffuse, host, &material.base_colour_map.image);
     if (!status)
-        status = builtin_add_map(scene, &specular, log, &material.specular_map.image);
+        status = scenes_builtin_add_map(scene, &specular, host, &material.specular_map.image);
     if (!status)
-        status = builtin_add_map(scene, &exponents, log, &material.width_map.image);
+        status = scenes_builtin_add_map(scene, &exponents, host, &material.width_map.image);
     if (status)
         return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
@@ -77,5 +77,5 @@ lobe_result hall_add_cloth(lobe_scene *scene, const lobe_log *log) {
         (lobe_base_lobe){.direction = {0, 0, 1}, .width = 1, .colour = {0.12f, 0.12f, 0.12f}};
     material.lobe_count = 1;
     material.double_sided = true;
-    return scene_add_material(scene, "cloth", &material, log, NULL);
+    return scenes_add_material(scene, "cloth", &material, host, NULL);
 }

@@ -5,7 +5,7 @@ enum { COLUMNS = 24 };
 
 // An attic base (two rings with a hollow between them) and a shaft that narrows upwards with
 // entasis, the slight bulge that lets it look straight.
-lobe_result hall_make_column(const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_hall_make_column(const lobe_host *host, lobe_mesh *mesh) {
     static const double outline[][2] = {
         {0.305, 4.02}, {0.300, 3.97},  {0.318, 3.30},  {0.338, 2.50},  {0.353, 1.70},
         {0.360, 1.00}, {0.362, 0.56},  {0.385, 0.525}, {0.425, 0.52},  {0.443, 0.485},
@@ -18,11 +18,11 @@ lobe_result hall_make_column(const lobe_log *log, lobe_mesh *mesh) {
                                       .columns = COLUMNS,
                                       .tile = HALL_MARBLE_TILE,
                                       .tiles_around = 2};
-    return lathe_make(&shape, log, mesh);
+    return scenes_lathe_make(&shape, host, mesh);
 }
 
 // A bell that opens from a ring to the abacus.
-lobe_result hall_make_capital(const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_hall_make_capital(const lobe_host *host, lobe_mesh *mesh) {
     static const double outline[][2] = {{0.470, 4.24}, {0.478, 4.225}, {0.470, 4.20},
                                         {0.425, 4.17}, {0.38, 4.10},   {0.345, 4.00},
                                         {0.325, 3.90}, {0.318, 3.84},  {0.345, 3.825},
@@ -34,10 +34,10 @@ lobe_result hall_make_capital(const lobe_log *log, lobe_mesh *mesh) {
                                       .columns = COLUMNS,
                                       .tile = HALL_BRONZE_TILE,
                                       .tiles_around = 6};
-    return lathe_make(&shape, log, mesh);
+    return scenes_lathe_make(&shape, host, mesh);
 }
 
-lobe_result hall_make_ring(const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_hall_make_ring(const lobe_host *host, lobe_mesh *mesh) {
     static const double outline[][2] = {{0.36, 0.74},  {0.378, 0.735}, {0.384, 0.70}, {0.378, 0.66},
                                         {0.384, 0.62}, {0.378, 0.585}, {0.36, 0.58}};
     static const lathe_shape shape = {.name = "ring",
@@ -47,5 +47,5 @@ lobe_result hall_make_ring(const lobe_log *log, lobe_mesh *mesh) {
                                       .columns = COLUMNS,
                                       .tile = HALL_BRONZE_TILE,
                                       .tiles_around = 6};
-    return lathe_make(&shape, log, mesh);
+    return scenes_lathe_make(&shape, host, mesh);
 }

@@ -35,21 +35,21 @@ static floor_point find_slab(uint32_t column, uint32_t row, uint32_t extent) {
 
 // Where the floor is wet: 0 dry to 1 under a film of water. `column` and `row` are in tiles.
 static double wetness(double column, double row) {
-    double puddles = noise_gradient(column * 6, row * 6, 6, 31, NULL);
+    double puddles = scenes_noise_gradient(column * 6, row * 6, 6, 31, NULL);
     return fmin(fmax(0.45 + 2.2 * puddles, 0), 1);
 }
 
 // A slab's number in [-1, 1), of which it has several.
 static double slab_number(const floor_point *point, uint32_t which) {
-    return random_lattice(point->column, point->row, which) / 2147483648.0 - 1;
+    return scenes_random_lattice(point->column, point->row, which) / 2147483648.0 - 1;
 }
 
 static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     floor_point point = find_slab(column, row, NORMAL_EXTENT);
     double across = (column + 0.5) / NORMAL_EXTENT, down = (row + 0.5) / NORMAL_EXTENT;
     double swell[2], grit[2];
-    noise_gradient(across * 48, down * 48, 48, 32, swell);
-    noise_gradient(across * 400, down * 400, 400, 33, grit);
+    scenes_noise_gradient(across * 48, down * 48, 48, 32, swell);
+    scenes_noise_gradient(across * 400, down * 400, 400, 33, grit);
     double rough = point.brass ? 0.08 : 0.09 + 0.06 * slab_number(&point, 41);
     double slope[2] = {0.012 * slab_number(&point, 34) + 0.018 * swell[0] + rough * grit[0],
                        0.012 * slab_number(&point, 35) + 0.018 * swell[1] + rough * grit[1]};
@@ -59,7 +59,7 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
         slope[0] -= point.x > 0 ? fall : -fall;
     else
         slope[1] -= point.y > 0 ? fall : -fall;
-    normal_map_store_slope(texel, slope[0], slope[1]);
+    scenes_normal_map_store_slope(texel, slope[0], slope[1]);
 }
 
 static void fill_colour(uint32_t column, uint32_t row, void *texel) {
@@ -67,10 +67,10 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     static const double mortar[3] = {84, 78, 70};
     floor_point point = find_slab(column, row, COLOUR_EXTENT);
     double across = (column + 0.5) / COLOUR_EXTENT, down = (row + 0.5) / COLOUR_EXTENT;
-    double cloud = noise_gradient(across * 40, down * 40, 40, 36, NULL);
+    double cloud = scenes_noise_gradient(across * 40, down * 40, 40, 36, NULL);
     // Thin where the noise changes its sign; each slab is cut from another place.
-    double vein = noise_gradient(across * 14 + 0.4 * cloud, down * 14 + 3 * slab_number(&point, 37),
-                                 14, 38, NULL);
+    double vein = scenes_noise_gradient(across * 14 + 0.4 * cloud,
+                                        down * 14 + 3 * slab_number(&point, 37), 14, 38, NULL);
     double shade = 1 + 0.12 * slab_number(&point, 39) + 0.14 * cloud;
     double pale = fmax(1 - fabs(vein) * 22, 0) * (point.light ? -28 : 70);
     const double *colour = point.joint ? mortar : point.brass ? brass : stone[point.light];
@@ -93,12 +93,12 @@ static void fill_roughness(uint32_t column, uint32_t row, void *texel) {
     channels[2] = point.brass && !point.joint ? 255 : 0;
 }
 
-lobe_result hall_add_floor(lobe_scene *scene, const lobe_log *log) {
+lobe_result scenes_hall_add_floor(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map normals = {"floor normals", LOBE_FORMAT_RGBA8_UNORM, NORMAL_EXTENT,
                                         NORMAL_EXTENT, fill_normal};
     static const builtin_map colours = {"floor colours", LOBE_FORMAT_RGBA8_SRGB, COLOUR_EXTENT,
                                         COLOUR_EXTENT, fill_colour};
     static const builtin_map roughness = {"floor roughness", LOBE_FORMAT_RGBA8_UNORM, COLOUR_EXTENT,
                                           COLOUR_EXTENT, fill_roughness};
-    return builtin_add_metal_rough(scene, "floor", &normals, &colours, &roughness, log);
+    return scenes_builtin_add_metal_rough(scene, "floor", &normals, &colours, &roughness, host);
 }

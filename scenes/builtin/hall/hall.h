@@ -1,7 +1,7 @@
 #ifndef SCENES_BUILTIN_HALL_H
 #define SCENES_BUILTIN_HALL_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -22,11 +22,11 @@ typedef enum hall_material {
 #define HALL_BRONZE_TILE  0.4f
 #define HALL_CLOTH_TILE   1.2f
 
-lobe_result hall_add_floor(lobe_scene *scene, const lobe_log *log);
-lobe_result hall_add_masonry(lobe_scene *scene, const lobe_log *log);
-lobe_result hall_add_marble(lobe_scene *scene, const lobe_log *log);
-lobe_result hall_add_bronze(lobe_scene *scene, const lobe_log *log);
-lobe_result hall_add_cloth(lobe_scene *scene, const lobe_log *log);
+lobe_result scenes_hall_add_floor(lobe_scene *scene, const lobe_host *host);
+lobe_result scenes_hall_add_masonry(lobe_scene *scene, const lobe_host *host);
+lobe_result scenes_hall_add_marble(lobe_scene *scene, const lobe_host *host);
+lobe_result scenes_hall_add_bronze(lobe_scene *scene, const lobe_host *host);
+lobe_result scenes_hall_add_cloth(lobe_scene *scene, const lobe_host *host);
 
 /// Metres. Columns stand on the floor, y = 0, around their axes; arches spring from them.
 #define HALL_BAY           3.6  ///< from axis to axis
@@ -36,17 +36,17 @@ lobe_result hall_add_cloth(lobe_scene *scene, const lobe_log *log);
 
 /// A column's meshes, each around the axis: the turned marble, the bronze capital and the ring
 /// about its foot.
-lobe_result hall_make_column(const lobe_log *log, lobe_mesh *mesh);
-lobe_result hall_make_capital(const lobe_log *log, lobe_mesh *mesh);
-lobe_result hall_make_ring(const lobe_log *log, lobe_mesh *mesh);
+lobe_result scenes_hall_make_column(const lobe_host *host, lobe_mesh *mesh);
+lobe_result scenes_hall_make_capital(const lobe_host *host, lobe_mesh *mesh);
+lobe_result scenes_hall_make_ring(const lobe_host *host, lobe_mesh *mesh);
 
 /// Between two columns, x along the wall, 0 in the middle; y = 0 where the arch springs; the
 /// middle of the wall at z = 0. The arch has both of its faces, the spandrels above it the one at
 /// z > 0.
-lobe_result hall_make_arch(const lobe_log *log, lobe_mesh *mesh);
-lobe_result hall_make_spandrels(const lobe_log *log, lobe_mesh *mesh);
+lobe_result scenes_hall_make_arch(const lobe_host *host, lobe_mesh *mesh);
+lobe_result scenes_hall_make_spandrels(const lobe_host *host, lobe_mesh *mesh);
 
 /// A banner that hangs from the origin downwards, 1.2 m wide along x, its front towards +z.
-lobe_result hall_make_banner(const lobe_log *log, lobe_mesh *mesh);
+lobe_result scenes_hall_make_banner(const lobe_host *host, lobe_mesh *mesh);
 
 #endif

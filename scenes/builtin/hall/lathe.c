@@ -40,7 +40,7 @@ static void place(const void *argument, double u, double v, lobe_scene_vertex *v
     for (size_t i = 0; i < index; i++)
         length += stretch_length(shape->outline, i);
     length += t * stretch_length(shape->outline, index);
-    circle_point(u, around);
+    scenes_circle_point(u, around);
     vertex->position[0] = (float)(radius * around[1]);
     vertex->position[1] = (float)interpolate(shape, index, t, 1);
     vertex->position[2] = (float)(radius * around[0]);
@@ -48,12 +48,12 @@ static void place(const void *argument, double u, double v, lobe_scene_vertex *v
     vertex->texture_coordinates[0][1] = (float)(length / shape->tile);
 }
 
-lobe_result lathe_make(const lathe_shape *shape, const lobe_log *log, lobe_mesh *mesh) {
+lobe_result scenes_lathe_make(const lathe_shape *shape, const lobe_host *host, lobe_mesh *mesh) {
     const grid_mesh grid = {.name = shape->name,
                             .rows = (uint32_t)(shape->count - 1) * shape->cuts,
                             .columns = shape->columns,
                             .closed = true,
                             .place = place,
                             .shape = shape};
-    return grid_mesh_make(&grid, log, mesh);
+    return scenes_grid_mesh_make(&grid, host, mesh);
 }

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
@@ -21,7 +21,7 @@ typedef struct lathe_shape {
     double tiles_around;    ///< units of u once around
 } lathe_shape;
 
-/// `mesh` is overwritten. Errors: as mesh_allocate.
-lobe_result lathe_make(const lathe_shape *shape, const lobe_log *log, lobe_mesh *mesh);
+/// `mesh` is overwritten. Errors: as scenes_mesh_allocate.
+lobe_result scenes_lathe_make(const lathe_shape *shape, const lobe_host *host, lobe_mesh *mesh);
 
 #endif

@@ -30,27 +30,27 @@ static wall_point find_block(uint32_t column, uint32_t row) {
 }
 
 static double block_number(const wall_point *point, uint32_t which) {
-    return random_lattice(point->block, point->course, which) / 2147483648.0 - 1;
+    return scenes_random_lattice(point->block, point->course, which) / 2147483648.0 - 1;
 }
 
 static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     wall_point point = find_block(column, row);
     double coarse[2], fine[2];
-    noise_gradient((column + 0.5) / 16, (row + 0.5) / 16, EXTENT / 16, 51, coarse);
-    noise_gradient((column + 0.5) / 3.2, (row + 0.5) / 3.2, 160, 52, fine);
+    scenes_noise_gradient((column + 0.5) / 16, (row + 0.5) / 16, EXTENT / 16, 51, coarse);
+    scenes_noise_gradient((column + 0.5) / 3.2, (row + 0.5) / 3.2, 160, 52, fine);
     double fall_x = fmax(4 - point.side, 0) * 0.2, fall_y = fmax(4 - point.bottom, 0) * 0.2;
-    normal_map_store_slope(texel,
-                           0.03 * block_number(&point, 53) + 0.12 * coarse[0] + 0.22 * fine[0] -
-                               (point.x > 0 ? fall_x : -fall_x),
-                           0.03 * block_number(&point, 54) + 0.12 * coarse[1] + 0.22 * fine[1] -
-                               (point.y > 0 ? fall_y : -fall_y));
+    scenes_normal_map_store_slope(texel,
+                                  0.03 * block_number(&point, 53) + 0.12 * coarse[0] +
+                                      0.22 * fine[0] - (point.x > 0 ? fall_x : -fall_x),
+                                  0.03 * block_number(&point, 54) + 0.12 * coarse[1] +
+                                      0.22 * fine[1] - (point.y > 0 ? fall_y : -fall_y));
 }
 
 static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     static const double sandstone[3] = {196, 170, 134};
     wall_point point = find_block(column, row);
-    double bed = noise_gradient(column / 64.0, row / 8.0, 64, 55, NULL);
-    double grain = noise_gradient(column / 2.0, row / 2.0, EXTENT / 2, 56, NULL);
+    double bed = scenes_noise_gradient(column / 64.0, row / 8.0, 64, 55, NULL);
+    double grain = scenes_noise_gradient(column / 2.0, row / 2.0, EXTENT / 2, 56, NULL);
     double shade = 1 + 0.1 * block_number(&point, 57) + 0.1 * bed + 0.12 * grain;
     shade *= point.side < 1.5 || point.bottom < 1.5 ? 0.6 : 1;
     double warmth = 8 * block_number(&point, 58);
@@ -62,18 +62,18 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
 
 static void fill_roughness(uint32_t column, uint32_t row, void *texel) {
     wall_point point = find_block(column, row);
-    double grain = noise_gradient(column / 4.0, row / 4.0, EXTENT / 4, 59, NULL);
+    double grain = scenes_noise_gradient(column / 4.0, row / 4.0, EXTENT / 4, 59, NULL);
     uint8_t *channels = texel;
     channels[0] = channels[2] = 0, channels[3] = 255;
     channels[1] = (uint8_t)(255 * (0.58 + 0.08 * block_number(&point, 60) + 0.25 * grain));
 }
 
-lobe_result hall_add_masonry(lobe_scene *scene, const lobe_log *log) {
+lobe_result scenes_hall_add_masonry(lobe_scene *scene, const lobe_host *host) {
     static const builtin_map normals = {"masonry normals", LOBE_FORMAT_RGBA8_UNORM, EXTENT, EXTENT,
                                         fill_normal};
     static const builtin_map colours = {"masonry colours", LOBE_FORMAT_RGBA8_SRGB, EXTENT, EXTENT,
                                         fill_colour};
     static const builtin_map roughness = {"masonry roughness", LOBE_FORMAT_RGBA8_UNORM, EXTENT,
                                           EXTENT, fill_roughness};
-    return builtin_add_metal_rough(scene, "masonry", &normals, &colours, &roughness, log);
+    return scenes_builtin_add_metal_rough(scene, "masonry", &normals, &colours, &roughness, host);
 }

@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 #include <lobe/file.h>
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -80,10 +80,10 @@ typedef struct lobe_environment_open_parameters {
 /// Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED (another format, or no known
 /// shape), _LIMIT, _OUT_OF_MEMORY.
 lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
-                                       const lobe_log *log, lobe_environment **environment);
+                                       const lobe_host *host, lobe_environment **environment);
 
 /// The same, from the file system.
-lobe_result lobe_environment_open(const char *file_or_sky, const lobe_log *log,
+lobe_result lobe_environment_open(const char *file_or_sky, const lobe_host *host,
                                   lobe_environment **environment);
 
 /// Halves the image, or each of its faces, until neither its width nor its height is above this,

@@ -7,8 +7,8 @@
 
 #include <lobe/environment.h>
 #include <lobe/file.h>
+#include <lobe/host.h>
 #include <lobe/image.h>
-#include <lobe/log.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -256,11 +256,11 @@ typedef struct lobe_scene_open_parameters {
 /// refuses it. On failure `*result` is NULL and the log has one line that names
 /// the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
 /// _OUT_OF_MEMORY.
-lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters, const lobe_log *log,
-                                 lobe_scene **result);
+lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
+                                 const lobe_host *host, lobe_scene **result);
 
 /// The same, without assets.
-lobe_result lobe_scene_open(const char *scene, const lobe_log *log, lobe_scene **result);
+lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result);
 
 typedef enum lobe_carrier {
     LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
@@ -274,8 +274,8 @@ typedef enum lobe_carrier {
 /// normal/nor, rough, metal, arm/orm, ao, disp/height, ...). At least one map besides that of
 /// heights must be found. Heights are scaled to be as steep as the normal map, where there is one
 /// of their extent that they agree with; else to 0.05. Errors as for lobe_scene_open.
-lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier, const lobe_log *log,
-                                     lobe_scene **result);
+lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
+                                     const lobe_host *host, lobe_scene **result);
 
 #ifdef __cplusplus
 }

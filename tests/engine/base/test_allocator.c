@@ -115,25 +115,25 @@ static void allocators_do_not_mix(void **state) {
 // Images and files
 
 static lobe_result make_image(lobe_format format, uint32_t width, uint32_t height,
-                              const lobe_log *log, lobe_image *image) {
-    lobe_result result = lobe_image_allocate(image, format, width, height, log);
+                              const lobe_host *host, lobe_image *image) {
+    lobe_result result = lobe_image_allocate(image, format, width, height, host);
     const size_t size = result ? 0 : (size_t)width * height * lobe_format_size(format);
     for (size_t n = 0; n < size; n++)
         ((uint8_t *)image->texels)[n] = (uint8_t)(n % 59);
     return result;
 }
 
-static lobe_result work_with_png(void *user, const lobe_log *log) {
+static lobe_result work_with_png(void *user, const lobe_host *host) {
     (void)user;
     const char *path = temporary_folder_file(&test_folder, "picture.png");
     lobe_image linear, picture = {0}, read = {0};
     uint8_t *data = NULL;
     size_t size;
-    lobe_result result = make_image(LOBE_FORMAT_RGBA32_FLOAT, 30, 20, log, &linear);
-    result = result ? result : lobe_display_encode(&linear, NULL, log, &picture);
-    result = result ? result : lobe_png_write(path, &picture, log);
-    result = result ? result : lobe_png_encode("data", &picture, log, &data, &size);
-    result = result ? result : lobe_png_read(path, log, &read);
+    lobe_result result = make_image(LOBE_FORMAT_RGBA32_FLOAT, 30, 20, host, &linear);
+    result = result ? result : lobe_display_encode(&linear, NULL, host, &picture);
+    result = result ? result : lobe_png_write(path, &picture, host);
+    result = result ? result : lobe_png_encode("data", &picture, host, &data, &size);
+    result = result ? result : lobe_png_read(path, host, &read);
     lobe_release(data);
     lobe_image_free(&linear);
     lobe_image_free(&picture);
@@ -141,14 +141,14 @@ static lobe_result work_with_png(void *user, const lobe_log *log) {
     return result;
 }
 
-static lobe_result work_with_exr(void *user, const lobe_log *log) {
+static lobe_result work_with_exr(void *user, const lobe_host *host) {
     const uint32_t level_count = *(const uint32_t *)user;
     const char *path = temporary_folder_file(&test_folder, "layers.exr");
     lobe_image levels[3] = {0}, read = {0};
     lobe_exr_contents contents = {0};
     lobe_result result = LOBE_OK;
     for (uint32_t n = 0; result == LOBE_OK && n < 3; n++)
-        result = make_image(LOBE_FORMAT_RGBA16_FLOAT, 4u >> n, 4u >> n, log, &levels[n]);
+        result = make_image(LOBE_FORMAT_RGBA16_FLOAT, 4u >> n, 4u >> n, host, &levels[n]);
     const lobe_exr_layer layers[2] = {{.image = levels}, {.name = "again", .image = levels}};
     const lobe_exr_attribute attribute = {.name = "maker", .type = LOBE_EXR_TEXT, .text = "us"};
     const lobe_exr_parameters parameters = {.layers = layers,
@@ -156,9 +156,9 @@ static lobe_result work_with_exr(void *user, const lobe_log *log) {
                                             .attributes = &attribute,
                                             .attribute_count = 1,
                                             .level_count = level_count};
-    result = result ? result : lobe_exr_write(path, &parameters, log);
-    result = result ? result : lobe_exr_read(path, "again", log, &read);
-    result = result ? result : lobe_exr_read_contents(path, NULL, log, &contents);
+    result = result ? result : lobe_exr_write(path, &parameters, host);
+    result = result ? result : lobe_exr_read(path, "again", host, &read);
+    result = result ? result : lobe_exr_read_contents(path, NULL, host, &contents);
     for (int n = 0; n < 3; n++)
         lobe_image_free(&levels[n]);
     lobe_image_free(&read);
@@ -167,26 +167,26 @@ static lobe_result work_with_exr(void *user, const lobe_log *log) {
 }
 
 /// A new file, and an old one.
-static lobe_result work_with_files(void *user, const lobe_log *log) {
+static lobe_result work_with_files(void *user, const lobe_host *host) {
     (void)user;
     const char *path = temporary_folder_file(&test_folder, "file");
     uint8_t *data = NULL;
     size_t size;
-    lobe_result result = lobe_file_write(path, "bytes", 5, log);
-    result = result ? result : lobe_file_write(path, "bytes", 5, log);
-    result = result ? result : lobe_file_read(path, NULL, log, &data, &size);
+    lobe_result result = lobe_file_write(path, "bytes", 5, host);
+    result = result ? result : lobe_file_write(path, "bytes", 5, host);
+    result = result ? result : lobe_file_read(path, NULL, host, &data, &size);
     lobe_release(data);
     return result;
 }
 
-static lobe_result work_with_profile(void *user, const lobe_log *log) {
+static lobe_result work_with_profile(void *user, const lobe_host *host) {
     (void)user;
     const lobe_pass_report passes[] = {{.name = "a", .milliseconds = 1},
                                        {.name = "b", .milliseconds = 2}};
     const lobe_graph_report report = {.passes = passes, .pass_count = 2, .milliseconds = 3};
     lobe_profile *profile;
     lobe_profile_summary summary;
-    lobe_result result = lobe_profile_create(log, &profile);
+    lobe_result result = lobe_profile_create(host, &profile);
     for (int n = 0; result == LOBE_OK && n < 20; n++)
         result = lobe_profile_add(profile, &report);
     result = result ? result : lobe_profile_statistics(profile, &summary);

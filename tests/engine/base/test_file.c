@@ -63,7 +63,7 @@ static void expect_read_error(const char *path, lobe_result expected) {
     log_recorder_start(&recorder);
     uint8_t *data;
     size_t size;
-    assert_int_equal(lobe_file_read(path, NULL, &recorder.log, &data, &size), expected);
+    assert_int_equal(lobe_file_read(path, NULL, &recorder.host, &data, &size), expected);
     assert_null(data);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
@@ -90,7 +90,7 @@ static void the_referring_file_is_named_too(void **state) {
     const char *path = temporary_folder_file(&test_folder, "missing");
     uint8_t *data;
     size_t size;
-    assert_int_equal(lobe_file_read(path, "scene.gltf", &recorder.log, &data, &size),
+    assert_int_equal(lobe_file_read(path, "scene.gltf", &recorder.host, &data, &size),
                      LOBE_ERROR_NOT_FOUND);
     assert_ptr_equal(strstr(recorder.last_error, "scene.gltf: "), recorder.last_error);
     assert_non_null(strstr(recorder.last_error, path));
@@ -108,7 +108,7 @@ static void a_sparse_giant_is_refused(void **state) {
 static void expect_write_error(const char *path) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(lobe_file_write(path, "new", 3, &recorder.log), LOBE_ERROR_WRITE);
+    assert_int_equal(lobe_file_write(path, "new", 3, &recorder.host), LOBE_ERROR_WRITE);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
 }

@@ -16,7 +16,7 @@ static int start_recorder(void **state) {
 }
 
 static lobe_result create(const char *select, lobe_device **device) {
-    return lobe_device_create(&(lobe_device_parameters){.select = select, .log = &recorder.log},
+    return lobe_device_create(&(lobe_device_parameters){.select = select, .host = &recorder.host},
                               device);
 }
 
@@ -63,7 +63,7 @@ static void devices_are_listed_and_selected(void **state) {
     (void)state;
     lobe_device_information *devices = NULL;
     size_t count = 0;
-    assert_int_equal(lobe_device_list(&devices, &count, &recorder.log), LOBE_OK);
+    assert_int_equal(lobe_device_list(&devices, &count, &recorder.host), LOBE_OK);
     assert_true(count > 0);
     for (size_t i = 0; i < count; i++) {
         const char index[] = {(char)('0' + i), '\0'};
@@ -107,7 +107,7 @@ static void without_a_driver_there_is_no_device(void **state) {
     setenv("VK_DRIVER_FILES", "/nonexistent", 1);
     setenv("VK_ICD_FILENAMES", "/nonexistent", 1);
     assert_refused(NULL);
-    assert_int_equal(lobe_device_list(&devices, &count, &recorder.log), LOBE_ERROR_NO_DEVICE);
+    assert_int_equal(lobe_device_list(&devices, &count, &recorder.host), LOBE_ERROR_NO_DEVICE);
     assert_null(devices);
     assert_int_equal(count, 0);
     assert_int_equal(recorder.errors, 2);
@@ -120,7 +120,7 @@ static void missing_validation_layer_is_unsupported(void **state) {
     lobe_device *device = NULL;
     setenv("VK_LAYER_PATH", "/nonexistent", 1);
     assert_int_equal(
-        lobe_device_create(&(lobe_device_parameters){.validation = true, .log = &recorder.log},
+        lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &recorder.host},
                            &device),
         LOBE_ERROR_UNSUPPORTED);
     unsetenv("VK_LAYER_PATH");
@@ -133,7 +133,7 @@ static void validation_is_silent_without_mistakes(void **state) {
     (void)state;
     lobe_device *device = NULL;
     assert_int_equal(
-        lobe_device_create(&(lobe_device_parameters){.validation = true, .log = &recorder.log},
+        lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &recorder.host},
                            &device),
         LOBE_OK);
     assert_int_equal(lobe_device_validation_count(device), 0);

@@ -226,7 +226,7 @@ static void assert_refused(lobe_result expected, const lobe_device_parameters *p
     lobe_device *device = (lobe_device *)&host;
     log_recorder_start(&host.recorder);
     lobe_device_parameters used = parameters ? *parameters : (lobe_device_parameters){0};
-    used.log = &host.recorder.log;
+    used.host = &host.recorder.host;
     assert_int_equal(lobe_vulkan_import_device(&host.vulkan, &used, &device), expected);
     assert_null(device);
     assert_int_equal(host.recorder.errors, 1);

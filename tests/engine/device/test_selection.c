@@ -39,7 +39,7 @@ static int make_up_devices(void **state) {
 
 static void assert_selects(const char *select, size_t expected) {
     size_t selected = SIZE_MAX;
-    assert_int_equal(engine_candidates_select(candidates, 4, select, &recorder.log, &selected),
+    assert_int_equal(engine_candidates_select(candidates, 4, select, &recorder.host, &selected),
                      LOBE_OK);
     assert_int_equal(selected, expected);
 }
@@ -47,7 +47,7 @@ static void assert_selects(const char *select, size_t expected) {
 static void assert_refuses(const char *select, const char *because) {
     size_t selected = SIZE_MAX;
     const int errors = recorder.errors;
-    assert_int_equal(engine_candidates_select(candidates, 4, select, &recorder.log, &selected),
+    assert_int_equal(engine_candidates_select(candidates, 4, select, &recorder.host, &selected),
                      LOBE_ERROR_NO_DEVICE);
     assert_int_equal(selected, SIZE_MAX);
     assert_int_equal(recorder.errors, errors + 1);

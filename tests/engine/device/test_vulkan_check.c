@@ -22,7 +22,7 @@ static void success_codes_are_silent(void **state) {
     (void)state;
     static const VkResult codes[] = {VK_SUCCESS, VK_INCOMPLETE, VK_TIMEOUT, VK_NOT_READY};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++)
-        assert_int_equal(VULKAN_CHECK(&recorder.log, vkPretend(codes[i]), "thing"), LOBE_OK);
+        assert_int_equal(VULKAN_CHECK(&recorder.host, vkPretend(codes[i]), "thing"), LOBE_OK);
     assert_int_equal(recorder.errors, 0);
 }
 
@@ -46,7 +46,7 @@ static void errors_become_lobes_own(void **state) {
 static void line_names_purpose_function_and_code(void **state) {
     (void)state;
     assert_int_equal(
-        VULKAN_CHECK(&recorder.log, vkPretend(VK_ERROR_DEVICE_LOST), "image '%s'", "colours"),
+        VULKAN_CHECK(&recorder.host, vkPretend(VK_ERROR_DEVICE_LOST), "image '%s'", "colours"),
         LOBE_ERROR_DEVICE_LOST);
     assert_int_equal(recorder.errors, 1);
     assert_string_equal(recorder.last_error,

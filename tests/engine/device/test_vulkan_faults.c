@@ -41,7 +41,7 @@ static const float triangle[] = {-1, -1, -1, 3, 3, -1};
 
 /// `host`: whose device to use; NULL: one of lobe's own.
 static lobe_result open_device(work *w, host *host) {
-    const lobe_device_parameters parameters = {.log = &w->recorder.log};
+    const lobe_device_parameters parameters = {.host = &w->recorder.host};
     return host ? lobe_vulkan_import_device(&host->vulkan.vulkan, &parameters, &w->device)
                 : lobe_device_create(&parameters, &w->device);
 }
@@ -207,7 +207,7 @@ static lobe_result run_with_validation(work *w, host *host) {
     (void)host;
     const char *cache = temporary_folder_file(&test_folder, "pipelines");
     const lobe_device_parameters parameters = {
-        .log = &w->recorder.log, .validation = true, .pipeline_cache = cache};
+        .host = &w->recorder.host, .validation = true, .pipeline_cache = cache};
     const lobe_result result = lobe_device_create(&parameters, &w->device);
     return result
                ? result
@@ -323,9 +323,9 @@ typedef struct way {
     host *host;
 } way;
 
-static lobe_result run_with_allocator(void *user, const lobe_log *log) {
+static lobe_result run_with_allocator(void *user, const lobe_host *host) {
     const way *way = user;
-    work w = {.recorder.log = *log};
+    work w = {.recorder.host = *host};
     const lobe_result result = way->run(&w, way->host);
     if (result != LOBE_OK && w.graph && run_frame(&w, 4) != LOBE_OK)
         fail_msg("something is left half-built");

@@ -11,7 +11,7 @@ int graph_fixture_open(void **state) {
     graph_fixture *fixture = calloc(1, sizeof *fixture);
     *state = fixture;
     log_recorder_start(&fixture->recorder);
-    return open_device_with_test_shaders(&fixture->recorder.log, NULL, &fixture->device) !=
+    return open_device_with_test_shaders(&fixture->recorder.host, NULL, &fixture->device) !=
                LOBE_OK ||
            lobe_graph_create(fixture->device, &fixture->graph) != LOBE_OK;
 }

@@ -209,7 +209,8 @@ static void memory_is_exhausted(void **state) {
     (void)state;
     graph_fixture small = {0};
     log_recorder_start(&small.recorder);
-    const lobe_device_parameters parameters = {.memory_limit = 1 << 20, .log = &small.recorder.log};
+    const lobe_device_parameters parameters = {.memory_limit = 1 << 20,
+                                               .host = &small.recorder.host};
     assert_int_equal(lobe_device_create(&parameters, &small.device), LOBE_OK);
     assert_int_equal(lobe_graph_create(small.device, &small.graph), LOBE_OK);
     for (int retained = 0; retained < 2; retained++) {

@@ -46,8 +46,8 @@ static int open_fixture(void **state) {
     *state = f;
     counting_allocator_start(&f->counting);
     log_recorder_start(&f->recorder);
-    f->recorder.log.allocator = &f->counting.allocator;
-    return open_device_with_test_shaders(&f->recorder.log, NULL, &f->device) != LOBE_OK ||
+    f->recorder.host.allocator = &f->counting.allocator;
+    return open_device_with_test_shaders(&f->recorder.host, NULL, &f->device) != LOBE_OK ||
            graph_frame_open(f->device, &f->frame) != LOBE_OK;
 }
 

@@ -121,7 +121,7 @@ static void only_float_images_become_pictures(void **state) {
     log_recorder_start(&recorder);
     uint8_t texel[4] = {0};
     lobe_image source = {LOBE_FORMAT_RGBA8_UNORM, 1, 1, texel}, picture;
-    assert_int_equal(lobe_display_encode(&source, NULL, &recorder.log, &picture),
+    assert_int_equal(lobe_display_encode(&source, NULL, &recorder.host, &picture),
                      LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_null(picture.texels);

@@ -44,7 +44,7 @@ static void refuse(lobe_format format, uint32_t width, uint32_t height, lobe_res
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image = {LOBE_FORMAT_R8_UNORM, 1, 1, &recorder};
-    assert_int_equal(lobe_image_allocate(&image, format, width, height, &recorder.log), expected);
+    assert_int_equal(lobe_image_allocate(&image, format, width, height, &recorder.host), expected);
     assert_int_equal(recorder.errors, 1);
     assert_null(image.texels);
 }

@@ -65,7 +65,7 @@ static void memory_holds_what_a_file_would(void **state) {
     image.format = LOBE_FORMAT_R32_FLOAT;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(lobe_png_encode("memory", &image, &recorder.log, &encoded, &encoded_size),
+    assert_int_equal(lobe_png_encode("memory", &image, &recorder.host, &encoded, &encoded_size),
                      LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, "memory"));
@@ -169,7 +169,7 @@ static void expect_read_error(const char *path, lobe_result expected) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
-    assert_int_equal(lobe_png_read(path, &recorder.log, &image), expected);
+    assert_int_equal(lobe_png_read(path, &recorder.host, &image), expected);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
     assert_null(image.texels);
@@ -235,7 +235,7 @@ static void what_cannot_be_written_leaves_nothing(void **state) {
     for (int index = 0; index < 3; index++) {
         log_recorder recorder;
         log_recorder_start(&recorder);
-        assert_int_equal(lobe_png_write(paths[index], &image, &recorder.log), LOBE_ERROR_WRITE);
+        assert_int_equal(lobe_png_write(paths[index], &image, &recorder.host), LOBE_ERROR_WRITE);
         assert_int_equal(recorder.errors, 1);
         assert_non_null(strstr(recorder.last_error, paths[index]));
     }
@@ -250,7 +250,7 @@ static void only_pictures_are_written(void **state) {
     lobe_image image;
     assert_int_equal(lobe_image_allocate(&image, LOBE_FORMAT_RGBA32_FLOAT, 2, 2, NULL), LOBE_OK);
     assert_int_equal(
-        lobe_png_write(temporary_folder_file(&test_folder, "float.png"), &image, &recorder.log),
+        lobe_png_write(temporary_folder_file(&test_folder, "float.png"), &image, &recorder.host),
         LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_int_equal(temporary_folder_count(&test_folder), 0);

@@ -18,7 +18,7 @@ static lobe_device *device;
 static int open_device(void **state) {
     (void)state;
     log_recorder_start(&recorder);
-    return open_device_with_test_shaders(&recorder.log, NULL, &device) != LOBE_OK;
+    return open_device_with_test_shaders(&recorder.host, NULL, &device) != LOBE_OK;
 }
 
 static int close_device(void **state) {
@@ -279,7 +279,7 @@ static int remove_folder(void **state) {
 }
 
 static void run_with_cache(void) {
-    assert_int_equal(open_device_with_test_shaders(&recorder.log, cache_path, &device), LOBE_OK);
+    assert_int_equal(open_device_with_test_shaders(&recorder.host, cache_path, &device), LOBE_OK);
     compute(NULL, 0);
     assert_int_equal(lobe_device_validation_count(device), 0);
     lobe_device_destroy(&device);
@@ -343,7 +343,7 @@ static void unwritable_cache_file_is_only_a_warning(void **state) {
     (void)state;
     char missing[96];
     snprintf(missing, sizeof missing, "%s/missing/pipelines", folder);
-    assert_int_equal(open_device_with_test_shaders(&recorder.log, missing, &device), LOBE_OK);
+    assert_int_equal(open_device_with_test_shaders(&recorder.host, missing, &device), LOBE_OK);
     lobe_device_destroy(&device);
     assert_int_equal(recorder.errors, 0);
     assert_int_equal(recorder.warnings, 1);

@@ -15,7 +15,7 @@ static lobe_device *open_device(uint64_t limit) {
     log_recorder_start(&recorder);
     assert_int_equal(lobe_device_create(&(lobe_device_parameters){.memory_limit = limit,
                                                                   .validation = true,
-                                                                  .log = &recorder.log},
+                                                                  .host = &recorder.host},
                                         &device),
                      LOBE_OK);
     return device;

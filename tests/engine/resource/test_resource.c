@@ -14,7 +14,7 @@ static lobe_device *device;
 static int open_device(void **state) {
     (void)state;
     log_recorder_start(&recorder);
-    return lobe_device_create(&(lobe_device_parameters){.validation = true, .log = &recorder.log},
+    return lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &recorder.host},
                               &device) != LOBE_OK;
 }
 
@@ -204,8 +204,8 @@ static void texture_beyond_the_memory_limit_is_refused(void **state) {
     uint8_t *texels = calloc(2048 * 2048, 4);
     const lobe_image image = {LOBE_FORMAT_RGBA8_UNORM, 2048, 2048, texels};
     assert_int_equal(
-        lobe_device_create(&(lobe_device_parameters){.memory_limit = 1 << 20, .log = &recorder.log},
-                           &small),
+        lobe_device_create(
+            &(lobe_device_parameters){.memory_limit = 1 << 20, .host = &recorder.host}, &small),
         LOBE_OK);
     assert_int_equal(
         lobe_texture_create(small, &(lobe_texture_parameters){"huge", &image}, &texture),
@@ -282,9 +282,10 @@ static void validation_counts_mistakes(void **state) {
     VkBuffer buffer = VK_NULL_HANDLE;
     log_recorder messages;
     log_recorder_start(&messages);
-    assert_int_equal(lobe_device_create(
-                         &(lobe_device_parameters){.validation = true, .log = &messages.log}, &own),
-                     LOBE_OK);
+    assert_int_equal(
+        lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &messages.host},
+                           &own),
+        LOBE_OK);
     // A size of 0 is what Vulkan forbids; our own functions would not let it through.
     const VkBufferCreateInfo wrong = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                       .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT};

@@ -74,7 +74,7 @@ static int make_sources(void **state) {
     write_file("main.comp", main_text);
     write_file("lib/value.glsl", "float value() { return 1; }\n");
     write_file("filters/plain.glsl", "float filtered() { return 2; }\n");
-    if (lobe_device_create(&(lobe_device_parameters){.validation = true, .log = &recorder.log},
+    if (lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &recorder.host},
                            &device))
         return 1;
     return engine_shaders_add(device, codes, sizeof codes / sizeof *codes, folder) != LOBE_OK;
@@ -199,7 +199,7 @@ static void library_shaders_are_as_the_build_made_them(void **state) {
         const engine_shader_code *code = &engine_embedded_shaders[i];
         const engine_shader *shader = find(code->name);
         engine_shader embedded = {.name = code->name};
-        assert_int_equal(engine_reflect(&recorder.log, code->words, code->size / 4, &embedded),
+        assert_int_equal(engine_reflect(&recorder.host, code->words, code->size / 4, &embedded),
                          LOBE_OK);
         assert_int_equal(shader->stage, embedded.stage);
         assert_int_equal(shader->binding_count, embedded.binding_count);

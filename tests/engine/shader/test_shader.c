@@ -14,7 +14,7 @@ static lobe_device *device;
 static int open_device(void **state) {
     (void)state;
     log_recorder_start(&recorder);
-    return open_device_with_test_shaders(&recorder.log, NULL, &device) != LOBE_OK;
+    return open_device_with_test_shaders(&recorder.host, NULL, &device) != LOBE_OK;
 }
 
 static int close_device(void **state) {
@@ -175,7 +175,7 @@ static void words_that_are_no_spirv_are_refused(void **state) {
     for (size_t count = 0; count <= 8; count++) {
         engine_shader shader = {.name = "noise"};
         const int errors = recorder.errors;
-        assert_int_equal(engine_reflect(&recorder.log, words, count, &shader), LOBE_ERROR_SHADER);
+        assert_int_equal(engine_reflect(&recorder.host, words, count, &shader), LOBE_ERROR_SHADER);
         assert_int_equal(recorder.errors, errors + 1);
         engine_reflection_free(&shader);
     }

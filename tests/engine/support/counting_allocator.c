@@ -56,9 +56,9 @@ static void work_with_failure(counted_work work, void *user, counting_allocator 
     log_recorder recorder;
     log_recorder_start(&recorder);
     counting_allocator_start(counting);
-    recorder.log.allocator = &counting->allocator;
+    recorder.host.allocator = &counting->allocator;
     counting->failing = failing;
-    const lobe_result result = work(user, &recorder.log);
+    const lobe_result result = work(user, &recorder.host);
     const lobe_result expected = failing ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_OK;
     if (result != expected || recorder.errors != (failing > 0))
         fail_msg("allocation %zu: %s, %d lines, the last '%s'", failing, lobe_result_name(result),

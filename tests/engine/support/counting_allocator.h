@@ -4,7 +4,7 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 
 /// A host's allocator that keeps the books, and fails when it is told to.
 typedef struct counting_allocator {
@@ -23,7 +23,7 @@ void assert_nothing_left(const counting_allocator *counting);
 
 /// Something to do with memory of the log's allocator, which is all given back in the end. Returns
 /// the first failure.
-typedef lobe_result (*counted_work)(void *user, const lobe_log *log);
+typedef lobe_result (*counted_work)(void *user, const lobe_host *host);
 
 /// Does it once with as much memory as it likes, then once for each time that it asked for some,
 /// which then fails. Asserts that it says so by its code and one line each time, and gives back all

@@ -124,7 +124,7 @@ void host_device_close(host_device *host) {
 
 lobe_device *host_device_import(host_device *host) {
     lobe_device *device = NULL;
-    const lobe_device_parameters parameters = {.log = &host->recorder.log};
+    const lobe_device_parameters parameters = {.host = &host->recorder.host};
     if (lobe_vulkan_import_device(&host->vulkan, &parameters, &device) != LOBE_OK)
         fail_msg("%s", host->recorder.last_error);
     return device;

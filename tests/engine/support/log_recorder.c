@@ -16,5 +16,5 @@ static void record(void *user, lobe_log_level level, const char *message) {
 }
 
 void log_recorder_start(log_recorder *recorder) {
-    *recorder = (log_recorder){.log = {.write = record, .user = recorder}};
+    *recorder = (log_recorder){.host = {.write = record, .user = recorder}};
 }

@@ -1,11 +1,11 @@
 #ifndef TESTS_ENGINE_SUPPORT_LOG_RECORDER_H
 #define TESTS_ENGINE_SUPPORT_LOG_RECORDER_H
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 
 /// A log that keeps what it is told, for tests to look at.
 typedef struct log_recorder {
-    lobe_log log; ///< hand this to lobe
+    lobe_host host; ///< hand this to lobe
     int errors, warnings, notices;
     char last_error[1024];
     char last_warning[1024];

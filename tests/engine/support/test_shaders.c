@@ -5,12 +5,12 @@ lobe_result add_test_shaders(lobe_device *device) {
                               TEST_SHADER_FOLDER);
 }
 
-lobe_result open_device_with_test_shaders(const lobe_log *log, const char *pipeline_cache,
+lobe_result open_device_with_test_shaders(const lobe_host *host, const char *pipeline_cache,
                                           lobe_device **device) {
     const lobe_device_parameters parameters = {
         .validation = true,
         .pipeline_cache = pipeline_cache,
-        .log = log,
+        .host = host,
     };
     const lobe_result result = lobe_device_create(&parameters, device);
     return result == LOBE_OK ? add_test_shaders(*device) : result;

@@ -13,7 +13,7 @@ extern const size_t engine_test_shaders_count;
 lobe_result add_test_shaders(lobe_device *device);
 
 /// A device with validation that knows the test shaders. `pipeline_cache` may be NULL.
-lobe_result open_device_with_test_shaders(const lobe_log *log, const char *pipeline_cache,
+lobe_result open_device_with_test_shaders(const lobe_host *host, const char *pipeline_cache,
                                           lobe_device **device);
 
 #endif

@@ -30,7 +30,7 @@ static void start(fixture *f, bool constant, uint32_t size, checked *c) {
                                         .world_from_environment = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                         .intensity = 1};
     assert_int_equal(lobe_image_allocate(&c->environment.image, LOBE_FORMAT_RGBA32_FLOAT, SIZE,
-                                         6 * SIZE, &f->log),
+                                         6 * SIZE, &f->host),
                      LOBE_OK);
     float *texels = c->environment.image.texels;
     for (int i = 0; i < 6 * SIZE * SIZE; ++i) {
@@ -46,11 +46,11 @@ static void start(fixture *f, bool constant, uint32_t size, checked *c) {
             .size = size,
             .wanted =
                 {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true, [LOBE_ENVIRONMENT_BETWEEN] = true},
-            .log = &f->log},
+            .host = &f->host},
         &c->maps);
     if (result != LOBE_OK)
         fail_msg("%s", f->error);
-    environment_check_directions(DIRECTIONS, c->directions);
+    passes_environment_check_directions(DIRECTIONS, c->directions);
 }
 
 static void stop(checked *c) {
@@ -59,7 +59,7 @@ static void stop(checked *c) {
 }
 
 static environment_check_request begin(checked *c, lobe_graph **graph, environment_maps *cubes) {
-    *graph = environment_maps_begin(c->maps, cubes);
+    *graph = passes_environment_maps_begin(c->maps, cubes);
     return (environment_check_request){
         .directions = lobe_graph_upload(*graph, "directions", c->directions, sizeof c->directions),
         .count = DIRECTIONS,
@@ -88,15 +88,16 @@ static float *look_up(checked *c, uint32_t method, double kappa, uint32_t sample
     request.concentration = kappa;
     request.samples = samples;
     request.rounds = rounds;
-    return take(c, graph, environment_check(graph, &cubes, &request));
+    return take(c, graph, passes_environment_check(graph, &cubes, &request));
 }
 
 static float *add_up(checked *c, uint32_t first, uint32_t count) {
     lobe_graph *graph;
     environment_maps cubes;
     environment_check_request request = begin(c, &graph, &cubes);
-    return take(c, graph,
-                environment_check_exact(graph, &cubes, &request, concentrations, first, count));
+    return take(
+        c, graph,
+        passes_environment_check_exact(graph, &cubes, &request, concentrations, first, count));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -105,7 +106,7 @@ static void directions_cover_the_sphere_evenly(void **state) {
     (void)state;
     static float directions[1000][4];
     double second[3][3] = {{0}}, first[3] = {0};
-    environment_check_directions(1000, directions);
+    passes_environment_check_directions(1000, directions);
     for (int i = 0; i < 1000; ++i) {
         const float *d = directions[i];
         double length = sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);
@@ -209,7 +210,7 @@ static void samples_converge(void **state) {
             float *lights =
                 look_up(&c, METHOD_SAMPLED, concentrations[lobe], i == 0 ? 32 : 8192, 1);
             for (int k = 0; k < 4 * DIRECTIONS; ++k) {
-                double exact = environment_check_peak(concentrations[lobe]) *
+                double exact = passes_environment_check_peak(concentrations[lobe]) *
                                (double)sums[4 * lobe * DIRECTIONS + k];
                 errors[i] += pow((double)lights[k] - exact, 2);
                 total += i == 0 ? exact * exact : 0;

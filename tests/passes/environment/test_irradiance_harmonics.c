@@ -124,7 +124,7 @@ static lobe_resource declare(fixture *f, const device_cube *cube) {
 /// One frame.
 static struct irradiance_harmonics run(fixture *f, const device_cube *cube, double window) {
     lobe_graph_begin(f->graph);
-    lobe_resource harmonics = irradiance_harmonics(
+    lobe_resource harmonics = passes_irradiance_harmonics(
         f->graph, (irradiance_source){declare(f, cube), cube->size, cube->levels}, window);
     lobe_graph_read_back(f->graph, harmonics, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
@@ -355,14 +355,14 @@ static double laplacian_left(double lambda) {
 }
 
 static void a_window_takes_ringing_out(void **state) {
-    assert_true(harmonics_window(0) == 0);
+    assert_true(passes_harmonics_window(0) == 0);
     host_cube cube = cube_of(32, two_lights, axes[7]);
     device_cube uploaded = upload(*state, &cube, 1);
     double exact[REFERENCE_HARMONICS];
     reference_irradiance_of_cube(cube.texels, 32, 0, exact);
     static const double windows[] = {0, 0.1, 0.5, 0.9};
     for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) {
-        double lambda = harmonics_window(windows[i]);
+        double lambda = passes_harmonics_window(windows[i]);
         assert_true(fabs(laplacian_left(lambda) - (1 - windows[i])) < 1e-9);
         double expected[REFERENCE_HARMONICS];
         for (int j = 0; j < REFERENCE_HARMONICS; j++)

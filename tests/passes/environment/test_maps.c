@@ -41,7 +41,7 @@ static void stop(frames *s) {
 /// One frame that wants all there is.
 static environment_maps run_frame(frames *s) {
     lobe_graph_begin(s->f->graph);
-    environment_maps maps = environment_maps_declare(s->f->graph, &s->request, &s->progress);
+    environment_maps maps = passes_environment_maps_declare(s->f->graph, &s->request, &s->progress);
     for (int i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; i++)
         if (maps.cubes[i].version != 0)
             lobe_graph_read_back(s->f->graph, maps.cubes[i], (lobe_range){0});
@@ -146,7 +146,7 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     for (uint32_t i = 0; i < 32 * 16; i++)
         environment_texel(&s.environment, i, 0)[0] += 1;
     assert_int_equal(lobe_texture_update(s.texture, &s.environment.image), LOBE_OK);
-    environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_renew(&maps, &s.progress);
     for (maps.up_to_date = false; !maps.up_to_date;) {
         maps = run_frame(&s);
         assert_true(maps.complete);
@@ -157,10 +157,10 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     }
     free(former);
     // A change of mind half way begins again, still with the same former cubes.
-    environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_renew(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
-    environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_renew(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
     assert_int_equal(maps.parts_done, 3);
@@ -186,7 +186,7 @@ static void making_can_be_stopped(void **state) {
         .parts_a_submission = 1,
         .progress = three_times,
         .user = &calls,
-        .log = &f->log,
+        .host = &f->host,
     };
     lobe_environment_maps *maps;
     assert_int_equal(lobe_environment_maps_create(f->device, &parameters, &maps), LOBE_OK);
@@ -199,7 +199,7 @@ static void wrong_arguments_are_told(void **state) {
     fixture *f = *state;
     lobe_environment environment = environment_of_patches(32, 16);
     lobe_environment_maps_parameters parameters = {
-        .environment = &environment, .size = 24, .log = &f->log};
+        .environment = &environment, .size = 24, .host = &f->host};
     lobe_environment_maps *maps;
     fixture_forget_messages(f);
     assert_failure(f, lobe_environment_maps_create(f->device, &parameters, &maps),

@@ -44,7 +44,8 @@ static lobe_environment environment_of_texel(int face, uint32_t x, uint32_t y) {
 }
 
 static void random_direction(random_sequence *sequence, double direction[3]) {
-    double z = random_between(sequence, -1, 1), angle = random_between(sequence, 0, 2 * M_PI);
+    double z = scenes_random_between(sequence, -1, 1),
+           angle = scenes_random_between(sequence, 0, 2 * M_PI);
     direction[0] = sqrt(1 - z * z) * cos(angle);
     direction[1] = z;
     direction[2] = sqrt(1 - z * z) * sin(angle);
@@ -61,7 +62,7 @@ static void random_direction_near(random_sequence *sequence, const double axis[3
         aside[i] -= along * axis[i];
         square += aside[i] * aside[i];
     }
-    double cosine = 1 - random_between(sequence, 0, height);
+    double cosine = 1 - scenes_random_between(sequence, 0, height);
     for (int i = 0; i < 3; i++)
         direction[i] = cosine * axis[i] + sqrt((1 - cosine * cosine) / square) * aside[i];
 }
@@ -87,7 +88,7 @@ static void check_lobe_of_texel(lobe_environment_maps *maps, int face, uint32_t 
     double energy = reference_cube_texel_solid_angle((int)x, (int)y, 32);
     host_cube cube = read_cube(maps, filtered[map]);
     for (uint32_t level = 0; level < cube.levels; level++) {
-        random_sequence sequence = random_start(7);
+        random_sequence sequence = scenes_random_start(7);
         double concentration = lobe_environment_level_concentration(cube.width, level);
         deviation d = {0};
         for (int i = 0; i < 1500; i++) {
@@ -130,7 +131,7 @@ static void an_environment_is_filtered_to_a_hundredth(void **state) {
     for (int map = 0; map < 2; map++) {
         host_cube cube = read_cube(maps, filtered[map]);
         for (uint32_t level = 0; level < cube.levels; level++) {
-            random_sequence sequence = random_start(11);
+            random_sequence sequence = scenes_random_start(11);
             double concentration = lobe_environment_level_concentration(cube.width, level);
             deviation d = {0};
             for (int i = 0; i < 150; i++) {

@@ -102,12 +102,13 @@ static double lambert(const lobe_environment *environment) {
     for (uint32_t y = 0; y < HEIGHT; y++) {
         for (uint32_t x = 0; x < WIDTH; x++) {
             double direction[3];
-            assert_true(environment_direction(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, WIDTH, HEIGHT,
-                                              (double[]){x + 0.5, y + 0.5}, direction));
+            assert_true(scenes_environment_direction(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, WIDTH,
+                                                     HEIGHT, (double[]){x + 0.5, y + 0.5},
+                                                     direction));
             irradiance += (double)((float *)environment->image.texels)[4 * (y * WIDTH + x)] *
                           fmax(direction[1], 0) *
-                          environment_solid_angle(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, WIDTH,
-                                                  HEIGHT, x, y, x + 1, y + 1);
+                          scenes_environment_solid_angle(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, WIDTH,
+                                                         HEIGHT, x, y, x + 1, y + 1);
         }
     }
     return albedo * irradiance / 3.14159265358979323846;

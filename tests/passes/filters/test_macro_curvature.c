@@ -90,14 +90,14 @@ static void planes_have_no_curvature(void **state) {
 static lobe_scene *sphere_scene(lobe_scene *scene, const lobe_material *material, float tiles) {
     lobe_mesh mesh;
     uint32_t mesh_index, material_index;
-    assert_int_equal(shape_sphere(48, 96, 2 * tiles, tiles, NULL, &mesh), LOBE_OK);
-    assert_int_equal(scene_add_mesh(scene, &mesh, NULL, &mesh_index), LOBE_OK);
-    assert_int_equal(scene_add_material(scene, "shiny", material, NULL, &material_index), LOBE_OK);
+    assert_int_equal(scenes_shape_sphere(48, 96, 2 * tiles, tiles, NULL, &mesh), LOBE_OK);
+    assert_int_equal(scenes_add_mesh(scene, &mesh, NULL, &mesh_index), LOBE_OK);
+    assert_int_equal(scenes_add_material(scene, "shiny", material, NULL, &material_index), LOBE_OK);
     for (int i = 0; i < COLUMNS * COLUMNS; i++) {
         float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         transform[12] = 2.27f * (float)(i % COLUMNS) - 2.3f;
         transform[14] = 2.13f * (float)(i / COLUMNS) - 2.1f;
-        assert_int_equal(scene_add_instance(scene, mesh_index, material_index, transform, NULL),
+        assert_int_equal(scenes_add_instance(scene, mesh_index, material_index, transform, NULL),
                          LOBE_OK);
     }
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);

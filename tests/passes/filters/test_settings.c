@@ -16,7 +16,7 @@ static void record(void *user, lobe_log_level level, const char *message) {
     snprintf(messages.error, sizeof messages.error, "%s", message);
 }
 
-static const lobe_log log_to_messages = {.write = record};
+static const lobe_host log_to_messages = {.write = record};
 
 static int forget(void **state) {
     (void)state;

@@ -20,9 +20,9 @@ static double linear_from_srgb(uint8_t value) {
 
 static lobe_image random_bytes(lobe_format format, uint64_t seed) {
     lobe_image image = map_image(format, SIZE, SIZE);
-    random_sequence sequence = random_start(seed);
+    random_sequence sequence = scenes_random_start(seed);
     for (int i = 0; i < SIZE * SIZE * 4; i++)
-        ((uint8_t *)image.texels)[i] = (uint8_t)(random_bits(&sequence) >> 24);
+        ((uint8_t *)image.texels)[i] = (uint8_t)(scenes_random_bits(&sequence) >> 24);
     return image;
 }
 

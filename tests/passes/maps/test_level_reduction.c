@@ -19,9 +19,9 @@ typedef struct extent {
 static reference_layers random_layers(extent size, lobe_format format) {
     reference_layers layers = reference_layers_allocate(size.width, size.height, size.layers);
     size_t count = (size_t)4 * size.width * size.height * size.layers;
-    random_sequence sequence = random_start(size.width * 1000 + size.height);
+    random_sequence sequence = scenes_random_start(size.width * 1000 + size.height);
     for (size_t i = 0; i < count; i++) {
-        float value = (float)random_between(&sequence, -1, 1);
+        float value = (float)scenes_random_between(&sequence, -1, 1);
         if (i == count / 3)
             value = format == LOBE_FORMAT_RGBA16_FLOAT ? 3e4f : 1e9f;
         layers.texels[i] = format == LOBE_FORMAT_RGBA16_FLOAT
@@ -117,7 +117,7 @@ static size_t reduce_in_place(fixture *f, extent size, lobe_format format) {
     reduced_map map = {.width = size.width,
                        .height = size.height,
                        .layers = size.layers,
-                       .levels = level_count(size.width, size.height)};
+                       .levels = passes_level_count(size.width, size.height)};
     map.resource = lobe_graph_image(f->graph, &(lobe_image_description){.name = "map",
                                                                         .format = format,
                                                                         .width = size.width,
@@ -125,13 +125,13 @@ static size_t reduce_in_place(fixture *f, extent size, lobe_format format) {
                                                                         .layers = size.layers,
                                                                         .levels = map.levels});
     map.resource = copy_layers(f->graph, map.resource, textures, size.layers);
-    level_reduction(f->graph, &map);
+    passes_level_reduction(f->graph, &map);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%ux%u: %s", size.width, size.height, f->error);
     size_t bytes;
     const void *data = lobe_graph_data(f->graph, map.resource, &bytes);
-    assert_int_equal(bytes, reduced_map_bytes(&map, format));
+    assert_int_equal(bytes, passes_reduced_map_bytes(&map, format));
     check_chain(data, exact, 0, map.levels - 1, format);
     size_t passes = count_passes(f->graph, "level_reduction", LOBE_PASS_RUN);
     for (uint32_t i = 0; i < size.layers; i++)
@@ -139,23 +139,23 @@ static size_t reduce_in_place(fixture *f, extent size, lobe_format format) {
     return passes;
 }
 
-/// level_reduction_from: all levels from a texture twice as large.
+/// passes_level_reduction_from: all levels from a texture twice as large.
 static size_t reduce_texture(fixture *f, uint32_t width, uint32_t height, lobe_format format) {
     extent size = {width, height, 1};
     reference_layers exact = random_layers(size, format);
     lobe_texture *texture = upload_layer(f->device, &exact, 0, format);
     lobe_graph_begin(f->graph);
-    reduced_map map = reduced_map_declare(f->graph, "half", format, width, height, 1);
-    level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture), width,
-                         height);
+    reduced_map map = passes_reduced_map_declare(f->graph, "half", format, width, height, 1);
+    passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture), width,
+                                height);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%ux%u: %s", width, height, f->error);
     size_t bytes;
     const void *data = lobe_graph_data(f->graph, map.resource, &bytes);
-    assert_int_equal(bytes, reduced_map_bytes(&map, format));
-    assert_int_equal(map.width, half_extent(width));
-    assert_int_equal(map.height, half_extent(height));
+    assert_int_equal(bytes, passes_reduced_map_bytes(&map, format));
+    assert_int_equal(map.width, passes_half_extent(width));
+    assert_int_equal(map.height, passes_half_extent(height));
     check_chain(data, exact, 1, map.levels, format);
     size_t passes = count_passes(f->graph, "level_reduction", LOBE_PASS_RUN);
     lobe_texture_destroy(&texture);
@@ -203,10 +203,10 @@ static void the_mean_is_kept(void **state) {
         reference_mean(&sizeless, scale);
         lobe_texture *texture = upload_layer(f->device, &layers, 0, LOBE_FORMAT_RGBA32_FLOAT);
         lobe_graph_begin(f->graph);
-        reduced_map map = reduced_map_declare(f->graph, "half", LOBE_FORMAT_RGBA32_FLOAT,
-                                              sizes[i].width, sizes[i].height, 1);
-        level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture),
-                             sizes[i].width, sizes[i].height);
+        reduced_map map = passes_reduced_map_declare(f->graph, "half", LOBE_FORMAT_RGBA32_FLOAT,
+                                                     sizes[i].width, sizes[i].height, 1);
+        passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture),
+                                    sizes[i].width, sizes[i].height);
         lobe_graph_read_back(f->graph, map.resource, (lobe_range){map.levels - 1, 1, 0, 1});
         assert_int_equal(lobe_graph_execute(f->graph), LOBE_OK);
         const float *data = lobe_graph_data(f->graph, map.resource, NULL);
@@ -227,8 +227,9 @@ static void a_still_map_is_not_reduced_again(void **state) {
     for (int frame = 0; frame < 2; frame++) {
         lobe_graph_begin(f->graph);
         reduced_map map =
-            reduced_map_declare(f->graph, "still", LOBE_FORMAT_RGBA32_FLOAT, 96, 40, 1);
-        level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture), 96, 40);
+            passes_reduced_map_declare(f->graph, "still", LOBE_FORMAT_RGBA32_FLOAT, 96, 40, 1);
+        passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture),
+                                    96, 40);
         lobe_graph_read_back(f->graph, map.resource, (lobe_range){map.levels - 1, 1, 0, 1});
         assert_int_equal(lobe_graph_execute(f->graph), LOBE_OK);
         const float *data = lobe_graph_data(f->graph, map.resource, NULL);
@@ -246,15 +247,16 @@ static void a_still_map_is_not_reduced_again(void **state) {
 
 static void sizes_halve_to_one(void **state) {
     (void)state;
-    assert_int_equal(level_count(1, 1), 1);
-    assert_int_equal(level_count(1, 7), 3);
-    assert_int_equal(level_count(671, 457), 10);
-    assert_int_equal(level_count(1024, 2), 11);
-    assert_int_equal(half_extent(1), 1);
-    assert_int_equal(half_extent(7), 3);
+    assert_int_equal(passes_level_count(1, 1), 1);
+    assert_int_equal(passes_level_count(1, 7), 3);
+    assert_int_equal(passes_level_count(671, 457), 10);
+    assert_int_equal(passes_level_count(1024, 2), 11);
+    assert_int_equal(passes_half_extent(1), 1);
+    assert_int_equal(passes_half_extent(7), 3);
     // 5x3, 2x1 and 1x1 texels of two layers of eight bytes.
     reduced_map map = {.width = 5, .height = 3, .layers = 2, .levels = 3};
-    assert_int_equal(reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT), (15 + 2 + 1) * 2 * 8);
+    assert_int_equal(passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT),
+                     (15 + 2 + 1) * 2 * 8);
 }
 
 int main(void) {

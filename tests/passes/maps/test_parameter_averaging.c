@@ -38,18 +38,18 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
     scene_end(scene);
     const lobe_filter *filter;
     lobe_settings settings;
-    assert_int_equal(lobe_filter_find("mipmap", &f->log, &filter), LOBE_OK);
+    assert_int_equal(lobe_filter_find("mipmap", &f->host, &filter), LOBE_OK);
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
-                              .log = &f->log};
+                              .host = &f->host};
     lobe_graph_begin(f->graph);
-    reduced_map map = parameter_averaging(&context, 0);
+    reduced_map map = passes_parameter_averaging(&context, 0);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
@@ -57,7 +57,7 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
     check_map(lobe_graph_data(f->graph, map.resource, NULL), &map, &texels);
     reference_layers_free(&texels);
     lobe_graph_begin(f->graph);
-    device_scene_destroy(&uploaded);
+    passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
 }
 

@@ -40,25 +40,26 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     const lobe_filter *filter = filter_named("lean");
     lobe_settings settings = settings_of(filter, (const char *[]){storage, NULL});
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
-                              .log = &f->log};
+                              .host = &f->host};
     lobe_graph_begin(f->graph);
-    reduced_map map = slope_moments(&context, 0);
+    reduced_map map = passes_slope_moments(&context, 0);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
     reference_layers texels = slope_moments_of_texels(scene, material);
-    float *found = read_map(f, &map, filtered_map_format(&context) == LOBE_FORMAT_RGBA16_FLOAT);
+    float *found =
+        read_map(f, &map, passes_filtered_map_format(&context) == LOBE_FORMAT_RGBA16_FLOAT);
     check(found, &map, &texels, tolerance);
     free(found);
     reference_layers_free(&texels);
     lobe_graph_begin(f->graph);
-    device_scene_destroy(&uploaded);
+    passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
 }
 
@@ -134,8 +135,8 @@ static void check_variance(const float *texel, const reduced_map *map,
     uint32_t width = map->width, height = map->height;
     for (uint32_t level = 1; level < map->levels; level++) {
         last += (size_t)4 * width * height * SLOPE_LAYERS;
-        width = half_extent(width);
-        height = half_extent(height);
+        width = passes_half_extent(width);
+        height = passes_half_extent(height);
     }
     double exact[4 * SLOPE_LAYERS];
     reference_mean(texels, exact);

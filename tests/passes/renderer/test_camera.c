@@ -25,7 +25,7 @@ static void project(const lobe_camera *camera, const float sample[2], const floa
                     double pixel[3]) {
     mat4 matrix;
     vec4 clip, from = {point[0], point[1], point[2], 1};
-    camera_projection(camera, WIDTH, HEIGHT, sample, minimum, maximum, matrix);
+    passes_camera_projection(camera, WIDTH, HEIGHT, sample, minimum, maximum, matrix);
     glm_mat4_mulv(matrix, from, clip);
     pixel[0] = (0.5 + 0.5 * (double)(clip[0] / clip[3])) * WIDTH;
     pixel[1] = (0.5 + 0.5 * (double)(clip[1] / clip[3])) * HEIGHT;
@@ -34,7 +34,7 @@ static void project(const lobe_camera *camera, const float sample[2], const floa
 
 static void random_point(random_sequence *sequence, float point[3]) {
     for (int i = 0; i < 3; i++)
-        point[i] = (float)random_between(sequence, -1, 1);
+        point[i] = (float)scenes_random_between(sequence, -1, 1);
 }
 
 static const float fields_of_view[] = {0, 0.3f, 1.2f};
@@ -57,11 +57,11 @@ static void the_target_is_in_the_middle(void **state) {
 /// What lies at a sample of a pixel is drawn at the pixel's centre.
 static void samples_move_the_picture_the_right_way(void **state) {
     (void)state;
-    random_sequence sequence = random_start(181);
+    random_sequence sequence = scenes_random_start(181);
     for (int i = 0; i < 60; i++) {
         lobe_camera camera = camera_with(fields_of_view[i % 3]);
-        float point[3], sample[2] = {(float)random_between(&sequence, 0, 1),
-                                     (float)random_between(&sequence, 0, 1)};
+        float point[3], sample[2] = {(float)scenes_random_between(&sequence, 0, 1),
+                                     (float)scenes_random_between(&sequence, 0, 1)};
         double still[3], moved[3];
         random_point(&sequence, point);
         project(&camera, centre, point, still);
@@ -78,7 +78,7 @@ static void depth_falls_with_distance(void **state) {
     for (int i = 0; i < 3; i++) {
         lobe_camera camera = camera_with(fields_of_view[i]);
         vec4 axis;
-        camera_axis(&camera, axis);
+        passes_camera_axis(&camera, axis);
         double before = 2;
         for (double distance = 0.5; distance < 20; distance *= 1.5) {
             float point[3];
@@ -98,7 +98,7 @@ static void depth_falls_with_distance(void **state) {
 
 static void check_rotation(const lobe_camera *camera) {
     mat3 rotation;
-    camera_rotation(camera, rotation);
+    passes_camera_rotation(camera, rotation);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
             assert_true(fabsf(glm_vec3_dot(rotation[i], rotation[j]) - (i == j ? 1 : 0)) < 1e-5f);
@@ -127,12 +127,12 @@ static void the_eye_is_a_place_or_a_direction(void **state) {
     (void)state;
     vec4 eye;
     lobe_camera camera = camera_with(1);
-    camera_eye(&camera, eye);
+    passes_camera_eye(&camera, eye);
     assert_true(eye[0] == 1 && eye[1] == 2 && eye[2] == 3 && eye[3] == 1);
     camera = camera_with(0);
     vec4 axis;
-    camera_axis(&camera, axis);
-    camera_eye(&camera, eye);
+    passes_camera_axis(&camera, axis);
+    passes_camera_eye(&camera, eye);
     assert_true(eye[3] == 0);
     for (int i = 0; i < 3; i++)
         assert_true(fabsf(eye[i] + axis[i]) < 1e-6f);

@@ -36,7 +36,7 @@ typedef struct churn {
 static const uint32_t sizes[SIZES] = {4, 9, 16};
 
 static uint32_t pick(churn *c, uint32_t count) {
-    return random_bits(&c->sequence) % count;
+    return scenes_random_bits(&c->sequence) % count;
 }
 
 /// Maps are `extent` texels high.
@@ -74,9 +74,10 @@ static void open_churn(churn *c, bool validated, bool all_filters) {
     else
         host_device_open_unvalidated(&c->host);
     counting_allocator_start(&c->counting);
-    c->host.recorder.log.allocator = &c->counting.allocator;
+    c->host.recorder.host.allocator = &c->counting.allocator;
     c->device = host_device_import(&c->host);
-    assert_int_equal(lobe_renderer_create(c->device, &c->host.recorder.log, &c->renderer), LOBE_OK);
+    assert_int_equal(lobe_renderer_create(c->device, &c->host.recorder.host, &c->renderer),
+                     LOBE_OK);
     for (int n = 0; n < SCENES; n++)
         c->scenes[n] = scene_of(n, 8);
     for (int n = 0; n < SIZES; n++)
@@ -120,10 +121,10 @@ static void change_material(churn *c) {
         if (c->scenes[n] == c->set) {
             uint32_t changed = pick(c, (uint32_t)c->set->material_count);
             lobe_material *material = &c->scenes[n]->materials[changed];
-            material->roughness = (float)random_between(&c->sequence, 0.2, 1);
-            material->lobes[0].width = (float)random_between(&c->sequence, 5, 50);
+            material->roughness = (float)scenes_random_between(&c->sequence, 0.2, 1);
+            material->lobes[0].width = (float)scenes_random_between(&c->sequence, 5, 50);
             float *texels = c->scenes[n]->images[changed].image.texels;
-            texels[0] = (float)random_between(&c->sequence, 0.4, 0.6);
+            texels[0] = (float)scenes_random_between(&c->sequence, 0.4, 0.6);
             const lobe_scene_changes changes = {.materials = &changed,
                                                 .material_count = 1,
                                                 .images = &changed,
@@ -185,7 +186,7 @@ static size_t host_bytes(void) {
 
 /// The same frames in each round: what is kept for them is made in the first.
 static void go_round(churn *c) {
-    c->sequence = random_start(5);
+    c->sequence = scenes_random_start(5);
     c->set = c->scenes[0];
     assert_int_equal(lobe_renderer_set_scene(c->renderer, c->set), LOBE_OK);
     for (int n = 0; n < FRAMES; n++)
@@ -263,7 +264,7 @@ static ptrdiff_t report(churn *c, uint32_t drawn, time_t start) {
 static ptrdiff_t draw_many(churn *c) {
     const time_t start = time(NULL);
     ptrdiff_t bytes[QUARTERS + 1], least_growth = PTRDIFF_MAX;
-    c->sequence = random_start(6);
+    c->sequence = scenes_random_start(6);
     bytes[0] = report(c, 0, start);
     for (uint32_t n = 1; n <= many; n++) {
         if (!c->set)

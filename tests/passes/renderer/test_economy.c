@@ -192,11 +192,11 @@ static void no_normal_map_means_one_lobe(void **state) {
     material.width_map = scene_add_map(scene, random_map(64, 32, 0.5, 2, 61));
     assert_int_equal(layers_of_material(*state, scene, &material, NULL, &bytes), 1);
     reduced_map map = {.width = 32, .height = 16, .layers = 1, .levels = 6};
-    assert_int_equal(bytes, reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT));
+    assert_int_equal(bytes, passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT));
     scene = scene_begin();
     material.width_map = scene_add_map(scene, random_map(64, 32, 0.5, 2, 61));
     layers_of_material(*state, scene, &material, "storage=float16", &bytes);
-    assert_int_equal(bytes, reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT));
+    assert_int_equal(bytes, passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT));
 }
 
 /// As many layers as the subdivision asks for, and one for means only where they cannot be had
@@ -439,7 +439,7 @@ static void instances_share_what_they_can(void **state) {
     fixture *f = *state;
     lobe_scene *scene = varied_scene();
     float aside[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5f, 0.1f, 0, 1};
-    assert_int_equal(scene_add_instance(scene, 0, 0, aside, NULL), LOBE_OK);
+    assert_int_equal(scenes_add_instance(scene, 0, 0, aside, NULL), LOBE_OK);
     // Another material of the same images: the colours are filtered once for both.
     lobe_material second = scene->materials[0];
     second.name = NULL;
@@ -500,7 +500,7 @@ static void draw_lit(fixture *f, lobe_scene *scene, const lobe_material *materia
                         .intensity = {1, 1, 1},
                         .outer_cone = 1};
     scene_add_square(scene, material, 1, NULL);
-    assert_int_equal(scene_add_light(scene, &light, NULL), LOBE_OK);
+    assert_int_equal(scenes_add_light(scene, &light, NULL), LOBE_OK);
     scene_look_down(scene, 2);
     scene_end(scene);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);

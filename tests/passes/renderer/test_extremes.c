@@ -38,7 +38,7 @@ static lobe_scene *extreme_scene(const extreme *what, bool microfacet) {
     scene_add_square(scene, &material, 1, NULL);
     lobe_light lamp = {
         .type = LOBE_LIGHT_POINT, .position = {0.3f, 1, 0.2f}, .intensity = {1, 1, 1}};
-    assert_int_equal(scene_add_light(scene, &lamp, NULL), LOBE_OK);
+    assert_int_equal(scenes_add_light(scene, &lamp, NULL), LOBE_OK);
     scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 1);
     scene_look_from(scene, (double[]){0.3, 1, 0.4}, 2);
     scene_end(scene);

@@ -89,7 +89,7 @@ static lobe_result draw_hash(way *w, uint64_t *hash) {
 static lobe_result work(way *w, uint64_t *hash) {
     static const uint32_t first = 0;
     fixture *f = w->f;
-    lobe_result result = lobe_renderer_create(f->device, &f->log, &f->renderer);
+    lobe_result result = lobe_renderer_create(f->device, &f->host, &f->renderer);
     result = result ? result : lobe_renderer_set_scene(f->renderer, w->scene);
     result = result ? result : draw_hash(w, hash);
     if (result != LOBE_OK)

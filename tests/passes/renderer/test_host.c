@@ -51,7 +51,7 @@ static int open_host(void **state) {
     f->colour =
         host_image_create(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, SIZE, SIZE, colour_usage);
     f->depth = host_image_create(&f->host, VK_FORMAT_D32_SFLOAT, SIZE, SIZE, depth_usage);
-    return lobe_renderer_create(f->passes.device, &f->host.recorder.log, &f->passes.renderer) !=
+    return lobe_renderer_create(f->passes.device, &f->host.recorder.host, &f->passes.renderer) !=
                LOBE_OK ||
            lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
 }

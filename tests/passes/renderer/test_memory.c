@@ -33,16 +33,16 @@ static void open_device(subject *s, const host_device *host) {
     *s = (subject){0};
     counting_allocator_start(&s->counting);
     log_recorder_start(&s->recorder);
-    s->recorder.log.allocator = &s->counting.allocator;
-    const lobe_device_parameters parameters = {.log = &s->recorder.log};
+    s->recorder.host.allocator = &s->counting.allocator;
+    const lobe_device_parameters parameters = {.host = &s->recorder.host};
     assert_int_equal(lobe_vulkan_import_device(&host->vulkan, &parameters, &s->device), LOBE_OK);
     assert_ptr_equal(lobe_device_allocator(s->device), &s->counting.allocator);
 }
 
 static void open_subject(subject *s, const host_device *host) {
     open_device(s, host);
-    assert_int_equal(lobe_scene_open("bumps", &s->recorder.log, &s->scene), LOBE_OK);
-    assert_int_equal(lobe_environment_open("sky", &s->recorder.log, &s->scene->environment),
+    assert_int_equal(lobe_scene_open("bumps", &s->recorder.host, &s->scene), LOBE_OK);
+    assert_int_equal(lobe_environment_open("sky", &s->recorder.host, &s->scene->environment),
                      LOBE_OK);
     lobe_environment_shrink(s->scene->environment, 16);
     // Without words, and yet with memory from where the device has it.
@@ -56,8 +56,8 @@ static void write_frame(subject *s, const lobe_frame *frame) {
                                      {.name = "normal", .image = &frame->normal_depth}};
     const lobe_exr_parameters exr = {.layers = layers, .layer_count = 2};
     lobe_image read;
-    assert_int_equal(lobe_exr_write(path, &exr, &s->recorder.log), LOBE_OK);
-    assert_int_equal(lobe_exr_read(path, NULL, &s->recorder.log, &read), LOBE_OK);
+    assert_int_equal(lobe_exr_write(path, &exr, &s->recorder.host), LOBE_OK);
+    assert_int_equal(lobe_exr_read(path, NULL, &s->recorder.host, &read), LOBE_OK);
     lobe_image_free(&read);
 }
 
@@ -190,7 +190,7 @@ static void check_allocation(work *w, subject *with, size_t failing) {
     with->recorder.errors = 0;
     with->counting.taken = 0;
     with->counting.failing = failing;
-    lobe_result result = lobe_renderer_create(with->device, &with->recorder.log, &with->renderer);
+    lobe_result result = lobe_renderer_create(with->device, &with->recorder.host, &with->renderer);
     result = result ? result : change_and_draw(w, with->renderer, &hash);
     if (result != (failing ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_OK) ||
         with->recorder.errors != (failing > 0))

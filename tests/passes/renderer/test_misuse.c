@@ -214,10 +214,10 @@ static void images_have_limits(void **state) {
 /// draws what fits again.
 static void memory_may_run_out(void **state) {
     fixture *shared = *state;
-    fixture f = {.log = {shared->log.write, &f}};
+    fixture f = {.host = {shared->host.write, &f}};
     lobe_scene *scene = small_scene();
     f.device = fixture_device(&f, (lobe_device_parameters){.memory_limit = 24u << 20});
-    assert_int_equal(lobe_renderer_create(f.device, &f.log, &f.renderer), LOBE_OK);
+    assert_int_equal(lobe_renderer_create(f.device, &f.host, &f.renderer), LOBE_OK);
     check_it_works(&f);
     assert_int_equal(lobe_renderer_set_scene(f.renderer, scene), LOBE_OK);
     lobe_render_parameters parameters = {.width = 4096, .height = 4096};

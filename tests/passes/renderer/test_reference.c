@@ -183,7 +183,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_settings settings;
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     environment_state environment = {0};
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
@@ -191,11 +191,11 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
                               .scene = uploaded,
                               .camera = &scene->camera,
                               .environment = &environment,
-                              .log = &f->log};
+                              .host = &f->host};
     filtered_appearance appearance = {0};
     lobe_graph_begin(f->graph);
-    shading_targets targets = shading_targets_declare(f->graph, extent, extent, false);
-    shading_light light = shading_light_prepare(&context);
+    shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
+    shading_light light = passes_shading_light_prepare(&context);
     lobe_resource sum = lobe_graph_image(
         f->graph,
         &(lobe_image_description){
@@ -204,9 +204,9 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     sum = lobe_pass_fill(clear, sum, (lobe_range){0}, (float[4]){0});
     for (uint32_t i = 0; i < samples; i++) {
         shading_sample sample = {.number = i};
-        sample_position(i, samples, sample.position);
-        shading(&context, &appearance, &light, &sample, &targets);
-        sum = accumulation(f->graph, targets.radiance, sum, extent, extent);
+        passes_sample_position(i, samples, sample.position);
+        passes_shading(&context, &appearance, &light, &sample, &targets);
+        sum = passes_accumulation(f->graph, targets.radiance, sum, extent, extent);
     }
     lobe_graph_read_back(f->graph, sum, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
@@ -215,7 +215,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     for (uint32_t i = 0; i < extent * extent * 4; i++)
         mean[i] = data[i] / (float)samples;
     lobe_graph_begin(f->graph);
-    device_scene_destroy(&uploaded);
+    passes_device_scene_destroy(&uploaded);
 }
 
 static void submissions_do_not_show(void **state) {

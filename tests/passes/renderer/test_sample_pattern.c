@@ -11,7 +11,7 @@
 static void one_sample_is_the_centre(void **state) {
     (void)state;
     float position[2];
-    sample_position(0, 1, position);
+    passes_sample_position(0, 1, position);
     assert_true(position[0] == 0.5f && position[1] == 0.5f);
 }
 
@@ -27,7 +27,7 @@ static void any_count_is_stratified(void **state) {
         double mean[2] = {0, 0};
         for (uint32_t j = 0; j < count; j++) {
             float position[2];
-            sample_position(j, count, position);
+            passes_sample_position(j, count, position);
             for (int axis = 0; axis < 2; axis++) {
                 assert_true(position[axis] >= 0 && position[axis] < 1);
                 mean[axis] += (double)position[axis] / count;
@@ -55,7 +55,7 @@ static void samples_are_even_in_both_directions(void **state) {
         int rows = COUNT / columns, found[COUNT] = {0};
         for (uint32_t i = 0; i < COUNT; i++) {
             float position[2];
-            sample_position(i, COUNT, position);
+            passes_sample_position(i, COUNT, position);
             int column = (int)(position[0] * (float)columns);
             int row = (int)(position[1] * (float)rows);
             found[row * columns + column]++;
@@ -73,9 +73,9 @@ static void patterns_are_moved_apart(void **state) {
     for (uint32_t pattern = 0; pattern < PATTERNS; pattern++) {
         for (uint32_t i = 0; i < COUNT; i++) {
             float plain[2], position[2];
-            sample_position(i, COUNT, plain);
+            passes_sample_position(i, COUNT, plain);
             memcpy(position, plain, sizeof position);
-            sample_position_in_pattern(pattern, position);
+            passes_sample_position_in_pattern(pattern, position);
             for (int axis = 0; axis < 2; axis++) {
                 assert_true(position[axis] >= 0 && position[axis] < 1);
                 float by = position[axis] - plain[axis];

@@ -106,7 +106,7 @@ static void add_lights_of_all_kinds(lobe_scene *scene) {
         {.type = LOBE_LIGHT_POINT, .position = {0.25f, 2, -0.5f}, .intensity = {3, 1, 2}},
     };
     for (size_t i = 0; i < sizeof lights / sizeof *lights; i++)
-        assert_int_equal(scene_add_light(scene, &lights[i], NULL), LOBE_OK);
+        assert_int_equal(scenes_add_light(scene, &lights[i], NULL), LOBE_OK);
 }
 
 static lobe_material material_of(lobe_material_model model, lobe_distribution distribution) {

@@ -13,7 +13,7 @@ enum { THREADS = 4, FRAMES = 3, EXTENT = 8 };
 
 typedef struct worker {
     lobe_device *device;
-    const lobe_log *log;
+    const lobe_host *host;
     int number;
     uint64_t pictures[FRAMES];
     bool failed;
@@ -42,7 +42,7 @@ static void *work(void *user) {
     lobe_scene *scene = scene_of(self->number);
     const lobe_filter *filter;
     lobe_filter_find(filters[self->number], NULL, &filter);
-    lobe_result result = lobe_renderer_create(self->device, self->log, &renderer);
+    lobe_result result = lobe_renderer_create(self->device, self->host, &renderer);
     for (int n = 0; result == LOBE_OK && n < FRAMES; n++) {
         lobe_frame frame = {0};
         result = lobe_renderer_set_scene(renderer, scene);
@@ -66,7 +66,7 @@ static int work_at_once(fixture *f, worker workers[THREADS]) {
     pthread_t threads[THREADS];
     faults.pipelines = 0;
     for (int n = 0; n < THREADS; n++) {
-        workers[n] = (worker){.device = f->device, .log = &f->log, .number = n};
+        workers[n] = (worker){.device = f->device, .host = &f->host, .number = n};
         assert_int_equal(pthread_create(&threads[n], NULL, work, &workers[n]), 0);
     }
     for (int n = 0; n < THREADS; n++)
@@ -82,7 +82,7 @@ static void threads_draw_what_one_alone_draws(void **state) {
     lobe_device *other = fixture_device(f, (lobe_device_parameters){0});
     faults.pipelines = 0;
     for (int n = 0; n < THREADS; n++) {
-        worker alone = {.device = other, .log = &f->log, .number = n};
+        worker alone = {.device = other, .host = &f->host, .number = n};
         work(&alone);
         assert_false(workers[n].failed);
         assert_false(alone.failed);

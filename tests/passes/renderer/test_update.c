@@ -49,7 +49,7 @@ static size_t check_change(fixture *f, const char *filter, const lobe_scene *sce
     lobe_frame frame = draw_with(f, filter);
     size_t ran = count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN);
     fixture fresh = *f;
-    assert_int_equal(lobe_renderer_create(f->device, &f->log, &fresh.renderer), LOBE_OK);
+    assert_int_equal(lobe_renderer_create(f->device, &f->host, &fresh.renderer), LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(fresh.renderer, scene), LOBE_OK);
     lobe_frame expected = draw_with(&fresh, filter);
     assert_memory_equal(frame.radiance.texels, expected.radiance.texels,

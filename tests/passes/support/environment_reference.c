@@ -47,7 +47,7 @@ lobe_environment_maps *make_maps(fixture *f, const lobe_environment *environment
         .environment = environment,
         .size = size,
         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = lobes, [LOBE_ENVIRONMENT_GGX] = ggx},
-        .log = &f->log,
+        .host = &f->host,
     };
     if (lobe_environment_maps_create(f->device, &parameters, &maps) != LOBE_OK)
         fail_msg("no maps: %s", f->error);

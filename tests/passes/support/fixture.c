@@ -16,7 +16,7 @@ static void record(void *user, lobe_log_level level, const char *message) {
 
 lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters) {
     lobe_device *device = NULL;
-    parameters.log = &f->log;
+    parameters.host = &f->host;
     if (lobe_device_create(&parameters, &device) != LOBE_OK)
         fail_msg("no device: %s", f->error);
     return device;
@@ -27,13 +27,13 @@ static int create(void **state, bool validation) {
     if (!f)
         return -1;
     *state = f;
-    f->log = (lobe_log){.write = record, .user = f};
-    lobe_device_parameters parameters = {.validation = validation, .log = &f->log};
+    f->host = (lobe_host){.write = record, .user = f};
+    lobe_device_parameters parameters = {.validation = validation, .host = &f->host};
     lobe_result result = lobe_device_create(&parameters, &f->device);
     if (result == LOBE_OK)
         result = lobe_graph_create(f->device, &f->graph);
     if (result == LOBE_OK)
-        result = lobe_renderer_create(f->device, &f->log, &f->renderer);
+        result = lobe_renderer_create(f->device, &f->host, &f->renderer);
     if (result == LOBE_OK)
         return 0;
     print_error("%s: %s\n", lobe_result_name(result), f->error);

@@ -18,7 +18,7 @@ typedef struct fixture {
     lobe_device *device;
     lobe_graph *graph;       ///< for tests that declare passes themselves
     lobe_renderer *renderer; ///< for tests that draw pictures
-    lobe_log log;
+    lobe_host host;
     unsigned errors, warnings; ///< lines so far
     char error[1024];          ///< the last error line
 } fixture;

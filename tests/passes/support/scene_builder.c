@@ -16,7 +16,7 @@ static void require(lobe_result result) {
 
 lobe_scene *scene_begin(void) {
     lobe_scene *scene;
-    require(scene_allocate("test", NULL, &scene));
+    require(scenes_allocate("test", NULL, &scene));
     return scene;
 }
 
@@ -40,11 +40,11 @@ lobe_image constant_map(uint32_t width, uint32_t height, float r, float g, float
 
 lobe_image random_normal_map(uint32_t width, uint32_t height, double tilt, uint64_t seed) {
     lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
-    random_sequence sequence = random_start(seed);
+    random_sequence sequence = scenes_random_start(seed);
     float *texel = image.texels;
     for (uint32_t i = 0; i < width * height; i++, texel += 4) {
-        double polar = random_between(&sequence, 0.02 * tilt, tilt);
-        double azimuth = random_between(&sequence, 0, 2 * M_PI);
+        double polar = scenes_random_between(&sequence, 0.02 * tilt, tilt);
+        double azimuth = scenes_random_between(&sequence, 0, 2 * M_PI);
         texel[0] = (float)(0.5 + 0.5 * sin(polar) * cos(azimuth));
         texel[1] = (float)(0.5 + 0.5 * sin(polar) * sin(azimuth));
         texel[2] = (float)(0.5 + 0.5 * cos(polar));
@@ -55,17 +55,17 @@ lobe_image random_normal_map(uint32_t width, uint32_t height, double tilt, uint6
 
 lobe_image random_map(uint32_t width, uint32_t height, double low, double high, uint64_t seed) {
     lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
-    random_sequence sequence = random_start(seed);
+    random_sequence sequence = scenes_random_start(seed);
     float *value = image.texels;
     for (uint32_t i = 0; i < 4 * width * height; i++)
-        *value++ = (float)random_between(&sequence, low, high);
+        *value++ = (float)scenes_random_between(&sequence, low, high);
     return image;
 }
 
 lobe_texture_use scene_add_map(lobe_scene *scene, lobe_image image) {
     lobe_texture_use use = LOBE_TEXTURE_NONE;
     uint32_t index;
-    require(scene_add_image(scene, "map", &image, NULL, &index));
+    require(scenes_add_image(scene, "map", &image, NULL, &index));
     use.image = (int32_t)index;
     return use;
 }
@@ -74,14 +74,14 @@ void scene_add_square(lobe_scene *scene, const lobe_material *material, double t
                       const float transform[16]) {
     lobe_mesh mesh;
     uint32_t mesh_index, material_index;
-    require(shape_plane(2, 2, (float)(2 / tiles), NULL, &mesh));
+    require(scenes_shape_plane(2, 2, (float)(2 / tiles), NULL, &mesh));
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         for (int axis = 0; axis < 2; axis++)
             mesh.vertices[i].texture_coordinates[0][axis] += (float)(0.5 * tiles);
     }
-    require(scene_add_mesh(scene, &mesh, NULL, &mesh_index));
-    require(scene_add_material(scene, "material", material, NULL, &material_index));
-    require(scene_add_instance(scene, mesh_index, material_index, transform, NULL));
+    require(scenes_add_mesh(scene, &mesh, NULL, &mesh_index));
+    require(scenes_add_material(scene, "material", material, NULL, &material_index));
+    require(scenes_add_instance(scene, mesh_index, material_index, transform, NULL));
 }
 
 void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity) {
@@ -92,7 +92,7 @@ void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity)
         light.direction[i] = (float)(-towards[i] / length);
         light.intensity[i] = (float)intensity;
     }
-    require(scene_add_light(scene, &light, NULL));
+    require(scenes_add_light(scene, &light, NULL));
 }
 
 void scene_set_environment(lobe_scene *scene, lobe_image image) {
@@ -149,7 +149,7 @@ void scene_end(lobe_scene *scene) {
     // A scene without a light is given some, which no test wants.
     if (scene->light_count == 0 && !scene->environment)
         scene_add_sun(scene, (double[]){0, 1, 0}, 1);
-    require(scene_complete(scene, NULL));
+    require(scenes_complete(scene, NULL));
 }
 
 lobe_material half_vector_material(lobe_distribution distribution, float width) {

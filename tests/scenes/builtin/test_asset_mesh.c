@@ -42,7 +42,7 @@ static void write_file(const void *bytes, size_t size) {
 static void load(lobe_result expected, const char *assets, const char *cause, lobe_mesh *mesh) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    lobe_result result = asset_mesh_load(&wanted, assets, &recorder.log, mesh);
+    lobe_result result = scenes_asset_mesh_load(&wanted, assets, &recorder.host, mesh);
     if (result != expected)
         fail_msg("%s", recorder.last_error);
     assert_int_equal(recorder.errors, expected != LOBE_OK);
@@ -62,7 +62,7 @@ static void a_mesh_stands_on_the_ground_with_its_height(void **state) {
         lobe_mesh mesh;
         write_file(files[i].bytes, files[i].size);
         load(LOBE_OK, test_folder.path, "", &mesh);
-        mesh_compute_bounds(&mesh);
+        scenes_mesh_compute_bounds(&mesh);
         const float low[3] = {-0.125f, 0, -0.125f}, high[3] = {0.125f, 0.5f, 0.125f};
         assert_memory_equal(mesh.minimum, low, sizeof low);
         assert_memory_equal(mesh.maximum, high, sizeof high);
@@ -72,7 +72,7 @@ static void a_mesh_stands_on_the_ground_with_its_height(void **state) {
         const lobe_scene_vertex *a = &mesh.vertices[mesh.indices[0]];
         const lobe_scene_vertex *b = &mesh.vertices[mesh.indices[1]];
         assert_true(fabsf(b->texture_coordinates[0][0] - a->texture_coordinates[0][0]) == 2);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
@@ -129,12 +129,13 @@ static void real_meshes_are_sound(void **state) {
         skip();
     for (size_t i = 0; i < sizeof real / sizeof *real; i++) {
         lobe_mesh mesh;
-        assert_int_equal(asset_mesh_load(&real[i].mesh, LOBE_TEST_ASSETS, NULL, &mesh), LOBE_OK);
-        mesh_compute_bounds(&mesh);
+        assert_int_equal(scenes_asset_mesh_load(&real[i].mesh, LOBE_TEST_ASSETS, NULL, &mesh),
+                         LOBE_OK);
+        scenes_mesh_compute_bounds(&mesh);
         assert_true(mesh.minimum[1] == 0 && fabsf(mesh.maximum[1] - 1) < 1e-6f);
         print_message("# %zu triangles, %zu vertices\n", mesh.index_count / 3, mesh.vertex_count);
         assert_in_range(mesh.index_count / 3, real[i].triangles - 20, real[i].triangles);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 

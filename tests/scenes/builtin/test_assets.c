@@ -60,10 +60,10 @@ static int set_up(void **state) {
     lobe_mesh sphere;
     test_folder_setup(state);
     assert_int_equal(mkdir(temporary_folder_file(&test_folder, "models"), 0700), 0);
-    assert_int_equal(shape_sphere(24, 48, 1, 1, NULL, &sphere), LOBE_OK);
+    assert_int_equal(scenes_shape_sphere(24, 48, 1, 1, NULL, &sphere), LOBE_OK);
     write_bunny(&sphere);
     write_dragon(&sphere);
-    mesh_free(&sphere);
+    scenes_mesh_free(&sphere);
     return 0;
 }
 
@@ -79,7 +79,7 @@ static lobe_scene *open_from(const char *assets, const char *name) {
     log_recorder_start(&recorder);
     lobe_scene *scene;
     lobe_scene_open_parameters parameters = {.scene = name, .assets = assets};
-    lobe_result result = lobe_scene_open_with(&parameters, &recorder.log, &scene);
+    lobe_result result = lobe_scene_open_with(&parameters, &recorder.host, &scene);
     if (result != LOBE_OK)
         fail_msg("%s", recorder.last_error);
     assert_int_equal(recorder.errors + recorder.warnings, 0);
@@ -193,7 +193,7 @@ static void assert_not_found(const char *name, const char *assets, const char *f
     log_recorder_start(&recorder);
     lobe_scene *scene = (lobe_scene *)&scene;
     lobe_scene_open_parameters parameters = {.scene = name, .assets = assets};
-    assert_int_equal(lobe_scene_open_with(&parameters, &recorder.log, &scene),
+    assert_int_equal(lobe_scene_open_with(&parameters, &recorder.host, &scene),
                      LOBE_ERROR_NOT_FOUND);
     assert_null(scene);
     assert_int_equal(recorder.errors, 1);

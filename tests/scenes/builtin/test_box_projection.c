@@ -16,10 +16,10 @@ static const double tile = 0.25;
 // A sphere of two metres across, whose surface is uneven by `roughness`.
 static lobe_mesh make_sphere(double roughness) {
     lobe_mesh mesh;
-    random_sequence sequence = random_start(3);
-    assert_int_equal(shape_sphere(48, 96, 1, 1, NULL, &mesh), LOBE_OK);
+    random_sequence sequence = scenes_random_start(3);
+    assert_int_equal(scenes_shape_sphere(48, 96, 1, 1, NULL, &mesh), LOBE_OK);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
-        double scale = 1 + random_between(&sequence, -roughness, roughness);
+        double scale = 1 + scenes_random_between(&sequence, -roughness, roughness);
         for (int axis = 0; axis < 3; axis++)
             mesh.vertices[i].position[axis] = (float)(mesh.vertices[i].position[axis] * scale);
         memset(mesh.vertices[i].tangent, 0, sizeof mesh.vertices[i].tangent);
@@ -28,7 +28,7 @@ static lobe_mesh make_sphere(double roughness) {
     }
     mesh.has_texture_coordinates[0] = false;
     if (roughness > 0)
-        assert_int_equal(mesh_compute_normals(&mesh, NULL), LOBE_OK);
+        assert_int_equal(scenes_mesh_compute_normals(&mesh, NULL), LOBE_OK);
     return mesh;
 }
 
@@ -60,7 +60,7 @@ static void maps_are_stretched_twofold_at_most_and_never_mirrored(void **state) 
     (void)state;
     for (int rough = 0; rough < 2; rough++) {
         lobe_mesh mesh = make_sphere(rough ? 0.01 : 0);
-        assert_int_equal(box_projection_apply(&mesh, tile, NULL), LOBE_OK);
+        assert_int_equal(scenes_box_projection_apply(&mesh, tile, NULL), LOBE_OK);
         assert_true(mesh.has_texture_coordinates[0] && !mesh.has_texture_coordinates[1]);
         double surface = 0, map = 0;
         for (size_t i = 0; i < mesh.index_count; i += 3) {
@@ -74,16 +74,16 @@ static void maps_are_stretched_twofold_at_most_and_never_mirrored(void **state) 
             }
         }
         assert_true(map > 0.75 * surface);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
 static void the_mesh_stays_sound(void **state) {
     (void)state;
     lobe_mesh mesh = make_sphere(0), before = make_sphere(0);
-    assert_int_equal(box_projection_apply(&mesh, tile, NULL), LOBE_OK);
-    mesh_compute_bounds(&mesh);
-    scene_check_mesh(&mesh);
+    assert_int_equal(scenes_box_projection_apply(&mesh, tile, NULL), LOBE_OK);
+    scenes_mesh_compute_bounds(&mesh);
+    passes_scene_check_mesh(&mesh);
     // The same triangles, in the same order, with the same corners.
     assert_int_equal(mesh.index_count, before.index_count);
     for (size_t i = 0; i < mesh.index_count; i++) {
@@ -92,8 +92,8 @@ static void the_mesh_stays_sound(void **state) {
         assert_memory_equal(a->position, b->position, sizeof a->position);
         assert_memory_equal(a->normal, b->normal, sizeof a->normal);
     }
-    mesh_free(&mesh);
-    mesh_free(&before);
+    scenes_mesh_free(&mesh);
+    scenes_mesh_free(&before);
 }
 
 // Seams cost vertices: on a sphere of 48 x 96 quadrilaterals the twelve edges of the box are some
@@ -103,9 +103,9 @@ static void seams_are_few(void **state) {
     for (int rough = 0; rough < 2; rough++) {
         lobe_mesh mesh = make_sphere(rough ? 0.005 : 0);
         size_t before = mesh.vertex_count;
-        assert_int_equal(box_projection_apply(&mesh, tile, NULL), LOBE_OK);
+        assert_int_equal(scenes_box_projection_apply(&mesh, tile, NULL), LOBE_OK);
         assert_in_range(mesh.vertex_count, before + 100, before + (rough ? 900 : 600));
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
@@ -113,14 +113,14 @@ static void seams_are_few(void **state) {
 static void a_wall_is_mapped_as_it_is(void **state) {
     (void)state;
     lobe_mesh mesh;
-    assert_int_equal(mesh_allocate(&mesh, "wall", 4, 6, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_allocate(&mesh, "wall", 4, 6, NULL), LOBE_OK);
     for (int i = 0; i < 4; i++) {
         mesh.vertices[i].position[0] = i & 1 ? 1.f : 0;
         mesh.vertices[i].position[1] = i & 2 ? 0 : 1.f;
     }
-    shape_grid_indices(1, 1, mesh.indices);
-    assert_int_equal(mesh_compute_normals(&mesh, NULL), LOBE_OK);
-    assert_int_equal(box_projection_apply(&mesh, tile, NULL), LOBE_OK);
+    scenes_shape_grid_indices(1, 1, mesh.indices);
+    assert_int_equal(scenes_mesh_compute_normals(&mesh, NULL), LOBE_OK);
+    assert_int_equal(scenes_box_projection_apply(&mesh, tile, NULL), LOBE_OK);
     assert_int_equal(mesh.vertex_count, 4);
     for (int i = 0; i < 4; i++) {
         const lobe_scene_vertex *vertex = &mesh.vertices[i];
@@ -128,7 +128,7 @@ static void a_wall_is_mapped_as_it_is(void **state) {
         assert_true(vertex->texture_coordinates[0][1] == -4 * vertex->position[1]);
         assert_true(vertex->tangent[0] == 1 && vertex->tangent[3] == 1);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 int main(void) {

@@ -9,7 +9,7 @@
 #include "tests/scenes/scene/scene_check.h"
 
 static lobe_scene *build(const char *name) {
-    const builtin_scene *found = builtin_scene_find(name);
+    const builtin_scene *found = scenes_builtin_find(name);
     assert_non_null(found);
     lobe_scene *scene = NULL;
     assert_int_equal(found->build(NULL, &scene), LOBE_OK);
@@ -43,11 +43,11 @@ static void the_table_lists_the_scenes(void **state) {
         const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
         assert_string_equal(scene->name, names[i]);
         assert_true(strlen(scene->summary) > 20 && !strchr(scene->summary, '\n'));
-        assert_string_equal(builtin_scene_find(names[i])->description.name, names[i]);
+        assert_string_equal(scenes_builtin_find(names[i])->description.name, names[i]);
     }
     assert_null(lobe_builtin_scene_get(count));
-    assert_null(builtin_scene_find("teapot"));
-    assert_null(builtin_scene_find(""));
+    assert_null(scenes_builtin_find("teapot"));
+    assert_null(scenes_builtin_find(""));
     lobe_scene *opened = NULL;
     assert_int_equal(lobe_scene_open("bumps", NULL, &opened), LOBE_OK);
     assert_string_equal(opened->name, "bumps");

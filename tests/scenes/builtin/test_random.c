@@ -10,18 +10,18 @@ static void follows_the_published_sequence(void **state) {
     (void)state;
     static const uint32_t expected[] = {0xc2f57bd6, 0x6b07c4a9, 0x72b7b29b,
                                         0x44215383, 0xf5af5ead, 0x68beb632};
-    random_sequence sequence = random_start(42);
+    random_sequence sequence = scenes_random_start(42);
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
-        assert_int_equal(random_bits(&sequence), expected[i]);
+        assert_int_equal(scenes_random_bits(&sequence), expected[i]);
 }
 
 static void between_is_uniform(void **state) {
     (void)state;
     enum { COUNT = 100000, BINS = 20 };
     int bins[BINS] = {0};
-    random_sequence sequence = random_start(1);
+    random_sequence sequence = scenes_random_start(1);
     for (int i = 0; i < COUNT; i++) {
-        double value = random_between(&sequence, -3, 2);
+        double value = scenes_random_between(&sequence, -3, 2);
         assert_true(value >= -3 && value < 2);
         bins[(int)((value + 3) / 5 * BINS)]++;
     }
@@ -37,9 +37,10 @@ static void lattice_depends_on_each_argument(void **state) {
     enum { EXTENT = 128 };
     for (uint32_t y = 0; y < EXTENT; y++)
         for (uint32_t x = 0; x < EXTENT; x++) {
-            uint32_t bits = random_lattice(x, y, 5);
-            uint32_t others[3] = {random_lattice(x + 1, y, 5), random_lattice(x, y + 1, 5),
-                                  random_lattice(x, y, 6)};
+            uint32_t bits = scenes_random_lattice(x, y, 5);
+            uint32_t others[3] = {scenes_random_lattice(x + 1, y, 5),
+                                  scenes_random_lattice(x, y + 1, 5),
+                                  scenes_random_lattice(x, y, 6)};
             for (int i = 0; i < 3; i++)
                 correlation[i] += (bits / 2147483648.0 - 1) * (others[i] / 2147483648.0 - 1);
             for (int bit = 0; bit < 32; bit++)

@@ -47,7 +47,7 @@ static void cross(const double a[3], const double b[3], double out[3]) {
 static void expect_position(const shape *s, double x, double y, double z, double u, double v) {
     const double direction[3] = {x, y, z};
     double position[2];
-    environment_position(s->layout, s->width, s->height, direction, position);
+    scenes_environment_position(s->layout, s->width, s->height, direction, position);
     assert_near(position[0] / s->width, u, 1e-12);
     assert_near(position[1] / s->height, v, 1e-12);
 }
@@ -94,8 +94,8 @@ static void columns_are_oriented_as_openexr_does(void **state) {
     };
     for (int i = 0; i < 6; i++) {
         double position[2];
-        environment_position(LOBE_ENVIRONMENT_CUBE_COLUMN, 100, 600, expected[i].direction,
-                             position);
+        scenes_environment_position(LOBE_ENVIRONMENT_CUBE_COLUMN, 100, 600, expected[i].direction,
+                                    position);
         assert_near(position[0], 50 + 50 * expected[i].right, 1e-10);
         assert_near(position[1], 100 * i + 50 + 50 * expected[i].down, 1e-10);
     }
@@ -104,7 +104,7 @@ static void columns_are_oriented_as_openexr_does(void **state) {
 static void faces_are_right_handed_and_not_mirrored(void **state) {
     (void)state;
     for (int i = 3; i < SHAPE_COUNT; i++) {
-        const environment_face *faces = environment_faces(shapes[i].layout);
+        const environment_face *faces = scenes_environment_faces(shapes[i].layout);
         for (int f = 0; f < ENVIRONMENT_FACE_COUNT; f++) {
             double expected[3];
             cross(faces[f].down, faces[f].right, expected);
@@ -125,10 +125,11 @@ static void position_and_direction_are_inverse(void **state) {
             const double y = 1 - (2 * k + 1) / 4000.0, r = sqrt(1 - y * y), angle = 2.399963 * k;
             const double direction[3] = {r * sin(angle), y, r * cos(angle)};
             double position[2], back[3];
-            environment_position(s->layout, s->width, s->height, direction, position);
+            scenes_environment_position(s->layout, s->width, s->height, direction, position);
             assert_true(position[0] >= 0 && position[0] <= s->width);
             assert_true(position[1] >= 0 && position[1] <= s->height);
-            assert_true(environment_direction(s->layout, s->width, s->height, position, back));
+            assert_true(
+                scenes_environment_direction(s->layout, s->width, s->height, position, back));
             assert_near(dot(direction, back), 1, 1e-13);
         }
     }
@@ -140,7 +141,7 @@ static void crosses_fold_without_a_seam(void **state) {
     for (int i = 5; i < 7; i++) {
         const shape *s = &shapes[i];
         uint32_t grid[2];
-        environment_grid(s->layout, grid);
+        scenes_environment_grid(s->layout, grid);
         const double size = (double)s->width / grid[0];
         int edges = 0;
         for (uint32_t line = 1; line < 4; line++) {
@@ -151,8 +152,8 @@ static void crosses_fold_without_a_seam(void **state) {
                     const double after[2] = {vertical ? line * size + 1e-7 : along,
                                              vertical ? along : line * size + 1e-7};
                     double a[3], b[3];
-                    if (!environment_direction(s->layout, s->width, s->height, before, a) ||
-                        !environment_direction(s->layout, s->width, s->height, after, b))
+                    if (!scenes_environment_direction(s->layout, s->width, s->height, before, a) ||
+                        !scenes_environment_direction(s->layout, s->width, s->height, after, b))
                         continue;
                     assert_true(dot(a, b) > 1 - 1e-12);
                     edges++;
@@ -171,10 +172,10 @@ static void empty_parts_of_crosses_have_no_direction(void **state) {
         for (uint32_t y = 0; y < s->height; y++) {
             for (uint32_t x = 0; x < s->width; x++) {
                 double direction[3];
-                bool has = environment_direction(s->layout, s->width, s->height,
-                                                 (double[2]){x + 0.5, y + 0.5}, direction);
-                double angle =
-                    environment_solid_angle(s->layout, s->width, s->height, x, y, x + 1.0, y + 1.0);
+                bool has = scenes_environment_direction(s->layout, s->width, s->height,
+                                                        (double[2]){x + 0.5, y + 0.5}, direction);
+                double angle = scenes_environment_solid_angle(s->layout, s->width, s->height, x, y,
+                                                              x + 1.0, y + 1.0);
                 assert_true(has == (angle > 0));
                 texels += has;
             }
@@ -191,8 +192,8 @@ static void positions_outside_have_no_direction(void **state) {
             {-0.01, 0.5}, {0.5, -0.01}, {s->width + 0.01, 0.5}, {0.5, s->height + 0.01}, {NAN, 0}};
         double direction[3];
         for (size_t k = 0; k < sizeof outside / sizeof *outside; k++)
-            assert_false(
-                environment_direction(s->layout, s->width, s->height, outside[k], direction));
+            assert_false(scenes_environment_direction(s->layout, s->width, s->height, outside[k],
+                                                      direction));
     }
 }
 
@@ -203,8 +204,8 @@ static void solid_angles_cover_the_sphere(void **state) {
         double sum = 0;
         for (uint32_t y = 0; y < s->height; y++) {
             for (uint32_t x = 0; x < s->width; x++)
-                sum +=
-                    environment_solid_angle(s->layout, s->width, s->height, x, y, x + 1.0, y + 1.0);
+                sum += scenes_environment_solid_angle(s->layout, s->width, s->height, x, y, x + 1.0,
+                                                      y + 1.0);
         }
         assert_near(sum, 4 * M_PI, 1e-12);
     }
@@ -221,15 +222,15 @@ static void a_small_solid_angle_is_that_of_its_corners(void **state) {
         double c[3][3], a[3], b[3], normal[3];
         const double corners[3][2] = {{x, y}, {x + 1, y}, {x, y + 1}};
         for (int k = 0; k < 3; k++)
-            assert_true(environment_direction(both[i]->layout, both[i]->width, both[i]->height,
-                                              corners[k], c[k]));
+            assert_true(scenes_environment_direction(both[i]->layout, both[i]->width,
+                                                     both[i]->height, corners[k], c[k]));
         for (int axis = 0; axis < 3; axis++) {
             a[axis] = c[1][axis] - c[0][axis];
             b[axis] = c[2][axis] - c[0][axis];
         }
         cross(a, b, normal);
-        const double angle = environment_solid_angle(both[i]->layout, both[i]->width,
-                                                     both[i]->height, x, y, x + 1, y + 1);
+        const double angle = scenes_environment_solid_angle(both[i]->layout, both[i]->width,
+                                                            both[i]->height, x, y, x + 1, y + 1);
         assert_near(angle / sqrt(dot(normal, normal)), 1, 0.02);
     }
 }
@@ -237,13 +238,14 @@ static void a_small_solid_angle_is_that_of_its_corners(void **state) {
 static void only_whole_square_faces_fit(void **state) {
     (void)state;
     for (int i = 0; i < SHAPE_COUNT; i++)
-        assert_true(environment_layout_fits(shapes[i].layout, shapes[i].width, shapes[i].height));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 0, 1));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_CUBE_COLUMN, 8, 47));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_CUBE_ROW, 13, 2));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_VERTICAL_CROSS, 4, 5));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_HORIZONTAL_CROSS, 3, 4));
-    assert_false(environment_layout_fits(LOBE_ENVIRONMENT_HORIZONTAL_CROSS, 0, 0));
+        assert_true(
+            scenes_environment_layout_fits(shapes[i].layout, shapes[i].width, shapes[i].height));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 0, 1));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_CUBE_COLUMN, 8, 47));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_CUBE_ROW, 13, 2));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_VERTICAL_CROSS, 4, 5));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_HORIZONTAL_CROSS, 3, 4));
+    assert_false(scenes_environment_layout_fits(LOBE_ENVIRONMENT_HORIZONTAL_CROSS, 0, 0));
 }
 
 int main(void) {

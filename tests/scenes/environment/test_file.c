@@ -19,7 +19,7 @@ static lobe_result open_file(const char *path, log_recorder *recorder,
                              lobe_environment **environment) {
     log_recorder_start(recorder);
     *environment = (lobe_environment *)recorder; // must be overwritten
-    lobe_result result = lobe_environment_open(path, &recorder->log, environment);
+    lobe_result result = lobe_environment_open(path, &recorder->host, environment);
     assert_int_equal(recorder->errors, result != LOBE_OK);
     assert_true((*environment != NULL) == (result == LOBE_OK));
     if (result != LOBE_OK) {
@@ -305,7 +305,7 @@ static void assert_opened_alike(const lobe_environment_open_parameters *paramete
     lobe_environment *environment;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(lobe_environment_open_with(parameters, &recorder.log, &environment), LOBE_OK);
+    assert_int_equal(lobe_environment_open_with(parameters, &recorder.host, &environment), LOBE_OK);
     assert_string_equal(environment->name, parameters->environment);
     assert_int_equal(environment->layout, expected->layout);
     assert_int_equal(environment->image.width, 24);
@@ -332,7 +332,7 @@ static void files_come_from_memory_or_from_the_host(void **state) {
     assert_int_equal(
         lobe_environment_open_with(
             &(lobe_environment_open_parameters){.environment = "other.exr", .files = &source},
-            &recorder.log, &none),
+            &recorder.host, &none),
         LOBE_ERROR_NOT_FOUND);
     assert_non_null(strstr(recorder.last_error, "other.exr"));
     lobe_environment_open_parameters memory = {
@@ -340,7 +340,7 @@ static void files_come_from_memory_or_from_the_host(void **state) {
     assert_opened_alike(&memory, expected);
     memory.size /= 2;
     log_recorder_start(&recorder);
-    assert_int_equal(lobe_environment_open_with(&memory, &recorder.log, &none),
+    assert_int_equal(lobe_environment_open_with(&memory, &recorder.host, &none),
                      LOBE_ERROR_MALFORMED);
     assert_int_equal(recorder.errors, 1);
     assert_null(none);

@@ -30,15 +30,15 @@ static const shape shapes[] = {
 
 static lobe_environment *environment_of(const shape *s) {
     lobe_environment *environment;
-    assert_int_equal(environment_allocate("e", NULL, &environment), LOBE_OK);
+    assert_int_equal(scenes_environment_allocate("e", NULL, &environment), LOBE_OK);
     environment->layout = s->layout;
     assert_int_equal(lobe_image_allocate(&environment->image, LOBE_FORMAT_RGBA32_FLOAT, s->width,
                                          s->height, NULL),
                      LOBE_OK);
-    random_sequence random = random_start(3);
+    random_sequence random = scenes_random_start(3);
     float *texels = environment->image.texels;
     for (size_t i = 0; i < 4 * (size_t)s->width * s->height; i++)
-        texels[i] = (float)pow(random_between(&random, 0.1, 3), 6);
+        texels[i] = (float)pow(scenes_random_between(&random, 0.1, 3), 6);
     return environment;
 }
 
@@ -50,12 +50,12 @@ static void moments(const lobe_environment *environment, int channel, double out
         for (uint32_t x = 0; x < image->width; x++) {
             const float *texel = (const float *)image->texels + 4 * ((size_t)y * image->width + x);
             double direction[3];
-            if (!environment_direction(environment->layout, image->width, image->height,
-                                       (double[2]){x + 0.5, y + 0.5}, direction))
+            if (!scenes_environment_direction(environment->layout, image->width, image->height,
+                                              (double[2]){x + 0.5, y + 0.5}, direction))
                 continue;
-            const double light =
-                texel[channel] * environment_solid_angle(environment->layout, image->width,
-                                                         image->height, x, y, x + 1.0, y + 1.0);
+            const double light = texel[channel] * scenes_environment_solid_angle(
+                                                      environment->layout, image->width,
+                                                      image->height, x, y, x + 1.0, y + 1.0);
             out[3] += light;
             for (int i = 0; i < 3; i++)
                 out[i] += light * direction[i];
@@ -71,7 +71,7 @@ static void no_light_is_lost(void **state) {
         for (int channel = 0; channel < 3; channel++) {
             lobe_environment *halved = environment_of(&shapes[i]);
             moments(environment, channel, before);
-            environment_halve(halved);
+            scenes_environment_halve(halved);
             moments(halved, channel, after);
             assert_int_equal(halved->image.width, shapes[i].halved_width);
             assert_int_equal(halved->image.height, shapes[i].halved_height);
@@ -91,11 +91,11 @@ static void four_texels_become_their_mean(void **state) {
     for (uint32_t k = 0; k < 4; k++) {
         const uint32_t x = 10 + k % 2, y = 2 + k / 2; // of the third face
         const double weight =
-            environment_solid_angle(s.layout, s.width, s.height, x, y, x + 1.0, y + 1.0);
+            scenes_environment_solid_angle(s.layout, s.width, s.height, x, y, x + 1.0, y + 1.0);
         sum += weight * ((const float *)environment->image.texels)[4 * (y * s.width + x) + 1];
         weights += weight;
     }
-    environment_halve(environment);
+    scenes_environment_halve(environment);
     const float *halved = environment->image.texels;
     assert_true(fabs(halved[4 * (1 * 12 + 5) + 1] / (sum / weights) - 1) < 1e-6);
     lobe_environment_destroy(&environment);
@@ -108,14 +108,14 @@ static void evenness_stays_even(void **state) {
         float *texels = environment->image.texels;
         for (size_t k = 0; k < 4 * (size_t)shapes[i].width * shapes[i].height; k++)
             texels[k] = 0.7f;
-        environment_halve(environment);
+        scenes_environment_halve(environment);
         const lobe_image *image = &environment->image;
         texels = image->texels;
         for (uint32_t k = 0; k < image->width * image->height; k++) {
             double direction[3];
             const double middle[2] = {k % image->width + 0.5, k / image->width + 0.5};
-            if (environment_direction(environment->layout, image->width, image->height, middle,
-                                      direction))
+            if (scenes_environment_direction(environment->layout, image->width, image->height,
+                                             middle, direction))
                 assert_true(fabsf(texels[4 * k] - 0.7f) < 1e-6f);
             else
                 assert_true(texels[4 * k] == 0);
@@ -134,10 +134,11 @@ static void light_stays_in_its_place(void **state) {
         memset(environment->image.texels, 0, 16 * (size_t)big[i].width * big[i].height);
         const double direction[3] = {0.6, 0.48, 0.64};
         double position[2], after[4];
-        environment_position(big[i].layout, big[i].width, big[i].height, direction, position);
+        scenes_environment_position(big[i].layout, big[i].width, big[i].height, direction,
+                                    position);
         ((float *)environment->image
              .texels)[4 * ((size_t)position[1] * big[i].width + (size_t)position[0])] = 1000;
-        environment_halve(environment);
+        scenes_environment_halve(environment);
         moments(environment, 0, after);
         double cosine = 0;
         for (int axis = 0; axis < 3; axis++)
@@ -155,10 +156,10 @@ static void an_environment_shrinks_to_what_is_allowed(void **state) {
         assert_int_equal(environment->image.width, shapes[i].width);
         lobe_environment_shrink(environment, 8);
         assert_true(environment->image.width <= 8 && environment->image.height <= 8);
-        assert_true(environment_layout_fits(shapes[i].layout, environment->image.width,
-                                            environment->image.height));
+        assert_true(scenes_environment_layout_fits(shapes[i].layout, environment->image.width,
+                                                   environment->image.height));
         lobe_environment_shrink(environment, 1); // as far as it goes
-        assert_false(environment_can_be_halved(environment));
+        assert_false(scenes_environment_can_be_halved(environment));
         lobe_environment_destroy(&environment);
     }
 }

@@ -13,7 +13,7 @@
 static lobe_environment *environment_of(lobe_environment_layout layout, uint32_t width,
                                         uint32_t height) {
     lobe_environment *environment;
-    assert_int_equal(environment_allocate("e", NULL, &environment), LOBE_OK);
+    assert_int_equal(scenes_environment_allocate("e", NULL, &environment), LOBE_OK);
     environment->layout = layout;
     assert_int_equal(
         lobe_image_allocate(&environment->image, LOBE_FORMAT_RGBA32_FLOAT, width, height, NULL),
@@ -31,7 +31,7 @@ static float *texel(lobe_environment *environment, uint32_t x, uint32_t y) {
 static void expect_repair(lobe_environment *environment, const char *warning) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(environment_repair(environment, &recorder.log), LOBE_OK);
+    assert_int_equal(scenes_environment_repair(environment, &recorder.host), LOBE_OK);
     assert_int_equal(recorder.errors, 0);
     assert_int_equal(recorder.warnings, warning != NULL);
     if (warning && !strstr(recorder.last_warning, warning))

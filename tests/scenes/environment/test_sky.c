@@ -17,14 +17,14 @@ static double light_about(const lobe_environment *environment, int channel, vect
     for (uint32_t y = 0; y < image->height; y++) {
         for (uint32_t x = 0; x < image->width; x++) {
             double d[3];
-            if (!environment_direction(environment->layout, image->width, image->height,
-                                       (double[2]){x + 0.5, y + 0.5}, d))
+            if (!scenes_environment_direction(environment->layout, image->width, image->height,
+                                              (double[2]){x + 0.5, y + 0.5}, d))
                 continue;
             const double along = vector3_dot((vector3){d[0], d[1], d[2]}, direction);
             if (along < cosine)
                 continue;
-            const double angle = environment_solid_angle(environment->layout, image->width,
-                                                         image->height, x, y, x + 1.0, y + 1.0);
+            const double angle = scenes_environment_solid_angle(
+                environment->layout, image->width, image->height, x, y, x + 1.0, y + 1.0);
             sum += (projected ? fmax(along, 0) : 1) * angle *
                    ((const float *)image->texels)[4 * ((size_t)y * image->width + x) + channel];
         }
@@ -34,7 +34,7 @@ static double light_about(const lobe_environment *environment, int channel, vect
 
 static lobe_environment *black(lobe_environment_layout layout, uint32_t width, uint32_t height) {
     lobe_environment *environment;
-    assert_int_equal(environment_allocate("black", NULL, &environment), LOBE_OK);
+    assert_int_equal(scenes_environment_allocate("black", NULL, &environment), LOBE_OK);
     environment->layout = layout;
     assert_int_equal(
         lobe_image_allocate(&environment->image, LOBE_FORMAT_RGBA32_FLOAT, width, height, NULL),
@@ -59,7 +59,7 @@ static void a_disc_keeps_its_light_at_any_resolution(void **state) {
         for (size_t d = 0; d < sizeof directions / sizeof *directions; d++) {
             lobe_environment *environment =
                 black(shapes[s].layout, shapes[s].width, shapes[s].height);
-            environment_add_disc(environment, directions[d], 0.00465, irradiance);
+            scenes_environment_add_disc(environment, directions[d], 0.00465, irradiance);
             for (int channel = 0; channel < 3; channel++) {
                 const double light = light_about(environment, channel, directions[d], -2, false);
                 assert_true(fabs(light / irradiance[channel] - 1) < 1e-6);
@@ -76,12 +76,12 @@ static void a_disc_is_even_and_round(void **state) {
     const double radius = 0.3;
     lobe_environment *environment = black(LOBE_ENVIRONMENT_CUBE_COLUMN, 64, 384);
     const double angle = 2 * M_PI * (1 - cos(radius));
-    environment_add_disc(environment, direction, radius, (double[3]){angle, angle, angle});
+    scenes_environment_add_disc(environment, direction, radius, (double[3]){angle, angle, angle});
     for (uint32_t y = 0; y < 384; y++) {
         for (uint32_t x = 0; x < 64; x++) {
             double d[3];
-            assert_true(environment_direction(environment->layout, 64, 384,
-                                              (double[2]){x + 0.5, y + 0.5}, d));
+            assert_true(scenes_environment_direction(environment->layout, 64, 384,
+                                                     (double[2]){x + 0.5, y + 0.5}, d));
             const float found = ((const float *)environment->image.texels)[4 * (y * 64 + x)];
             if (acos(d[2]) < radius - 0.04)
                 assert_true(fabsf(found - 1) < 0.15f);
@@ -94,7 +94,7 @@ static void a_disc_is_even_and_round(void **state) {
 
 static lobe_environment *sky_of(uint32_t width, uint32_t height) {
     lobe_environment *environment;
-    assert_int_equal(environment_sky(width, height, NULL, &environment), LOBE_OK);
+    assert_int_equal(scenes_environment_sky(width, height, NULL, &environment), LOBE_OK);
     const float *texels = environment->image.texels;
     for (size_t i = 0; i < 4 * (size_t)width * height; i++)
         assert_true(isfinite(texels[i]) && texels[i] >= 0);
@@ -158,7 +158,7 @@ static void sky_is_opened_by_name(void **state) {
     assert_true(environment->intensity == 1);
     lobe_environment_destroy(&environment);
     assert_null(environment);
-    assert_int_equal(environment_sky(0, 4, NULL, &environment), LOBE_ERROR_LIMIT);
+    assert_int_equal(scenes_environment_sky(0, 4, NULL, &environment), LOBE_ERROR_LIMIT);
     assert_null(environment);
 }
 

@@ -32,7 +32,7 @@ static void on_log(void *user, lobe_log_level level, const char *message) {
     snprintf(error, sizeof error, "%s", message);
 }
 
-static const lobe_log test_log = {.write = on_log};
+static const lobe_host test_log = {.write = on_log};
 
 static void assert_said(lobe_result result, const lobe_image *image, const char *name) {
     if (result == LOBE_OK) {
@@ -51,7 +51,7 @@ static lobe_result decode(const void *bytes, size_t size, scene_image_use use, l
     void *copy = malloc(size ? size : 1);
     assert_non_null(copy);
     memcpy(copy, bytes, size);
-    lobe_result result = scene_image_decode(copy, size, "picture", use, &test_log, image);
+    lobe_result result = scenes_image_decode(copy, size, "picture", use, &test_log, image);
     free(copy);
     assert_said(result, image, "picture");
     return result;
@@ -59,7 +59,7 @@ static lobe_result decode(const void *bytes, size_t size, scene_image_use use, l
 
 static lobe_result load(const char *path, lobe_image *image) {
     errors = 0;
-    lobe_result result = scene_image_load(path, SCENE_IMAGE_DATA, &test_log, image);
+    lobe_result result = scenes_image_load(path, SCENE_IMAGE_DATA, &test_log, image);
     assert_said(result, image, path);
     return result;
 }

@@ -13,7 +13,7 @@ static const char tetrahedron[] = "exports.positions=[[0,0,0],[1,0,0],[0,1.5,0],
 static void must_read(const char *text, lobe_mesh *mesh) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(javascript_mesh_read(text, strlen(text), "m.js", &recorder.log, mesh),
+    assert_int_equal(scenes_javascript_mesh_read(text, strlen(text), "m.js", &recorder.host, mesh),
                      LOBE_OK);
     assert_int_equal(recorder.errors, 0);
 }
@@ -22,7 +22,7 @@ static void must_fail(const char *text, const char *cause) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_mesh mesh;
-    assert_int_equal(javascript_mesh_read(text, strlen(text), "m.js", &recorder.log, &mesh),
+    assert_int_equal(scenes_javascript_mesh_read(text, strlen(text), "m.js", &recorder.host, &mesh),
                      LOBE_ERROR_MALFORMED);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, "m.js"));
@@ -42,7 +42,7 @@ static void a_module_is_read(void **state) {
     const uint32_t indices[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
     assert_memory_equal(mesh.indices, indices, sizeof indices);
     assert_false(mesh.has_texture_coordinates[0]);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void other_ways_to_write_it_are_read(void **state) {
@@ -60,7 +60,7 @@ static void other_ways_to_write_it_are_read(void **state) {
         assert_int_equal(mesh.vertex_count, 3);
         assert_int_equal(mesh.index_count, 3);
         assert_true(mesh.vertices[1].position[0] == 1 && mesh.vertices[2].position[1] == 1);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
@@ -88,23 +88,23 @@ static void broken_modules_are_named(void **state) {
 // Whatever the bytes are, it ends with a mesh or with one line.
 static void mutations_do_no_harm(void **state) {
     (void)state;
-    random_sequence sequence = random_start(11);
+    random_sequence sequence = scenes_random_start(11);
     char text[sizeof tetrahedron];
     for (int i = 0; i < 20000; i++) {
         size_t size = sizeof tetrahedron - 1;
         memcpy(text, tetrahedron, size);
-        for (uint32_t changes = random_bits(&sequence) % 4; changes > 0; changes--)
-            text[random_bits(&sequence) % size] =
-                "0123456789.,-+e[]=: \nxyz\0\xff"[random_bits(&sequence) % 26];
-        if (random_bits(&sequence) % 2)
-            size = random_bits(&sequence) % (size + 1);
+        for (uint32_t changes = scenes_random_bits(&sequence) % 4; changes > 0; changes--)
+            text[scenes_random_bits(&sequence) % size] =
+                "0123456789.,-+e[]=: \nxyz\0\xff"[scenes_random_bits(&sequence) % 26];
+        if (scenes_random_bits(&sequence) % 2)
+            size = scenes_random_bits(&sequence) % (size + 1);
         log_recorder recorder;
         log_recorder_start(&recorder);
         lobe_mesh mesh;
-        lobe_result result = javascript_mesh_read(text, size, "m.js", &recorder.log, &mesh);
+        lobe_result result = scenes_javascript_mesh_read(text, size, "m.js", &recorder.host, &mesh);
         assert_int_equal(recorder.errors, result != LOBE_OK);
         assert_true((result == LOBE_OK) == (mesh.vertices != NULL));
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 

@@ -22,7 +22,7 @@ static const char pyramid[] = "ply\nformat ascii 1.0\ncomment a pyramid on a squ
 static void must_read(const void *bytes, size_t size, lobe_mesh *mesh) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    lobe_result result = ply_read(bytes, size, "m.ply", &recorder.log, mesh);
+    lobe_result result = scenes_ply_read(bytes, size, "m.ply", &recorder.host, mesh);
     if (result != LOBE_OK)
         fail_msg("%s", recorder.last_error);
     assert_int_equal(recorder.errors, 0);
@@ -32,7 +32,7 @@ static void must_fail(const void *bytes, size_t size, lobe_result expected, cons
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_mesh mesh;
-    assert_int_equal(ply_read(bytes, size, "m.ply", &recorder.log, &mesh), expected);
+    assert_int_equal(scenes_ply_read(bytes, size, "m.ply", &recorder.host, &mesh), expected);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, "m.ply"));
     if (!strstr(recorder.last_error, cause))
@@ -50,7 +50,7 @@ static void assert_is_pyramid(lobe_mesh *mesh) {
         assert_memory_equal(mesh->vertices[i].position, positions[i], sizeof *positions);
     assert_memory_equal(mesh->indices, indices, sizeof indices);
     assert_true(mesh->vertices[4].normal[2] == 1);
-    mesh_free(mesh);
+    scenes_mesh_free(mesh);
 }
 
 static void text_is_read(void **state) {
@@ -152,7 +152,8 @@ static void bytes_that_end_early_fail(void **state) {
         log_recorder recorder;
         log_recorder_start(&recorder);
         lobe_mesh mesh;
-        assert_int_not_equal(ply_read(buffer.bytes, size, "m.ply", &recorder.log, &mesh), LOBE_OK);
+        assert_int_not_equal(scenes_ply_read(buffer.bytes, size, "m.ply", &recorder.host, &mesh),
+                             LOBE_OK);
         assert_int_equal(recorder.errors, 1);
     }
     must_fail(buffer.bytes, buffer.size - 1, LOBE_ERROR_MALFORMED, "vertex 4: the file ends early");
@@ -239,22 +240,22 @@ static void mutate(const void *original, size_t full, random_sequence *sequence)
     uint8_t bytes[4096];
     size_t size = full;
     memcpy(bytes, original, full);
-    for (uint32_t changes = random_bits(sequence) % 4; changes > 0; changes--)
-        bytes[random_bits(sequence) % full] = (uint8_t)random_bits(sequence);
-    if (random_bits(sequence) % 2)
-        size = random_bits(sequence) % (full + 1);
+    for (uint32_t changes = scenes_random_bits(sequence) % 4; changes > 0; changes--)
+        bytes[scenes_random_bits(sequence) % full] = (uint8_t)scenes_random_bits(sequence);
+    if (scenes_random_bits(sequence) % 2)
+        size = scenes_random_bits(sequence) % (full + 1);
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_mesh mesh;
-    lobe_result result = ply_read(bytes, size, "m.ply", &recorder.log, &mesh);
+    lobe_result result = scenes_ply_read(bytes, size, "m.ply", &recorder.host, &mesh);
     assert_int_equal(recorder.errors, result != LOBE_OK);
     assert_true((result == LOBE_OK) == (mesh.vertices != NULL));
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void mutations_do_no_harm(void **state) {
     (void)state;
-    random_sequence sequence = random_start(12);
+    random_sequence sequence = scenes_random_start(12);
     byte_buffer binary;
     make_binary(&binary, 0);
     for (int i = 0; i < 10000; i++) {

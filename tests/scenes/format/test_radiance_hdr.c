@@ -108,7 +108,7 @@ static lobe_result decode(const byte_buffer *file, size_t size, log_recorder *re
     uint8_t *copy = malloc(size ? size : 1);
     if (size > 0)
         memcpy(copy, file->bytes, size);
-    lobe_result result = radiance_hdr_decode(copy, size, "p.hdr", &recorder->log, image);
+    lobe_result result = scenes_radiance_hdr_decode(copy, size, "p.hdr", &recorder->host, image);
     free(copy);
     assert_int_equal(recorder->errors, result != LOBE_OK);
     assert_true((image->texels != NULL) == (result == LOBE_OK));
@@ -314,7 +314,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state) {
 // Whatever is changed, there is an image or one line, and never a crash.
 static void any_byte_may_be_wrong(void **state) {
     (void)state;
-    random_sequence random = random_start(7);
+    random_sequence random = scenes_random_start(7);
     for (packing packing = FLAT; packing < PACKING_COUNT; packing++) {
         byte_buffer file = picture("EXPOSURE=2\n", "-Y 3 +X 40", 3, 40, packing);
         for (size_t offset = 0; offset < file.size; offset++) {
@@ -322,7 +322,7 @@ static void any_byte_may_be_wrong(void **state) {
                 const uint8_t kept = file.bytes[offset];
                 log_recorder recorder;
                 lobe_image image;
-                file.bytes[offset] = (uint8_t)random_bits(&random);
+                file.bytes[offset] = (uint8_t)scenes_random_bits(&random);
                 decode(&file, file.size, &recorder, &image);
                 lobe_image_free(&image);
                 file.bytes[offset] = kept;

@@ -35,7 +35,7 @@ static void numbers_are_those_of_the_standard_library(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         text_cursor cursor = over(texts[i]);
         double value;
-        assert_true(text_cursor_number(&cursor, &value));
+        assert_true(scenes_text_cursor_number(&cursor, &value));
         assert_true((float)value == strtof(texts[i], NULL));
         assert_true(signbit(value) == signbit(strtod(texts[i], NULL)));
         assert_ptr_equal(cursor.at, cursor.end);
@@ -44,15 +44,15 @@ static void numbers_are_those_of_the_standard_library(void **state) {
 
 static void printed_numbers_come_back(void **state) {
     (void)state;
-    random_sequence sequence = random_start(5);
+    random_sequence sequence = scenes_random_start(5);
     for (int i = 0; i < 20000; i++) {
         char text[64];
-        double expected =
-            ldexp(random_between(&sequence, -1, 1), (int)(random_bits(&sequence) % 200) - 100);
+        double expected = ldexp(scenes_random_between(&sequence, -1, 1),
+                                (int)(scenes_random_bits(&sequence) % 200) - 100);
         snprintf(text, sizeof text, i % 2 ? "%.9g" : "%.25e", (double)(float)expected);
         text_cursor cursor = over(text);
         double value;
-        assert_true(text_cursor_number(&cursor, &value));
+        assert_true(scenes_text_cursor_number(&cursor, &value));
         assert_true((float)value == (float)expected);
     }
 }
@@ -65,29 +65,29 @@ static void what_is_no_number_is_left_alone(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         text_cursor cursor = over(texts[i]);
         double value;
-        assert_false(text_cursor_number(&cursor, &value));
+        assert_false(scenes_text_cursor_number(&cursor, &value));
         assert_ptr_equal(cursor.at, texts[i]);
     }
     // It does not look behind the end.
     text_cursor cursor = {"12345", "12345" + 0};
     double value;
-    assert_false(text_cursor_number(&cursor, &value));
+    assert_false(scenes_text_cursor_number(&cursor, &value));
 }
 
 static void whole_numbers_have_a_limit(void **state) {
     (void)state;
     size_t value = 99;
     text_cursor cursor = over(" 0,17 4294967295");
-    assert_true(text_cursor_integer(&cursor, 17, &value) && value == 0);
-    assert_true(text_cursor_take(&cursor, ',') && !text_cursor_take(&cursor, ','));
-    assert_false(text_cursor_integer(&cursor, 16, &value));
-    assert_true(text_cursor_integer(&cursor, 17, &value) && value == 17);
-    assert_true(text_cursor_integer(&cursor, 4294967295u, &value) && value == 4294967295u);
+    assert_true(scenes_text_cursor_integer(&cursor, 17, &value) && value == 0);
+    assert_true(scenes_text_cursor_take(&cursor, ',') && !scenes_text_cursor_take(&cursor, ','));
+    assert_false(scenes_text_cursor_integer(&cursor, 16, &value));
+    assert_true(scenes_text_cursor_integer(&cursor, 17, &value) && value == 17);
+    assert_true(scenes_text_cursor_integer(&cursor, 4294967295u, &value) && value == 4294967295u);
     static const char *const wrong[] = {"",    "-1", "+1",     "1.5",
                                         "1e3", "x",  "7seven", "99999999999999999999999"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         cursor = over(wrong[i]);
-        assert_false(text_cursor_integer(&cursor, (size_t)-1, &value));
+        assert_false(scenes_text_cursor_integer(&cursor, (size_t)-1, &value));
         assert_ptr_equal(cursor.at, wrong[i]);
     }
 }
@@ -96,9 +96,9 @@ static void lines_are_counted(void **state) {
     (void)state;
     const char *text = "a\nb\n\nc";
     text_cursor cursor = over(text);
-    assert_int_equal(text_cursor_line(&cursor, text), 1);
+    assert_int_equal(scenes_text_cursor_line(&cursor, text), 1);
     cursor.at = cursor.end;
-    assert_int_equal(text_cursor_line(&cursor, text), 4);
+    assert_int_equal(scenes_text_cursor_line(&cursor, text), 4);
 }
 
 int main(void) {

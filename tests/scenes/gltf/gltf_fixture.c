@@ -91,11 +91,11 @@ static void on_log(void *user, lobe_log_level level, const char *message) {
 }
 
 lobe_result gltf_fixture_open_path(gltf_fixture *fixture, const char *path, lobe_scene **scene) {
-    lobe_log log = {.write = on_log, .user = fixture};
+    lobe_host host = {.write = on_log, .user = fixture};
     fixture->errors = fixture->warnings = fixture->notices = 0;
     fixture->error[0] = fixture->warnings_text[0] = 0;
     *scene = (lobe_scene *)fixture; // must be overwritten
-    lobe_result result = lobe_scene_open(path, &log, scene);
+    lobe_result result = lobe_scene_open(path, &host, scene);
     if (result == LOBE_OK) {
         assert_non_null(*scene);
         assert_int_equal(fixture->errors, 0);

@@ -93,7 +93,7 @@ static void computed_tangents_agree_with_those_of_the_files(void **state) {
             float(*given)[4] = malloc(count * sizeof *given);
             for (size_t v = 0; v < count; v++)
                 memcpy(given[v], mesh->vertices[v].tangent, sizeof *given);
-            assert_int_equal(mesh_compute_tangents(mesh, NULL, NULL), LOBE_OK);
+            assert_int_equal(scenes_mesh_compute_tangents(mesh, NULL, NULL), LOBE_OK);
             for (size_t v = 0; v < count; v++) {
                 const float *t = mesh->vertices[v].tangent;
                 // At the poles of the sphere all coordinates are equal: any tangent will do.

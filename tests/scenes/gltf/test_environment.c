@@ -66,7 +66,8 @@ static lobe_scene *open_lit(gltf_fixture *fixture, const char *members) {
 static const float *texel_at(const lobe_environment *environment, const double direction[3]) {
     const lobe_image *image = &environment->image;
     double position[2];
-    environment_position(environment->layout, image->width, image->height, direction, position);
+    scenes_environment_position(environment->layout, image->width, image->height, direction,
+                                position);
     return (const float *)image->texels +
            4 * ((size_t)position[1] * image->width + (size_t)position[0]);
 }

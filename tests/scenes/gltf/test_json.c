@@ -57,9 +57,9 @@ static const json_schema root = {.kind = JSON_OBJECT,
 
 static lobe_result check_bytes(const char *bytes, size_t length, outcome *o) {
     *o = (outcome){0};
-    lobe_log log = {.write = on_log, .user = o};
-    json_text content = {"file", bytes, length, &log, o};
-    lobe_result result = json_check(&content, &root);
+    lobe_host host = {.write = on_log, .user = o};
+    json_text content = {"file", bytes, length, &host, o};
+    lobe_result result = scenes_json_check(&content, &root);
     if (result == LOBE_OK || result == LOBE_ERROR_UNSUPPORTED)
         assert_int_equal(o->errors, 0);
     else

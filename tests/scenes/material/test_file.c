@@ -48,9 +48,9 @@ static void names_tell_the_map(void **state) {
         {"\xff\xfe\xf0normal.png", MATERIAL_MAP_NORMAL},
     };
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
-        if (material_file_map(expected[i].name) != expected[i].map)
+        if (scenes_material_file_map(expected[i].name) != expected[i].map)
             print_error("%s\n", expected[i].name);
-        assert_int_equal(material_file_map(expected[i].name), expected[i].map);
+        assert_int_equal(scenes_material_file_map(expected[i].name), expected[i].map);
     }
 }
 
@@ -59,22 +59,26 @@ static void absurd_names_are_not_recognised(void **state) {
     char name[2000];
     memset(name, 'a', sizeof name);
     strcpy(name + sizeof name - 12, "_normal.png");
-    assert_int_equal(material_file_map(name), MATERIAL_MAP_COUNT);
+    assert_int_equal(scenes_material_file_map(name), MATERIAL_MAP_COUNT);
     // As many words as a name of 512 bytes can have: aB aB ...
     for (int i = 0; i < 512; i++)
         name[i] = i % 2 ? 'B' : 'a';
     name[512] = 0;
-    assert_int_equal(material_file_map(name), MATERIAL_MAP_COUNT);
+    assert_int_equal(scenes_material_file_map(name), MATERIAL_MAP_COUNT);
 }
 
 static void extensions_tell_the_format(void **state) {
     (void)state;
-    assert_true(material_file_is_readable("a.png") && material_file_is_readable("a.b.JPG"));
-    assert_true(material_file_is_readable("a.Jpeg"));
-    assert_false(material_file_is_readable("png") || material_file_is_readable("a.exr"));
-    assert_false(material_file_is_readable("a.png.txt"));
-    assert_true(material_file_is_other_image("a.exr") && material_file_is_other_image("a.TIF"));
-    assert_false(material_file_is_other_image("a.png") || material_file_is_other_image("a.txt"));
+    assert_true(scenes_material_file_is_readable("a.png") &&
+                scenes_material_file_is_readable("a.b.JPG"));
+    assert_true(scenes_material_file_is_readable("a.Jpeg"));
+    assert_false(scenes_material_file_is_readable("png") ||
+                 scenes_material_file_is_readable("a.exr"));
+    assert_false(scenes_material_file_is_readable("a.png.txt"));
+    assert_true(scenes_material_file_is_other_image("a.exr") &&
+                scenes_material_file_is_other_image("a.TIF"));
+    assert_false(scenes_material_file_is_other_image("a.png") ||
+                 scenes_material_file_is_other_image("a.txt"));
 }
 
 int main(void) {

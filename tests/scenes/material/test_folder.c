@@ -78,7 +78,7 @@ static const lobe_material *must_open(folder_fixture *fixture, lobe_carrier carr
     log_recorder_start(&fixture->recorder);
     lobe_scene_destroy(&fixture->scene);
     assert_int_equal(
-        lobe_scene_open_material(fixture->path, carrier, &fixture->recorder.log, &fixture->scene),
+        lobe_scene_open_material(fixture->path, carrier, &fixture->recorder.host, &fixture->scene),
         LOBE_OK);
     assert_int_equal(fixture->recorder.errors, 0);
     scene_check(fixture->scene);
@@ -92,7 +92,7 @@ static void must_fail(folder_fixture *fixture, const char *path, lobe_result exp
     log_recorder_start(&fixture->recorder);
     lobe_scene *scene = (lobe_scene *)&scene;
     assert_int_equal(
-        lobe_scene_open_material(path, LOBE_CARRIER_PLANE, &fixture->recorder.log, &scene),
+        lobe_scene_open_material(path, LOBE_CARRIER_PLANE, &fixture->recorder.host, &scene),
         expected);
     assert_null(scene);
     assert_int_equal(fixture->recorder.errors, 1);
@@ -376,7 +376,7 @@ static void real_sets_are_understood(void **state) {
         snprintf(path, sizeof path, "%s/tex/%s", assets, sets[i].folder);
         log_recorder_start(&fixture->recorder);
         lobe_scene *scene = NULL;
-        assert_int_equal(lobe_scene_open(path, &fixture->recorder.log, &scene), LOBE_OK);
+        assert_int_equal(lobe_scene_open(path, &fixture->recorder.host, &scene), LOBE_OK);
         assert_int_equal(fixture->recorder.errors + fixture->recorder.warnings, 0);
         scene_check(scene);
         const lobe_material *material = &scene->materials[0];

@@ -26,10 +26,11 @@ static relief make_relief(double scale, uint32_t height_seed, uint32_t normal_se
         for (int column = 0; column < WIDTH; column++, height += 4, normal += 4) {
             double x = (column + 0.5) / 12, y = (row + 0.5) / 12, slope[2];
             height[0] =
-                (uint16_t)((0.5 + 0.5 * noise_gradient(x, y, PERIOD, height_seed, NULL)) * 65535);
-            noise_gradient(x, y, PERIOD, normal_seed, slope);
+                (uint16_t)((0.5 + 0.5 * scenes_noise_gradient(x, y, PERIOD, height_seed, NULL)) *
+                           65535);
+            scenes_noise_gradient(x, y, PERIOD, normal_seed, slope);
             double per_width = scale * 0.5 * WIDTH / 12;
-            normal_map_store_slope(normal, slope[0] * per_width, slope[1] * per_width);
+            scenes_normal_map_store_slope(normal, slope[0] * per_width, slope[1] * per_width);
         }
     return made;
 }
@@ -45,7 +46,7 @@ static void the_scale_of_a_relief_is_found(void **state) {
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         relief made = make_relief(scales[i], 5, 5);
         float scale = 0;
-        assert_true(height_scale_find(&made.heights, &made.normals, &scale));
+        assert_true(scenes_height_scale_find(&made.heights, &made.normals, &scale));
         // Differences of neighbours are a little flatter than slopes; normals have eight bits.
         assert_true(fabs(scale / scales[i] - 1) < 0.06);
         free_relief(&made);
@@ -56,12 +57,12 @@ static void what_does_not_agree_is_refused(void **state) {
     (void)state;
     float scale = 7;
     relief made = make_relief(0.1, 5, 6);
-    assert_false(height_scale_find(&made.heights, &made.normals, &scale));
+    assert_false(scenes_height_scale_find(&made.heights, &made.normals, &scale));
     made.heights.height = HEIGHT / 2;
-    assert_false(height_scale_find(&made.heights, &made.normals, &scale));
+    assert_false(scenes_height_scale_find(&made.heights, &made.normals, &scale));
     free_relief(&made);
     made = make_relief(0, 5, 5);
-    assert_false(height_scale_find(&made.heights, &made.normals, &scale));
+    assert_false(scenes_height_scale_find(&made.heights, &made.normals, &scale));
     assert_true(scale == 7);
     free_relief(&made);
 }

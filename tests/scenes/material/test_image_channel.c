@@ -20,7 +20,7 @@ static void packs_channels_of_one_size_exactly(void **state) {
         ((uint16_t *)b.texels)[i] = (uint16_t)((255 - i) * 257); // 257 times what 8 bits hold
     }
     const image_channel channels[4] = {{&a, 2, 0}, {&b, 1, 0}, {NULL, 0, 0.2f}, {.value = 1}};
-    assert_int_equal(image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
+    assert_int_equal(scenes_image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
     assert_int_equal(packed.format, LOBE_FORMAT_RGBA8_UNORM);
     assert_true(packed.width == 5 && packed.height == 3);
     const uint8_t *texel = packed.texels;
@@ -42,7 +42,7 @@ static void smaller_channels_are_interpolated_and_repeat(void **state) {
     memcpy(small.texels, (uint8_t[]){0, 0, 0, 0, 200, 0, 0, 0}, 8);
     memset(large.texels, 77, 4 * 2 * 4);
     const image_channel channels[4] = {{&small, 0, 0}, {&large, 1, 0}, {.value = 0}, {.value = 1}};
-    assert_int_equal(image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
+    assert_int_equal(scenes_image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
     assert_true(packed.width == 4 && packed.height == 2);
     // Texel centres lie at 1/4 and 3/4 of a small texel; the first one reaches round the edge.
     static const uint8_t expected[4] = {50, 50, 150, 150};
@@ -61,7 +61,7 @@ static void extent_is_that_of_the_widest_and_the_highest(void **state) {
     lobe_image wide = make_image(LOBE_FORMAT_RGBA8_UNORM, 7, 1), packed;
     lobe_image high = make_image(LOBE_FORMAT_RGBA8_UNORM, 1, 5);
     const image_channel channels[4] = {{&wide, 0, 0}, {&high, 0, 0}, {.value = 0}, {.value = 1}};
-    assert_int_equal(image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
+    assert_int_equal(scenes_image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
     assert_true(packed.width == 7 && packed.height == 5);
     lobe_image_free(&packed);
     lobe_image_free(&wide);
@@ -70,7 +70,7 @@ static void extent_is_that_of_the_widest_and_the_highest(void **state) {
     high = make_image(LOBE_FORMAT_RGBA8_UNORM, 1, 60000);
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(image_channel_pack(channels, "two strips", &recorder.log, &packed),
+    assert_int_equal(scenes_image_channel_pack(channels, "two strips", &recorder.host, &packed),
                      LOBE_ERROR_LIMIT);
     assert_null(packed.texels);
     assert_int_equal(recorder.errors, 1);
@@ -85,8 +85,8 @@ static void inverting_changes_one_channel(void **state) {
     lobe_image sixteen = make_image(LOBE_FORMAT_RGBA16_UNORM, 1, 1);
     memcpy(eight.texels, (uint8_t[]){1, 2, 3, 4, 5, 255, 7, 8}, 8);
     memcpy(sixteen.texels, (uint16_t[]){1, 20000, 3, 4}, 8);
-    image_channel_invert(&eight, 1);
-    image_channel_invert(&sixteen, 1);
+    scenes_image_channel_invert(&eight, 1);
+    scenes_image_channel_invert(&sixteen, 1);
     assert_memory_equal(eight.texels, ((uint8_t[]){1, 253, 3, 4, 5, 0, 7, 8}), 8);
     assert_memory_equal(sixteen.texels, ((uint16_t[]){1, 45535, 3, 4}), 8);
     lobe_image_free(&eight);

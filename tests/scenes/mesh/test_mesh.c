@@ -17,7 +17,8 @@
 enum { SIDE = 3, GRID_VERTICES = SIDE * SIDE, GRID_INDICES = 24 };
 
 static void make_grid(lobe_mesh *mesh) {
-    assert_int_equal(mesh_allocate(mesh, "grid", GRID_VERTICES, GRID_INDICES, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_allocate(mesh, "grid", GRID_VERTICES, GRID_INDICES, NULL),
+                     LOBE_OK);
     for (uint32_t i = 0; i < GRID_VERTICES; i++) {
         lobe_scene_vertex *v = &mesh->vertices[i];
         v->position[0] = (float)(i % SIDE);
@@ -65,10 +66,10 @@ static void counts_are_checked(void **state) {
     } bad[] = {{0, 3}, {3, 0}, {3, 4}, {SIZE_MAX, 3}, {3, SIZE_MAX / 3 * 3}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         lobe_mesh mesh;
-        assert_int_equal(mesh_allocate(&mesh, "bad", bad[i].vertices, bad[i].indices, NULL),
+        assert_int_equal(scenes_mesh_allocate(&mesh, "bad", bad[i].vertices, bad[i].indices, NULL),
                          LOBE_ERROR_LIMIT);
         assert_null(mesh.vertices);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
@@ -78,30 +79,30 @@ static void normals_are_weighted_by_area(void **state) {
     static const float positions[4][3] = {{0, 0, 0}, {0, 1, 0}, {2, 0, 0}, {0, 0, 4}};
     static const uint32_t indices[] = {0, 2, 1, 0, 1, 3};
     lobe_mesh mesh;
-    assert_int_equal(mesh_allocate(&mesh, "roof", 5, 6, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_allocate(&mesh, "roof", 5, 6, NULL), LOBE_OK);
     for (int i = 0; i < 4; i++)
         memcpy(mesh.vertices[i].position, positions[i], sizeof positions[i]);
     memcpy(mesh.indices, indices, sizeof indices);
-    assert_int_equal(mesh_compute_normals(&mesh, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_normals(&mesh, NULL), LOBE_OK);
     const float length = sqrtf(5);
     assert_vector(mesh.vertices[0].normal, 2 / length, 0, 1 / length);
     assert_vector(mesh.vertices[1].normal, 2 / length, 0, 1 / length);
     assert_vector(mesh.vertices[2].normal, 0, 0, 1);
     assert_vector(mesh.vertices[3].normal, 1, 0, 0);
     assert_vector(mesh.vertices[4].normal, 0, 1, 0); // of no triangle
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void normals_that_cancel_become_up(void **state) {
     (void)state;
     lobe_mesh mesh;
-    assert_int_equal(mesh_allocate(&mesh, "leaf", 3, 6, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_allocate(&mesh, "leaf", 3, 6, NULL), LOBE_OK);
     mesh.vertices[1].position[0] = 1;
     mesh.vertices[2].position[1] = 1;
     memcpy(mesh.indices, ((const uint32_t[]){0, 1, 2, 2, 1, 0}), 6 * sizeof(uint32_t));
-    assert_int_equal(mesh_compute_normals(&mesh, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_normals(&mesh, NULL), LOBE_OK);
     assert_vector(mesh.vertices[0].normal, 0, 1, 0);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void only_bad_normals_are_repaired(void **state) {
@@ -113,13 +114,13 @@ static void only_bad_normals_are_repaired(void **state) {
     memcpy(mesh.vertices[1].normal, (const float[]){3, 0, 4}, 12);
     memcpy(mesh.vertices[2].normal, (const float[]){0, INFINITY, 0}, 12);
     memcpy(mesh.vertices[3].normal, (const float[]){0, FLT_MAX, 0}, 12);
-    assert_int_equal(mesh_repair_normals(&mesh, NULL, &repaired), LOBE_OK);
+    assert_int_equal(scenes_mesh_repair_normals(&mesh, NULL, &repaired), LOBE_OK);
     assert_int_equal(repaired, 2);
     assert_vector(mesh.vertices[0].normal, 0, 0, 1);
     assert_vector(mesh.vertices[1].normal, 0.6f, 0, 0.8f);
     assert_vector(mesh.vertices[2].normal, 0, 0, 1);
     assert_vector(mesh.vertices[3].normal, 0, 1, 0);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void positions_at_the_limit_of_float_have_normals(void **state) {
@@ -131,14 +132,14 @@ static void positions_at_the_limit_of_float_have_normals(void **state) {
             for (int axis = 0; axis < 3; axis++)
                 mesh.vertices[i].position[axis] *= size;
         }
-        assert_int_equal(mesh_drop_degenerate(&mesh), 0);
-        assert_int_equal(mesh_compute_normals(&mesh, NULL), LOBE_OK);
-        assert_int_equal(mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
+        assert_int_equal(scenes_mesh_drop_degenerate(&mesh), 0);
+        assert_int_equal(scenes_mesh_compute_normals(&mesh, NULL), LOBE_OK);
+        assert_int_equal(scenes_mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
         for (int i = 0; i < GRID_VERTICES; i++) {
             assert_vector(mesh.vertices[i].normal, 0, 0, 1);
             assert_vector(mesh.vertices[i].tangent, 1, 0, 0);
         }
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
@@ -146,14 +147,14 @@ static void tangents_run_along_u(void **state) {
     (void)state;
     lobe_mesh mesh;
     make_grid(&mesh);
-    assert_int_equal(mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
     assert_int_equal(mesh.vertex_count, GRID_VERTICES);
     for (int i = 0; i < GRID_VERTICES; i++) {
         assert_vector(mesh.vertices[i].tangent, 1, 0, 0);
         // The bitangent, cross(z, x) = y, runs up the image.
         assert_true(mesh.vertices[i].tangent[3] == 1);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void tangents_follow_set_and_transform(void **state) {
@@ -167,16 +168,16 @@ static void tangents_follow_set_and_transform(void **state) {
     }
     lobe_texture_use use = LOBE_TEXTURE_NONE;
     use.texture_coordinates = 1;
-    assert_int_equal(mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
     assert_vector(mesh.vertices[4].tangent, 0, 1, 0);
     assert_true(mesh.vertices[4].tangent[3] == 1);
     // A quarter turn of the coordinates, and the image mirrored.
     use.texture_coordinates = 0;
     memcpy(use.transform, ((const float[2][3]){{0, 1, 0}, {1, 0, 0}}), sizeof use.transform);
-    assert_int_equal(mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
     assert_vector(mesh.vertices[4].tangent, 0, -1, 0);
     assert_true(mesh.vertices[4].tangent[3] == -1);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void vertices_of_both_hands_are_split(void **state) {
@@ -185,7 +186,7 @@ static void vertices_of_both_hands_are_split(void **state) {
     make_grid(&mesh);
     for (int i = 0; i < GRID_VERTICES; i++) // the right half mirrors the left
         mesh.vertices[i].texture_coordinates[0][0] = 1 - fabsf(mesh.vertices[i].position[0] - 1);
-    assert_int_equal(mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
     assert_int_equal(mesh.vertex_count, GRID_VERTICES + SIDE);
     assert_frames_are_orthonormal(&mesh);
     for (size_t i = 0; i < mesh.index_count; i += 3) {
@@ -199,7 +200,7 @@ static void vertices_of_both_hands_are_split(void **state) {
             assert_true(v->tangent[3] == (centre < 1 ? 1 : -1));
         }
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void degenerate_coordinates_give_any_frame(void **state) {
@@ -215,17 +216,17 @@ static void degenerate_coordinates_give_any_frame(void **state) {
             const float normals[3][3] = {{1, 0, 0}, {0, 0.6f, 0.8f}, {0, 0, -1}};
             memcpy(v->normal, normals[i % 3], sizeof normals[0]);
         }
-        assert_int_equal(mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
+        assert_int_equal(scenes_mesh_compute_tangents(&mesh, NULL, NULL), LOBE_OK);
         assert_int_equal(mesh.vertex_count, GRID_VERTICES);
         assert_frames_are_orthonormal(&mesh);
-        mesh_free(&mesh);
+        scenes_mesh_free(&mesh);
     }
 }
 
 static void degenerate_triangles_are_dropped(void **state) {
     (void)state;
     lobe_mesh mesh;
-    assert_int_equal(mesh_allocate(&mesh, "mixed", 6, 15, NULL), LOBE_OK);
+    assert_int_equal(scenes_mesh_allocate(&mesh, "mixed", 6, 15, NULL), LOBE_OK);
     static const float positions[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                           {2, 0, 0}, {0, 0, 0}, {0.5f, 1e-5f, 0}};
     for (int i = 0; i < 6; i++)
@@ -233,10 +234,10 @@ static void degenerate_triangles_are_dropped(void **state) {
     // Good; an index twice; on one line; a position twice; thin but real.
     static const uint32_t indices[] = {0, 1, 2, 1, 1, 2, 0, 1, 3, 0, 4, 2, 0, 1, 5};
     memcpy(mesh.indices, indices, sizeof indices);
-    assert_int_equal(mesh_drop_degenerate(&mesh), 3);
+    assert_int_equal(scenes_mesh_drop_degenerate(&mesh), 3);
     assert_int_equal(mesh.index_count, 6);
     assert_memory_equal(mesh.indices, ((const uint32_t[]){0, 1, 2, 0, 1, 5}), 24);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void bounds_enclose_all_positions(void **state) {
@@ -244,10 +245,10 @@ static void bounds_enclose_all_positions(void **state) {
     lobe_mesh mesh;
     make_grid(&mesh);
     mesh.vertices[5].position[2] = -7;
-    mesh_compute_bounds(&mesh);
+    scenes_mesh_compute_bounds(&mesh);
     assert_vector(mesh.minimum, 0, 0, -7);
     assert_vector(mesh.maximum, 2, 2, 0);
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void orthogonal_vectors_are_unit_everywhere(void **state) {
@@ -256,7 +257,7 @@ static void orthogonal_vectors_are_unit_everywhere(void **state) {
         float z = 1 - (float)i / 499.5f, angle = 2.399963f * (float)i;
         float radius = sqrtf(fmaxf(0, 1 - z * z)), tangent[3];
         const float normal[3] = {radius * cosf(angle), radius * sinf(angle), z};
-        mesh_orthogonal(normal, tangent);
+        scenes_mesh_orthogonal(normal, tangent);
         assert_true(fabsf(dot(tangent, tangent) - 1) < 1e-6f);
         assert_true(fabsf(dot(tangent, normal)) < 1e-6f);
     }

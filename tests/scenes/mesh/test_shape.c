@@ -11,9 +11,9 @@
 static void plane_faces_up_and_tiles(void **state) {
     (void)state;
     lobe_mesh mesh;
-    assert_int_equal(shape_plane(6, 10, 2, NULL, &mesh), LOBE_OK);
-    mesh_compute_bounds(&mesh);
-    scene_check_mesh(&mesh);
+    assert_int_equal(scenes_shape_plane(6, 10, 2, NULL, &mesh), LOBE_OK);
+    scenes_mesh_compute_bounds(&mesh);
+    passes_scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, 6);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const lobe_scene_vertex *vertex = &mesh.vertices[i];
@@ -22,16 +22,16 @@ static void plane_faces_up_and_tiles(void **state) {
         assert_true(vertex->texture_coordinates[0][0] == vertex->position[0] / 2);
         assert_true(vertex->texture_coordinates[0][1] == vertex->position[2] / 2);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void sphere_is_round_and_closed(void **state) {
     (void)state;
     enum { ROWS = 16, COLUMNS = 24 };
     lobe_mesh mesh;
-    assert_int_equal(shape_sphere(ROWS, COLUMNS, 4, 2, NULL, &mesh), LOBE_OK);
-    mesh_compute_bounds(&mesh);
-    scene_check_mesh(&mesh);
+    assert_int_equal(scenes_shape_sphere(ROWS, COLUMNS, 4, 2, NULL, &mesh), LOBE_OK);
+    scenes_mesh_compute_bounds(&mesh);
+    passes_scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, 6 * (ROWS - 1) * COLUMNS);
     double volume = 0;
     for (size_t i = 0; i < mesh.index_count; i += 3) {
@@ -49,16 +49,16 @@ static void sphere_is_round_and_closed(void **state) {
         assert_true(mesh.vertices[i].texture_coordinates[0][0] <= 4);
         assert_true(mesh.vertices[i].texture_coordinates[0][1] <= 2);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void box_is_closed_and_maps_each_face_upright(void **state) {
     (void)state;
     static const float size[3] = {2, 3, 5};
     lobe_mesh mesh;
-    assert_int_equal(shape_box(size, 0.5f, NULL, &mesh), LOBE_OK);
-    mesh_compute_bounds(&mesh);
-    scene_check_mesh(&mesh);
+    assert_int_equal(scenes_shape_box(size, 0.5f, NULL, &mesh), LOBE_OK);
+    scenes_mesh_compute_bounds(&mesh);
+    passes_scene_check_mesh(&mesh);
     double surface = 0, flux = 0, coordinates = 0;
     for (size_t i = 0; i < mesh.index_count; i += 3) {
         const lobe_scene_vertex *a = &mesh.vertices[mesh.indices[i]];
@@ -81,7 +81,7 @@ static void box_is_closed_and_maps_each_face_upright(void **state) {
         if (vertex->normal[1] == 0)
             assert_true(vertex->texture_coordinates[0][1] == -vertex->position[1] / 0.5f);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 // Where an image's rows run down a plane and its columns to the right, height that grows along
@@ -89,19 +89,19 @@ static void box_is_closed_and_maps_each_face_upright(void **state) {
 static void normal_map_has_y_up(void **state) {
     (void)state;
     uint8_t texel[4];
-    normal_map_store_slope(texel, 0, 0);
+    scenes_normal_map_store_slope(texel, 0, 0);
     assert_true(texel[0] == 128 && texel[1] == 128 && texel[2] == 255 && texel[3] == 255);
-    normal_map_store_slope(texel, 0.5, 0);
+    scenes_normal_map_store_slope(texel, 0.5, 0);
     assert_true(texel[0] < 80 && texel[1] == 128);
-    normal_map_store_slope(texel, 0, 0.5);
+    scenes_normal_map_store_slope(texel, 0, 0.5);
     assert_true(texel[0] == 128 && texel[1] > 176);
-    normal_map_store(texel, 3, -4, 12);
+    scenes_normal_map_store(texel, 3, -4, 12);
     assert_int_equal(texel[0], (int)(127.5 + 127.5 * 3 / 13 + 0.5));
     assert_int_equal(texel[1], (int)(127.5 - 127.5 * 4 / 13 + 0.5));
     assert_int_equal(texel[2], (int)(127.5 + 127.5 * 12 / 13 + 0.5));
-    normal_map_store(texel, -1, 0, 0);
+    scenes_normal_map_store(texel, -1, 0, 0);
     assert_true(texel[0] == 0 && texel[2] == 128);
-    normal_map_store(texel, 1e-8, 1, 0);
+    scenes_normal_map_store(texel, 1e-8, 1, 0);
     assert_int_equal(texel[1], 255);
 }
 

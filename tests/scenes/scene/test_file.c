@@ -98,7 +98,7 @@ static void check_scene(const lobe_scene *scene) {
 
 static lobe_scene *must_open(archive *a, const lobe_scene_open_parameters *parameters) {
     lobe_scene *scene = NULL;
-    if (lobe_scene_open_with(parameters, &a->recorder.log, &scene) != LOBE_OK)
+    if (lobe_scene_open_with(parameters, &a->recorder.host, &scene) != LOBE_OK)
         fail_msg("%s", a->recorder.last_error);
     assert_int_equal(a->recorder.errors, 0);
     return scene;
@@ -161,7 +161,7 @@ static void assert_refused(archive *a, const lobe_scene_open_parameters *paramet
                            lobe_result expected, const char *words) {
     lobe_scene *scene = (lobe_scene *)a;
     log_recorder_start(&a->recorder);
-    assert_int_equal(lobe_scene_open_with(parameters, &a->recorder.log, &scene), expected);
+    assert_int_equal(lobe_scene_open_with(parameters, &a->recorder.host, &scene), expected);
     assert_null(scene);
     assert_int_equal(a->recorder.errors, 1);
     if (!strstr(a->recorder.last_error, words))

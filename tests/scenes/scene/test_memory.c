@@ -16,9 +16,9 @@
 #include "tests/engine/support/counting_allocator.h"
 #include "tests/engine/support/temporary_folder.h"
 
-static lobe_result work_with_scene(void *parameters, const lobe_log *log) {
+static lobe_result work_with_scene(void *parameters, const lobe_host *host) {
     lobe_scene *scene;
-    lobe_result result = lobe_scene_open_with(parameters, log, &scene);
+    lobe_result result = lobe_scene_open_with(parameters, host, &scene);
     assert_true((scene != NULL) == (result == LOBE_OK));
     lobe_scene_destroy(&scene);
     return result;
@@ -75,9 +75,9 @@ static void glTF_files_say_where_memory_ends(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Others
 
-static lobe_result work_with_material(void *folder, const lobe_log *log) {
+static lobe_result work_with_material(void *folder, const lobe_host *host) {
     lobe_scene *scene;
-    lobe_result result = lobe_scene_open_material(folder, LOBE_CARRIER_PLANE, log, &scene);
+    lobe_result result = lobe_scene_open_material(folder, LOBE_CARRIER_PLANE, host, &scene);
     lobe_scene_destroy(&scene);
     return result;
 }
@@ -98,12 +98,12 @@ static void scenes_by_code_say_where_memory_ends(void **state) {
     assert_true(fail_each_allocation(work_with_scene, &parameters) > 10);
 }
 
-static lobe_result work_with_mesh(void *user, const lobe_log *log) {
+static lobe_result work_with_mesh(void *user, const lobe_host *host) {
     (void)user;
     static const asset_mesh wanted = {.scene = "test", .file = "m", .height = 0.5, .tile = 0.125};
     lobe_mesh mesh;
-    lobe_result result = asset_mesh_load(&wanted, test_folder.path, log, &mesh);
-    mesh_free(&mesh);
+    lobe_result result = scenes_asset_mesh_load(&wanted, test_folder.path, host, &mesh);
+    scenes_mesh_free(&mesh);
     return result;
 }
 
@@ -133,9 +133,9 @@ static void meshes_of_files_say_where_memory_ends(void **state) {
     assert_true(fail_each_allocation(work_with_mesh, NULL) > 15);
 }
 
-static lobe_result work_with_environment(void *path, const lobe_log *log) {
+static lobe_result work_with_environment(void *path, const lobe_host *host) {
     lobe_environment *environment;
-    lobe_result result = lobe_environment_open(path, log, &environment);
+    lobe_result result = lobe_environment_open(path, host, &environment);
     assert_true((environment != NULL) == (result == LOBE_OK));
     lobe_environment_destroy(&environment);
     return result;
@@ -164,8 +164,8 @@ static void environments_shrink_without_memory(void **state) {
         counting_allocator counting;
         counting_allocator_start(&counting);
         lobe_environment *environment;
-        assert_int_equal(lobe_environment_open("sky", &(lobe_log){.allocator = &counting.allocator},
-                                               &environment),
+        assert_int_equal(lobe_environment_open(
+                             "sky", &(lobe_host){.allocator = &counting.allocator}, &environment),
                          LOBE_OK);
         const size_t bytes = counting.bytes;
         counting.failing = failing ? counting.taken + 1 : 0;
@@ -190,7 +190,7 @@ static void the_hosts_own_scene_is_freed(void **state) {
     scene->materials[0].name = lobe_copy_text(from, "material");
     scene->material_count = 1;
     lobe_environment *environment;
-    assert_int_equal(lobe_environment_open("sky", &(lobe_log){.allocator = from}, &environment),
+    assert_int_equal(lobe_environment_open("sky", &(lobe_host){.allocator = from}, &environment),
                      LOBE_OK);
     lobe_scene_set_environment(scene, environment);
     lobe_scene_set_environment(scene, NULL);

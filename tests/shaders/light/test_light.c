@@ -38,15 +38,15 @@ static void test_cone(void **state) {
     uint64_t random = 19;
     for (size_t i = 0; i < COUNT; i++) {
         harness_arguments *at = &arguments[i];
-        outer[i] = random_between(&random, 0.05, M_PI / 2);
-        inner[i] = i % 4 ? random_between(&random, 0, outer[i]) : outer[i];
+        outer[i] = scenes_random_between(&random, 0.05, M_PI / 2);
+        inner[i] = i % 4 ? scenes_random_between(&random, 0, outer[i]) : outer[i];
         double scale = 1 / fmax(0.001, cos(inner[i]) - cos(outer[i]));
         at->c[0] = (float)scale;
         at->c[1] = (float)(-scale * cos(outer[i]));
         random_direction(&random, at->a);
         const float from_light[3] = {-at->a[0], -at->a[1], -at->a[2]};
-        direction_at(from_light, random_between(&random, 0, 1.2 * outer[i]),
-                     random_between(&random, 0, 6), at->b);
+        direction_at(from_light, scenes_random_between(&random, 0, 1.2 * outer[i]),
+                     scenes_random_between(&random, 0, 6), at->b);
     }
     harness_evaluate(state, "light/light.comp", 0, arguments, COUNT, results);
     for (size_t i = 0; i < COUNT; i++) {

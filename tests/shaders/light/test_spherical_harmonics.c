@@ -30,7 +30,7 @@ static void coefficients_of(const harness_arguments *at, double coefficients[REF
 static void random_coefficients(uint64_t *random, harness_arguments *at) {
     at->a[3] = 8;
     for (int i = 0; i < 8; i++)
-        (i < 4 ? at->b : at->c)[i % 4] = (float)random_between(random, -1, 1);
+        (i < 4 ? at->b : at->c)[i % 4] = (float)scenes_random_between(random, -1, 1);
 }
 
 static double sum_at(const harness_arguments *at, const double direction[3]) {

@@ -23,7 +23,7 @@ static void make_arguments(void) {
         uint32_t distribution = i % DISTRIBUTIONS;
         bool roughness = distribution <= LOBE_DISTRIBUTION_BECKMANN;
         double width = roughness ? geometric(1e-3, 1.2, i, COUNT) : geometric(1e-8, 1e7, i, COUNT);
-        double parameter = roughness ? random_between(&random, 1.5e-3, 1)
+        double parameter = roughness ? scenes_random_between(&random, 1.5e-3, 1)
                                      : geometric(1e-4, 1e6, (i * 7) % COUNT, COUNT);
         double normal_concentration = geometric(1e-4, 1e6, (i * 13) % COUNT, COUNT);
         arguments[i] =

@@ -24,7 +24,7 @@ static void make_places(void) {
         harness_arguments *at = &arguments[i];
         at->a[2] = (float)geometric(0.1, 1e4, i, COUNT);
         for (int j = 0; j < 2; j++) {
-            double widths = random_between(&random, -2, 2);
+            double widths = scenes_random_between(&random, -2, 2);
             if (i % 7 == (size_t)j)
                 widths = round(2 * widths) / 2;
             at->a[j] = (float)(widths / (double)at->a[2]);
@@ -100,14 +100,14 @@ static void make_bins(void) {
     for (size_t i = 0; i < COUNT; i++) {
         harness_arguments *at = &arguments[i];
         double sigma = geometric(3e-2, 1, i, COUNT),
-               other = sigma * random_between(&random, 0.3, 1);
+               other = sigma * scenes_random_between(&random, 0.3, 1);
         double mean[2], place[2], variance = geometric(1e-6, 1, (i * 17) % COUNT, COUNT);
         const double covariance[3] = {sigma * sigma, other * other,
-                                      random_between(&random, -0.8, 0.8) * sigma * other};
-        double weight = random_between(&random, 0.01, 1), points = i % 2 ? 10 : 1.5;
+                                      scenes_random_between(&random, -0.8, 0.8) * sigma * other};
+        double weight = scenes_random_between(&random, 0.01, 1), points = i % 2 ? 10 : 1.5;
         for (int j = 0; j < 2; j++) {
-            mean[j] = (float)random_between(&random, -1, 1);
-            place[j] = (float)(mean[j] + random_between(&random, -3, 3) * sigma);
+            mean[j] = (float)scenes_random_between(&random, -1, 1);
+            place[j] = (float)(mean[j] + scenes_random_between(&random, -3, 3) * sigma);
             at->a[j] = (float)place[j];
         }
         at->a[2] = (float)variance;

@@ -46,7 +46,7 @@ static void make_vectors(void) {
         release_reals();
         harness_arguments *at = &arguments[i];
         real kappa = real_from(geometric(1e-6, 1e6, i, COUNT));
-        double weight = i % 2 ? 1 : random_between(&random, 1e-3, 1);
+        double weight = i % 2 ? 1 : scenes_random_between(&random, 1e-3, 1);
         double length = weight * to_double(exact_resultant(kappa));
         random_direction(&random, at->a);
         for (int j = 0; j < 3; j++)

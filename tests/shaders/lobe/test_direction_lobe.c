@@ -44,13 +44,13 @@ static void make_lobes(double largest) {
         frame_of(at->a, across[0], across[1]);
         for (int side = 0; side < 2; side++) {
             double size = largest * pow(30, -random_number(&random));
-            double angle = random_between(&random, 0, 2 * M_PI);
+            double angle = scenes_random_between(&random, 0, 2 * M_PI);
             for (int j = 0; j < 3; j++)
                 (side ? at->c : at->b)[j] =
                     (float)(size * (cos(angle) * across[0][j] + sin(angle) * across[1][j]));
         }
-        at->a[3] = (float)random_between(&random, 0, M_PI);
-        at->c[3] = (float)random_between(&random, 0, 2 * M_PI);
+        at->a[3] = (float)scenes_random_between(&random, 0, M_PI);
+        at->c[3] = (float)scenes_random_between(&random, 0, 2 * M_PI);
     }
 }
 
@@ -157,7 +157,7 @@ static void test_above(void **state) {
     for (size_t i = 0; i < LOBES; i++) {
         harness_arguments *at = &arguments[i];
         double deviation = hypot((double)at->b[2], (double)at->c[2]);
-        double height = random_between(&random, -2, 4) * deviation;
+        double height = scenes_random_between(&random, -2, 4) * deviation;
         double planar = hypot((double)at->a[0], (double)at->a[1]);
         if (fabs(height) > 0.9 || planar < 0.1 || deviation < 0.01)
             continue;

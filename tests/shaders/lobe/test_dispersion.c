@@ -43,7 +43,7 @@ static void test_dispersion_of_known_cases(void **state) {
 static void test_transition(void **state) {
     uint64_t random = 18;
     for (size_t i = 0; i < COUNT; i++) {
-        arguments[i].b[0] = (float)random_between(&random, -0.5, 1.5);
+        arguments[i].b[0] = (float)scenes_random_between(&random, -0.5, 1.5);
         arguments[i].b[1] = (float)random_number(&random);
         arguments[i].b[2] = i % 4 ? (float)geometric(1e-3, 1, i, COUNT) : 0;
     }

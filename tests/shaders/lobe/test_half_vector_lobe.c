@@ -35,7 +35,8 @@ static void make_lobes(void) {
         at->c[1] = i < 8 ? 0 : (float)geometric(1e-6, 1e6, i / 8, COUNT / 8);
         double width = fmin(1 / sqrt(at->c[1] + 1), 0.4);
         random_direction(&random, at->b);
-        direction_at(at->b, width * (double)((i / 2) % 4), random_between(&random, 0, 6), at->a);
+        direction_at(at->b, width * (double)((i / 2) % 4), scenes_random_between(&random, 0, 6),
+                     at->a);
     }
 }
 
@@ -92,7 +93,7 @@ static void make_rotations(void) {
             random_direction(&random, arguments[i].a);
         else
             direction_at(poles[i / 2 % 2], geometric(1e-14, 1, i, COUNT),
-                         random_between(&random, 0, 6), arguments[i].a);
+                         scenes_random_between(&random, 0, 6), arguments[i].a);
         if (i % 5)
             random_direction(&random, arguments[i].b);
         else

@@ -23,8 +23,9 @@ static void make_directions(void) {
     static const float pole[3] = {0, 0, 1};
     uint64_t random = 91;
     for (size_t i = 0; i < COUNT; i++) {
-        double angle = i % 2 ? geometric(1e-6, 3.1, i, COUNT) : random_between(&random, 0, 3.1);
-        direction_at(pole, angle, random_between(&random, 0, 2 * M_PI), arguments[i].a);
+        double angle =
+            i % 2 ? geometric(1e-6, 3.1, i, COUNT) : scenes_random_between(&random, 0, 3.1);
+        direction_at(pole, angle, scenes_random_between(&random, 0, 2 * M_PI), arguments[i].a);
     }
 }
 
@@ -34,7 +35,7 @@ static void make_places(void) {
     for (size_t i = 0; i < COUNT; i++) {
         double radius =
             i % 2 ? geometric(1e-6, 1.998, i, COUNT) : 1.998 * sqrt(random_number(&random));
-        double azimuth = random_between(&random, 0, 2 * M_PI);
+        double azimuth = scenes_random_between(&random, 0, 2 * M_PI);
         arguments[i].a[0] = (float)(radius * cos(azimuth));
         arguments[i].a[1] = (float)(radius * sin(azimuth));
     }

@@ -22,8 +22,8 @@ static void test_clusters(void **state) {
         if (i % 2)
             random_direction(&random, arguments[i].a);
         else
-            direction_at(pole, random_between(&random, 0, 0.4), random_between(&random, 0, 7),
-                         arguments[i].a);
+            direction_at(pole, scenes_random_between(&random, 0, 0.4),
+                         scenes_random_between(&random, 0, 7), arguments[i].a);
     }
     harness_evaluate(state, "lobe/lobe_cluster.comp", 0, arguments, COUNT, results);
     for (size_t i = 0; i < COUNT; i++) {

@@ -31,7 +31,7 @@ static void evaluate(void **state) {
         at->a[2] = i % 16 < 4 ? 0 : (float)geometric(1e-9, 10, (i * 7) % COUNT, COUNT);
         at->a[3] = (float)geometric(1e-6, 1, (i * 13) % COUNT, COUNT);
         for (int j = 0; j < 3; j++)
-            at->b[j] = (float)random_between(&random, 0, 0.1);
+            at->b[j] = (float)scenes_random_between(&random, 0, 0.1);
         at->b[3] = (float)geometric(1e-3, 1, (i * 11) % COUNT, COUNT);
     }
     harness_evaluate(state, "lobe/normal_variance.comp", 0, arguments, COUNT, results);

@@ -25,13 +25,13 @@ static void make_arguments(void) {
         harness_arguments *at = &arguments[i];
         double sigma[2] = {geometric(2e-3, 2, i, COUNT),
                            geometric(2e-3, 2, (i * 31) % COUNT, COUNT)};
-        double correlation = i % 3 ? random_between(&random, -0.95, 0.95) : 0;
+        double correlation = i % 3 ? scenes_random_between(&random, -0.95, 0.95) : 0;
         at->a[0] = (float)(sigma[0] * sigma[0]);
         at->a[1] = (float)(sigma[1] * sigma[1]);
         at->a[2] = (float)(correlation * sigma[0] * sigma[1]);
-        at->a[3] = (float)random_between(&random, 0.1, 3);
+        at->a[3] = (float)scenes_random_between(&random, 0.1, 3);
         for (int j = 0; j < 2; j++)
-            at->b[j] = (float)(random_between(&random, -3, 3) * sigma[j]);
+            at->b[j] = (float)(scenes_random_between(&random, -3, 3) * sigma[j]);
     }
 }
 

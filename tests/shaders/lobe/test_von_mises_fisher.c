@@ -51,7 +51,7 @@ static void make_density_arguments(void) {
         const double angles[10] = {0,         0.01 * width, 0.3 * width, width, 2 * width,
                                    3 * width, 5 * width,    M_PI / 2,    3,     M_PI};
         random_direction(&random, at->b);
-        direction_at(at->b, angles[i % 10], random_between(&random, 0, 6), at->a);
+        direction_at(at->b, angles[i % 10], scenes_random_between(&random, 0, 6), at->a);
     }
 }
 

@@ -20,7 +20,7 @@ static harness_result results[COUNT];
 static void make_jacobians(double *major, double *minor) {
     uint64_t random = 20;
     for (size_t i = 0; i < COUNT; i++) {
-        double u = random_between(&random, 0, 7), v = random_between(&random, 0, 7);
+        double u = scenes_random_between(&random, 0, 7), v = scenes_random_between(&random, 0, 7);
         // A quarter of them within 1e-3 of lying along an axis of the map.
         if (i % 4 == 1)
             u = (double)(i / 4 % 4) * M_PI / 2 + 1e-3 * (u - 3.5) / 3.5;

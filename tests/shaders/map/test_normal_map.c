@@ -45,7 +45,7 @@ static void test_decode(void **state) {
             double steps = i % 3 == 0 ? 255 : i % 3 == 1 ? 65535 : 0x1p30;
             arguments[i].a[j] = (float)(floor(value * (steps + 1)) / steps);
         }
-        arguments[i].b[0] = i % 2 ? 1 : (float)random_between(&random, -1, 10);
+        arguments[i].b[0] = i % 2 ? 1 : (float)scenes_random_between(&random, -1, 10);
     }
     harness_evaluate(state, "map/normal_map.comp", 0, arguments, COUNT, results);
     for (size_t i = 0; i < COUNT; i++)

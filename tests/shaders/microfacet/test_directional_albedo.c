@@ -25,9 +25,9 @@ static double coordinate(double place) {
 static void test_position(void **state) {
     uint64_t random = 101;
     for (size_t i = 0; i < COUNT; i++)
-        arguments[i] =
-            (harness_arguments){.a = {(float)(i % 4), (float)random_between(&random, 0.04, 1),
-                                      (float)random_number(&random), 1}};
+        arguments[i] = (harness_arguments){.a = {(float)(i % 4),
+                                                 (float)scenes_random_between(&random, 0.04, 1),
+                                                 (float)random_number(&random), 1}};
     harness_evaluate(state, "microfacet/directional_albedo.comp", POSITION, arguments, COUNT,
                      results);
     for (size_t i = 0; i < COUNT; i++) {
@@ -59,7 +59,7 @@ static void test_albedo(void **state) {
     for (size_t i = 0; i < COUNT; i++) {
         harness_arguments *at = &arguments[i];
         for (int j = 0; j < 3; j++) {
-            at->a[j] = (float)random_between(&random, 0.1, 0.6);
+            at->a[j] = (float)scenes_random_between(&random, 0.1, 0.6);
             at->b[j] = (float)random_number(&random);
         }
     }
@@ -82,9 +82,9 @@ static void test_albedo(void **state) {
 static void test_white(void **state) {
     uint64_t random = 103;
     for (size_t i = 0; i < COUNT; i++)
-        arguments[i] = (harness_arguments){
-            .a = {(float)random_between(&random, 0.1, 1), (float)random_between(&random, 0.1, 1)},
-            .b = {1, 1}};
+        arguments[i] = (harness_arguments){.a = {(float)scenes_random_between(&random, 0.1, 1),
+                                                 (float)scenes_random_between(&random, 0.1, 1)},
+                                           .b = {1, 1}};
     harness_evaluate(state, "microfacet/directional_albedo.comp", ALBEDO, arguments, COUNT,
                      results);
     for (size_t i = 0; i < COUNT; i++)

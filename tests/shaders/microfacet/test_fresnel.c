@@ -25,7 +25,7 @@ static void test_fresnel(void **state) {
     uint64_t random = 12;
     for (size_t i = 0; i < COUNT; i++) {
         // Beyond [0, 1] at both ends, where the cosine is clamped.
-        arguments[i].c[0] = (float)random_between(&random, -0.05, 1.05);
+        arguments[i].c[0] = (float)scenes_random_between(&random, -0.05, 1.05);
         for (int j = 0; j < 3; j++) {
             arguments[i].a[j] = (float)random_number(&random);
             arguments[i].b[j] = i % 2 ? 1 : (float)random_number(&random);

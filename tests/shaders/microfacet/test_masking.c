@@ -28,7 +28,7 @@ static void make_arguments(void) {
         arguments[i].a[0] = (float)distribution;
         arguments[i].a[1] = (float)(slope ? alpha : 2 / (alpha * alpha));
         arguments[i].a[2] = i % 40 < 4 ? 1 : (float)fmax(i % 8 < 4 ? grazing : steep, 1e-6);
-        arguments[i].a[3] = (float)random_between(&random, 1e-6, 1);
+        arguments[i].a[3] = (float)scenes_random_between(&random, 1e-6, 1);
     }
 }
 

@@ -45,7 +45,7 @@ static void test_diffuse(void **state) {
             arguments[i].a[j] = (float)random_number(&random);
             arguments[i].b[j] = (float)random_number(&random);
         }
-        arguments[i].c[0] = (float)random_between(&random, -1, 1);
+        arguments[i].c[0] = (float)scenes_random_between(&random, -1, 1);
     }
     harness_evaluate(state, shader, DIFFUSE, arguments, COUNT, results);
     for (size_t i = 0; i < COUNT; i++) {

@@ -40,7 +40,7 @@ static void make_arguments(double greatest_angle) {
         at->c[0] = (float)distribution;
         at->c[1] = parameter_at(distribution, alpha);
         random_direction(&random, at->a);
-        direction_at(at->a, angle, random_between(&random, 0, 6), at->b);
+        direction_at(at->a, angle, scenes_random_between(&random, 0, 6), at->b);
     }
 }
 

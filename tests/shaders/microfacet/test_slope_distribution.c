@@ -32,11 +32,11 @@ static void make_arguments(void) {
     uint64_t random = 71;
     for (size_t i = 0; i < COUNT; i++) {
         harness_arguments *at = &arguments[i];
-        double length = i % 5 ? random_between(&random, 0, 3) : 0;
-        double azimuth = random_between(&random, 0, 2 * M_PI);
+        double length = i % 5 ? scenes_random_between(&random, 0, 3) : 0;
+        double azimuth = scenes_random_between(&random, 0, 2 * M_PI);
         double sigma[2] = {geometric(1e-2, 3, i, COUNT),
                            geometric(1e-2, 3, (i * 31) % COUNT, COUNT)};
-        double correlation = i % 3 ? random_between(&random, -0.95, 0.95) : 0;
+        double correlation = i % 3 ? scenes_random_between(&random, -0.95, 0.95) : 0;
         at->b[0] = (float)(length * cos(azimuth));
         at->b[1] = (float)(length * sin(azimuth));
         at->c[0] = (float)(sigma[0] * sigma[0]);
@@ -44,7 +44,7 @@ static void make_arguments(void) {
         at->c[2] = (float)(correlation * sigma[0] * sigma[1]);
         double slope[2], normal[3];
         for (int j = 0; j < 2; j++)
-            slope[j] = at->b[j] + random_between(&random, -3, 3) * sigma[j];
+            slope[j] = at->b[j] + scenes_random_between(&random, -3, 3) * sigma[j];
         reference_normal_of_slope(slope, normal);
         for (int j = 0; j < 3; j++)
             at->a[j] = (float)normal[j];

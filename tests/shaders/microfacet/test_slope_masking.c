@@ -45,11 +45,11 @@ static void upper_direction(uint64_t *random, float direction[3]) {
 static void make_arguments(uint64_t random) {
     for (size_t i = 0; i < COUNT; i++) {
         harness_arguments *at = &arguments[i];
-        double length = i % 5 ? random_between(&random, 0, 1.5) : 0;
-        double azimuth = random_between(&random, 0, 2 * M_PI);
+        double length = i % 5 ? scenes_random_between(&random, 0, 1.5) : 0;
+        double azimuth = scenes_random_between(&random, 0, 2 * M_PI);
         double sigma[2] = {geometric(1e-2, 2, i, COUNT),
                            geometric(1e-2, 2, (i * 31) % COUNT, COUNT)};
-        double correlation = i % 3 ? random_between(&random, -0.95, 0.95) : 0;
+        double correlation = i % 3 ? scenes_random_between(&random, -0.95, 0.95) : 0;
         float incoming[3];
         upper_direction(&random, at->a);
         upper_direction(&random, incoming);
@@ -143,17 +143,17 @@ enum { PANELS = 6, RINGS = PANELS * QUADRATURE_ORDER, AZIMUTHS = 108 };
 static void random_surface(uint64_t *random, double outgoing[3], reference_slopes *slopes) {
     double height = 0;
     while (height < 0.05) {
-        double sigma_x = random_between(random, 0.02, 0.8);
-        double sigma_y = random_between(random, 0.02, 0.8);
+        double sigma_x = scenes_random_between(random, 0.02, 0.8);
+        double sigma_y = scenes_random_between(random, 0.02, 0.8);
         float direction[3];
         upper_direction(random, direction);
         for (int i = 0; i < 3; i++)
             outgoing[i] = direction[i];
         for (int i = 0; i < 2; i++)
-            slopes->mean[i] = random_between(random, -0.8, 0.8);
+            slopes->mean[i] = scenes_random_between(random, -0.8, 0.8);
         slopes->covariance[0] = sigma_x * sigma_x;
         slopes->covariance[1] = sigma_y * sigma_y;
-        slopes->covariance[2] = random_between(random, -0.9, 0.9) * sigma_x * sigma_y;
+        slopes->covariance[2] = scenes_random_between(random, -0.9, 0.9) * sigma_x * sigma_y;
         height = outgoing[2] - slopes->mean[0] * outgoing[0] - slopes->mean[1] * outgoing[1];
     }
 }

@@ -20,7 +20,8 @@ static void make_pairs(void) {
     for (size_t i = 0; i < COUNT; i++) {
         double angle = i % 4 ? geometric(1e-7, 3, i, COUNT) : M_PI - geometric(1e-6, 0.1, i, COUNT);
         random_direction(&random, arguments[i].a);
-        direction_at(arguments[i].a, angle, random_between(&random, 0, 2 * M_PI), arguments[i].b);
+        direction_at(arguments[i].a, angle, scenes_random_between(&random, 0, 2 * M_PI),
+                     arguments[i].b);
     }
 }
 

@@ -22,7 +22,7 @@ static void make_arguments(void) {
         const double angles[10] = {0,   1e-3 * width, 0.1 * width, width, 3 * width,
                                    0.5, 1.0,          1.5,         1.56,  1.5707};
         random_direction(&random, at->b);
-        direction_at(at->b, angles[i % 10], random_between(&random, 0, 6), at->a);
+        direction_at(at->b, angles[i % 10], scenes_random_between(&random, 0, 6), at->a);
     }
 }
 

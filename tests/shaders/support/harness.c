@@ -25,8 +25,8 @@ static void print_line(void *user, lobe_log_level level, const char *message) {
 }
 
 int harness_set_up(void **state) {
-    static const lobe_log log = {.write = print_line};
-    const lobe_device_parameters parameters = {.validation = true, .log = &log};
+    static const lobe_host host = {.write = print_line};
+    const lobe_device_parameters parameters = {.validation = true, .host = &host};
     harness *made = calloc(1, sizeof *made);
     *state = made;
     if (!made || lobe_device_create(&parameters, &made->device) != LOBE_OK ||

@@ -10,13 +10,13 @@ double random_number(uint64_t *state) {
     return (double)((bits ^ (bits >> 31)) >> 11) * 0x1p-53;
 }
 
-double random_between(uint64_t *state, double low, double high) {
+double scenes_random_between(uint64_t *state, double low, double high) {
     return low + (high - low) * random_number(state);
 }
 
 void random_direction(uint64_t *state, float direction[3]) {
-    double z = random_between(state, -1, 1);
-    double azimuth = random_between(state, 0, 2 * M_PI);
+    double z = scenes_random_between(state, -1, 1);
+    double azimuth = scenes_random_between(state, 0, 2 * M_PI);
     double radius = sqrt(1 - z * z);
     direction[0] = (float)(radius * cos(azimuth));
     direction[1] = (float)(radius * sin(azimuth));

@@ -8,7 +8,7 @@
 
 /// Next number in [0, 1). Any state will do as a start.
 double random_number(uint64_t *state);
-double random_between(uint64_t *state, double low, double high);
+double scenes_random_between(uint64_t *state, double low, double high);
 
 /// A unit direction, evenly distributed over the sphere, rounded to float.
 void random_direction(uint64_t *state, float direction[3]);

@@ -104,7 +104,7 @@ static void refuse(const lobe_image *test, const lobe_image *reference, const ch
     error_metrics metrics;
     lobe_image errors;
     assert_int_equal(
-        error_metrics_measure(test, reference, &parameters, &recorder.log, &metrics, &errors),
+        error_metrics_measure(test, reference, &parameters, &recorder.host, &metrics, &errors),
         LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_null(errors.texels);

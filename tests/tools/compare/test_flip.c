@@ -47,7 +47,7 @@ static lobe_image make_scene(uint32_t width, uint32_t height, float scale, float
 }
 
 typedef lobe_result (*flip_function)(const lobe_image *test, const lobe_image *reference,
-                                     double pixels_per_degree, const lobe_log *log,
+                                     double pixels_per_degree, const lobe_host *host,
                                      lobe_image *errors);
 
 static lobe_image measure(flip_function flip, const lobe_image *test, const lobe_image *reference) {

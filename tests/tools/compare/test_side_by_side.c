@@ -95,7 +95,7 @@ static void refuse(const side_by_side_panel *panels, size_t count, lobe_result e
     log_recorder_start(&recorder);
     lobe_image picture;
     const side_by_side_parameters parameters = {.zoom = expected == LOBE_ERROR_LIMIT ? 5000 : 1};
-    assert_int_equal(side_by_side_compose(panels, count, &parameters, &recorder.log, &picture),
+    assert_int_equal(side_by_side_compose(panels, count, &parameters, &recorder.host, &picture),
                      expected);
     assert_int_equal(recorder.errors, 1);
     assert_null(picture.texels);

@@ -152,7 +152,7 @@ static void a_value_out_of_range_is_refused(void **state) {
     const bench_filter filters[] = {with_defaults(&bad)};
     sweep_plan plan;
     assert_int_equal(sweep_plan_make(&(sweep_plan_request){.filters = filters, .filter_count = 1},
-                                     &recorder.log, &plan),
+                                     &recorder.host, &plan),
                      LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, "wrong"));

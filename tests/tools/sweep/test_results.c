@@ -109,7 +109,7 @@ static void assert_refused(lobe_result expected, const char *words) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     sweep_results results = {.frames = 7};
-    assert_int_equal(sweep_results_read(results_file(), &recorder.log, &results), expected);
+    assert_int_equal(sweep_results_read(results_file(), &recorder.host, &results), expected);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, words));
     assert_non_null(strstr(recorder.last_error, "results.json"));

@@ -14,10 +14,10 @@ static lobe_result create_instance(viewer_device *device, bool validation) {
     uint32_t count = 0;
     const char **extensions = glfwGetRequiredInstanceExtensions(&count);
     if (!extensions)
-        return lobe_log_fail(&device->log, LOBE_ERROR_NO_DEVICE,
-                             "window: Vulkan offers no surfaces here");
-    device->validation = (engine_validation){&device->log, &device->fault_count};
-    return engine_instance_create_with(&device->log, validation ? &device->validation : NULL,
+        return lobe_host_fail(&device->host, LOBE_ERROR_NO_DEVICE,
+                              "window: Vulkan offers no surfaces here");
+    device->validation = (engine_validation){&device->host, &device->fault_count};
+    return engine_instance_create_with(&device->host, validation ? &device->validation : NULL,
                                        extensions, count, &device->instance);
 }
 
@@ -25,7 +25,7 @@ lobe_result viewer_device_renew_surface(viewer_device *device, struct GLFWwindow
     vkDestroySurfaceKHR(device->instance.vulkan, device->surface, NULL);
     device->surface = VK_NULL_HANDLE;
     return VULKAN_CHECK(
-        &device->log,
+        &device->host,
         glfwCreateWindowSurface(device->instance.vulkan, window, NULL, &device->surface),
         "window's surface");
 }
@@ -34,24 +34,24 @@ static lobe_result choose(viewer_device *device, const char *select) {
     engine_candidate *candidates = NULL;
     size_t count = 0, selected = 0;
     lobe_result result =
-        engine_candidates_list(device->instance.vulkan, &device->log, &candidates, &count);
+        engine_candidates_list(device->instance.vulkan, &device->host, &candidates, &count);
     if (result == LOBE_OK)
-        result = engine_candidates_select(candidates, count, select, &device->log, &selected);
+        result = engine_candidates_select(candidates, count, select, &device->host, &selected);
     VkBool32 presents = VK_FALSE;
     if (result == LOBE_OK) {
         const engine_candidate *chosen = &candidates[selected];
         device->vulkan.physical_device = chosen->physical;
         device->vulkan.queue_family = chosen->queue_family;
         result =
-            VULKAN_CHECK(&device->log,
+            VULKAN_CHECK(&device->host,
                          vkGetPhysicalDeviceSurfaceSupportKHR(
                              chosen->physical, chosen->queue_family, device->surface, &presents),
                          "window's surface");
     }
     if (result == LOBE_OK && !presents)
-        result = lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                               "device '%s' cannot show pictures in this window",
-                               candidates[selected].information.name);
+        result = lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
+                                "device '%s' cannot show pictures in this window",
+                                candidates[selected].information.name);
     engine_candidates_free(&candidates, count);
     return result;
 }
@@ -76,7 +76,7 @@ static lobe_result create_device(viewer_device *device) {
                                        .enabledExtensionCount = count,
                                        .ppEnabledExtensionNames = extensions};
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkCreateDevice(vulkan->physical_device, &create, NULL, &vulkan->device),
+        &device->host, vkCreateDevice(vulkan->physical_device, &create, NULL, &vulkan->device),
         "viewer's device");
     if (result != LOBE_OK)
         return result;
@@ -90,7 +90,7 @@ static lobe_result create_device(viewer_device *device) {
     result = lobe_vulkan_import_device(
         vulkan,
         &(lobe_device_parameters){.pipeline_cache = device_options_pipeline_cache(cache),
-                                  .log = &device->log},
+                                  .host = &device->host},
         &device->lobe);
     vulkan->features = NULL; // they were needed during the call only
     vulkan->extensions = NULL;
@@ -98,8 +98,8 @@ static lobe_result create_device(viewer_device *device) {
 }
 
 lobe_result viewer_device_open(const device_options *options, struct GLFWwindow *window,
-                               const lobe_log *log, viewer_device *device) {
-    *device = (viewer_device){.log = *log};
+                               const lobe_host *host, viewer_device *device) {
+    *device = (viewer_device){.host = *host};
     lobe_result result = create_instance(device, options->validation);
     if (result == LOBE_OK)
         result = viewer_device_renew_surface(device, window);

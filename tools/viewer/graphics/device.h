@@ -15,7 +15,7 @@ struct GLFWwindow;
 typedef struct viewer_device {
     engine_validation validation;
     _Atomic uint64_t fault_count; ///< messages of the validation layer
-    lobe_log log;
+    lobe_host host;
     engine_instance instance;
     VkSurfaceKHR surface;
     lobe_vulkan_device vulkan;
@@ -26,7 +26,7 @@ typedef struct viewer_device {
 /// Errors: LOBE_ERROR_NO_DEVICE, LOBE_ERROR_UNSUPPORTED (the device cannot present here),
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result viewer_device_open(const device_options *options, struct GLFWwindow *window,
-                               const lobe_log *log, viewer_device *device);
+                               const lobe_host *host, viewer_device *device);
 /// Waits for what is under way. All zero is fine.
 void viewer_device_close(viewer_device *device);
 

@@ -11,7 +11,7 @@
 #define MAXIMUM_LOSSES 3
 
 lobe_result viewer_graphics_open(viewer *v) {
-    lobe_result result = viewer_device_open(&v->request->device, v->window, &v->log, &v->device);
+    lobe_result result = viewer_device_open(&v->request->device, v->window, &v->host, &v->device);
     if (result == LOBE_OK)
         result = viewer_frame_open(&v->device, &v->frame);
     if (result == LOBE_OK)
@@ -38,7 +38,7 @@ void viewer_graphics_close(viewer *v) {
 static lobe_result finish(viewer *v) {
     lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(&v->log, vkDeviceWaitIdle(v->device.vulkan.device), "window");
+        result = VULKAN_CHECK(&v->host, vkDeviceWaitIdle(v->device.vulkan.device), "window");
     return result;
 }
 
@@ -73,15 +73,15 @@ lobe_result viewer_graphics_rescale(viewer *v) {
     lobe_result result = finish(v);
     v->scale_is_stale = false;
     if (result == LOBE_OK && !imgui_rescale(v->scale))
-        result = lobe_log_fail(&v->log, LOBE_ERROR_OUT_OF_MEMORY, "panels: out of memory");
+        result = lobe_host_fail(&v->host, LOBE_ERROR_OUT_OF_MEMORY, "panels: out of memory");
     return result == LOBE_OK ? viewer_display_renew_font(&v->device, &v->display) : result;
 }
 
 static lobe_result renew_surface(viewer *v) {
     if (++v->losses > MAXIMUM_LOSSES)
-        return lobe_log_fail(&v->log, LOBE_ERROR_UNSUPPORTED,
-                             "window: its surface is lost again and again: it is given up");
-    lobe_log_print(&v->log, LOBE_LOG_WARNING, "the window's surface was lost; it is made again");
+        return lobe_host_fail(&v->host, LOBE_ERROR_UNSUPPORTED,
+                              "window: its surface is lost again and again: it is given up");
+    lobe_host_log(&v->host, LOBE_LOG_WARNING, "the window's surface was lost; it is made again");
     lobe_result result = finish(v);
     viewer_swapchain_destroy(&v->device, &v->swapchain);
     return result == LOBE_OK ? viewer_device_renew_surface(&v->device, v->window) : result;
@@ -103,13 +103,13 @@ lobe_result viewer_graphics_recover(viewer *v) {
     lobe_result result = LOBE_ERROR_DEVICE_LOST;
     const uint64_t faults = v->device.fault_count;
     while (result == LOBE_ERROR_DEVICE_LOST && ++v->losses <= MAXIMUM_LOSSES) {
-        lobe_log_print(&v->log, LOBE_LOG_WARNING, "the device was lost; it is opened again");
+        lobe_host_log(&v->host, LOBE_LOG_WARNING, "the device was lost; it is opened again");
         viewer_graphics_close(v);
         result = viewer_graphics_open(v);
     }
     v->device.fault_count += faults;
     return result != LOBE_ERROR_DEVICE_LOST
                ? result
-               : lobe_log_fail(&v->log, result,
-                               "the device is lost again and again: it is given up");
+               : lobe_host_fail(&v->host, result,
+                                "the device is lost again and again: it is given up");
 }

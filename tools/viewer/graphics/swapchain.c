@@ -14,7 +14,7 @@ static viewer_shown judge(const viewer_device *device, VkResult code, const char
         return VIEWER_OUT_OF_DATE;
     if (code == VK_ERROR_SURFACE_LOST_KHR)
         return VIEWER_SURFACE_LOST;
-    *result = engine_vulkan_check(&device->log, code, what, "window's images");
+    *result = engine_vulkan_check(&device->host, code, what, "window's images");
     return *result == LOBE_OK ? VIEWER_SHOWN : VIEWER_FAILED;
 }
 
@@ -40,8 +40,8 @@ static viewer_shown choose_format(const viewer_device *device, VkSurfaceFormatKH
         return VIEWER_SHOWN;
     }
     if (asked == VIEWER_SHOWN)
-        *result = lobe_log_fail(&device->log, LOBE_ERROR_UNSUPPORTED,
-                                "window: takes no pictures of 8 bits a channel");
+        *result = lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
+                                 "window: takes no pictures of 8 bits a channel");
     return asked == VIEWER_SHOWN ? VIEWER_FAILED : asked;
 }
 
@@ -67,10 +67,10 @@ static lobe_result create_semaphores(const viewer_device *device, viewer_swapcha
     const VkSemaphoreCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkDevice vulkan = device->vulkan.device;
     lobe_result result =
-        VULKAN_CHECK(&device->log, vkCreateSemaphore(vulkan, &create, NULL, &swapchain->acquired),
+        VULKAN_CHECK(&device->host, vkCreateSemaphore(vulkan, &create, NULL, &swapchain->acquired),
                      "window's images");
     for (uint32_t i = 0; result == LOBE_OK && i < swapchain->count; i++)
-        result = VULKAN_CHECK(&device->log,
+        result = VULKAN_CHECK(&device->host,
                               vkCreateSemaphore(vulkan, &create, NULL, &swapchain->drawn[i]),
                               "window's images");
     return result;
@@ -80,7 +80,7 @@ static lobe_result take_images(const viewer_device *device, const VkSwapchainCre
                                viewer_swapchain *swapchain) {
     uint32_t count = VIEWER_MAXIMUM_IMAGES;
     const lobe_result result =
-        VULKAN_CHECK(&device->log,
+        VULKAN_CHECK(&device->host,
                      vkGetSwapchainImagesKHR(device->vulkan.device, swapchain->swapchain, &count,
                                              swapchain->images),
                      "window's images");

@@ -26,9 +26,9 @@ static lobe_result give_memory(const viewer_device *device, viewer_target *targe
         .memoryTypeIndex = memory_type(device, needed.memoryTypeBits),
     };
     lobe_result result = VULKAN_CHECK(
-        &device->log, vkAllocateMemory(vulkan, &allocate, NULL, &target->memory), "picture");
+        &device->host, vkAllocateMemory(vulkan, &allocate, NULL, &target->memory), "picture");
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(&device->log,
+        result = VULKAN_CHECK(&device->host,
                               vkBindImageMemory(vulkan, target->image.image, target->memory, 0),
                               "picture");
     return result;
@@ -46,7 +46,7 @@ static lobe_result create_image(const viewer_device *device, viewer_target *targ
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .usage = image->usage,
     };
-    return VULKAN_CHECK(&device->log,
+    return VULKAN_CHECK(&device->host,
                         vkCreateImage(device->vulkan.device, &create, NULL, &target->image.image),
                         "picture");
 }

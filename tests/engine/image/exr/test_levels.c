@@ -53,7 +53,7 @@ static void expect_equal(const lobe_image *found, const lobe_image *expected) {
 }
 
 static lobe_result write_levels(const char *path, const lobe_image *levels, uint32_t count,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     const lobe_exr_layer layer = {.image = levels, .depth = LOBE_EXR_FLOAT};
     const lobe_exr_attribute attributes[] = {
         {.name = "lobe.kernel", .type = LOBE_EXR_TEXT, .text = "vmf"},
@@ -66,7 +66,7 @@ static lobe_result write_levels(const char *path, const lobe_image *levels, uint
                                             .attribute_count = 3,
                                             .level_count = count,
                                             .environment = LOBE_EXR_CUBE};
-    return lobe_exr_write(path, &parameters, log);
+    return lobe_exr_write(path, &parameters, host);
 }
 
 static void levels_survive_bit_by_bit(void **state) {
@@ -204,7 +204,8 @@ static void expect_refused(const lobe_image *levels, uint32_t count, const char 
     log_recorder recorder;
     log_recorder_start(&recorder);
     const char *path = temporary_folder_file(&test_folder, "refused.exr");
-    assert_int_equal(write_levels(path, levels, count, &recorder.log), LOBE_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(write_levels(path, levels, count, &recorder.host),
+                     LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, cause));
     assert_int_equal(temporary_folder_count(&test_folder), 0);
@@ -241,7 +242,7 @@ static void cut_off_files_are_refused(void **state) {
         log_recorder_start(&recorder);
         lobe_exr_contents contents;
         assert_int_equal(lobe_file_write(path, data, length, NULL), LOBE_OK);
-        assert_int_equal(lobe_exr_read_contents(path, NULL, &recorder.log, &contents),
+        assert_int_equal(lobe_exr_read_contents(path, NULL, &recorder.host, &contents),
                          LOBE_ERROR_MALFORMED);
         assert_int_equal(recorder.errors, 1);
         assert_null(contents.levels);

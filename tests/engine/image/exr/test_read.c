@@ -65,7 +65,7 @@ static void expect_read(const exr_fixture_part *parts, int count, const char *la
     log_recorder_start(&recorder);
     lobe_image image;
     exr_fixture_write(path, parts, count);
-    lobe_result result = lobe_exr_read(path, layer, &recorder.log, &image);
+    lobe_result result = lobe_exr_read(path, layer, &recorder.host, &image);
     if (result != LOBE_OK)
         print_message("%s\n", recorder.last_error);
     assert_int_equal(result, LOBE_OK);
@@ -78,7 +78,7 @@ static void expect_file_error(const char *path, const char *layer, lobe_result e
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
-    assert_int_equal(lobe_exr_read(path, layer, &recorder.log, &image), expected);
+    assert_int_equal(lobe_exr_read(path, layer, &recorder.host, &image), expected);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
     assert_null(strchr(recorder.last_error, '\n'));
@@ -164,7 +164,7 @@ static void expect_smooth(const char *path, bool grey, bool alpha) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
-    lobe_result result = lobe_exr_read(path, NULL, &recorder.log, &image);
+    lobe_result result = lobe_exr_read(path, NULL, &recorder.host, &image);
     if (result != LOBE_OK)
         print_message("%s\n", recorder.last_error);
     assert_int_equal(result, LOBE_OK);
@@ -306,7 +306,7 @@ static void subsampled_colour_differences_are_left_out_with_a_warning(void **sta
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
-    assert_int_equal(lobe_exr_read(path, NULL, &recorder.log, &image), LOBE_OK);
+    assert_int_equal(lobe_exr_read(path, NULL, &recorder.host, &image), LOBE_OK);
     assert_int_equal(recorder.warnings, 1);
     expect_channels(&image, &part, (int[4]){2, 2, 2, -1});
     lobe_image_free(&image);
@@ -389,7 +389,7 @@ static void absurd_windows_are_refused(void **state) {
         log_recorder recorder;
         log_recorder_start(&recorder);
         lobe_image image;
-        lobe_result result = lobe_exr_read(path, NULL, &recorder.log, &image);
+        lobe_result result = lobe_exr_read(path, NULL, &recorder.host, &image);
         assert_true(result == LOBE_ERROR_LIMIT || result == LOBE_ERROR_MALFORMED);
         assert_int_equal(recorder.errors, 1);
         assert_null(image.texels);
@@ -424,7 +424,7 @@ static void expect_order(const char *path) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_image image;
-    lobe_result result = lobe_exr_read(path, NULL, &recorder.log, &image);
+    lobe_result result = lobe_exr_read(path, NULL, &recorder.host, &image);
     assert_int_equal(recorder.errors, result != LOBE_OK);
     assert_true((image.texels != NULL) == (result == LOBE_OK));
     assert_null(strpbrk(recorder.last_error, "\n\r\t\x1b"));
@@ -496,7 +496,7 @@ static void damaged_files_of_the_wild_are_refused(void **state) {
         log_recorder recorder;
         log_recorder_start(&recorder);
         lobe_image image;
-        lobe_result result = lobe_exr_read(path, NULL, &recorder.log, &image);
+        lobe_result result = lobe_exr_read(path, NULL, &recorder.host, &image);
         assert_true(result == LOBE_ERROR_MALFORMED || result == LOBE_ERROR_UNSUPPORTED);
         assert_int_equal(recorder.errors, 1);
         assert_non_null(strstr(recorder.last_error, path));

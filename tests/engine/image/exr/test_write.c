@@ -43,15 +43,15 @@ static lobe_image make_radiance(uint32_t width, uint32_t height) {
 }
 
 static lobe_result write_layers(const char *path, const lobe_exr_layer *layers, size_t count,
-                                const lobe_log *log) {
+                                const lobe_host *host) {
     lobe_exr_parameters parameters = {.layers = layers, .layer_count = count};
-    return lobe_exr_write(path, &parameters, log);
+    return lobe_exr_write(path, &parameters, host);
 }
 
 static lobe_result write_image(const char *path, const lobe_image *image, lobe_exr_depth depth,
-                               const lobe_log *log) {
+                               const lobe_host *host) {
     lobe_exr_layer layer = {.image = image, .depth = depth};
-    return write_layers(path, &layer, 1, log);
+    return write_layers(path, &layer, 1, host);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -132,7 +132,7 @@ static void what_half_cannot_hold_is_clamped_and_counted(void **state) {
     lobe_image written = {LOBE_FORMAT_RGBA32_FLOAT, 2, 1, texels}, read;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(write_image(path, &written, LOBE_EXR_HALF, &recorder.log), LOBE_OK);
+    assert_int_equal(write_image(path, &written, LOBE_EXR_HALF, &recorder.host), LOBE_OK);
     assert_int_equal(recorder.warnings, 1);
     assert_non_null(strstr(recorder.last_warning, " 3 values"));
     assert_int_equal(lobe_exr_read(path, NULL, NULL, &read), LOBE_OK);
@@ -142,7 +142,7 @@ static void what_half_cannot_hold_is_clamped_and_counted(void **state) {
     }
     lobe_image_free(&read);
     log_recorder_start(&recorder);
-    assert_int_equal(write_image(path, &written, LOBE_EXR_FLOAT, &recorder.log), LOBE_OK);
+    assert_int_equal(write_image(path, &written, LOBE_EXR_FLOAT, &recorder.host), LOBE_OK);
     assert_int_equal(recorder.warnings, 0);
 }
 
@@ -300,7 +300,7 @@ static void expect_refused(const lobe_exr_parameters *parameters, const char *ca
     log_recorder recorder;
     log_recorder_start(&recorder);
     const char *path = temporary_folder_file(&test_folder, "refused.exr");
-    assert_int_equal(lobe_exr_write(path, parameters, &recorder.log), LOBE_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(lobe_exr_write(path, parameters, &recorder.host), LOBE_ERROR_INVALID_ARGUMENT);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, path));
     assert_non_null(strstr(recorder.last_error, cause));
@@ -373,7 +373,7 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
     for (int index = 0; index < 3; index++) {
         log_recorder recorder;
         log_recorder_start(&recorder);
-        assert_int_equal(write_image(paths[index], &image, LOBE_EXR_HALF, &recorder.log),
+        assert_int_equal(write_image(paths[index], &image, LOBE_EXR_HALF, &recorder.host),
                          LOBE_ERROR_WRITE);
         assert_int_equal(recorder.errors, 1);
         assert_non_null(strstr(recorder.last_error, paths[index]));

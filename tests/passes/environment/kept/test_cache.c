@@ -27,10 +27,10 @@ static void vulkan_direction(uint32_t face, double s, double t, double direction
 /// Each texel holds the direction it looks to, and its level.
 static cube_image cube_of_directions(uint32_t width) {
     cube_image cube;
-    assert_int_equal(cube_image_allocate(&cube, width, NULL), LOBE_OK);
+    assert_int_equal(passes_cube_image_allocate(&cube, width, NULL), LOBE_OK);
     for (uint32_t level = 0; level < cube.levels; ++level) {
         for (uint32_t face = 0; face < 6; ++face) {
-            float *texel = cube_image_face(&cube, level, face);
+            float *texel = passes_cube_image_face(&cube, level, face);
             uint32_t extent = width >> level;
             for (uint32_t i = 0; i < extent * extent; ++i, texel += 4) {
                 double direction[3];
@@ -48,7 +48,7 @@ static cube_image cube_of_directions(uint32_t width) {
 static void expect_same(const cube_image *found, const cube_image *expected) {
     assert_int_equal(found->width, expected->width);
     assert_int_equal(found->levels, expected->levels);
-    assert_memory_equal(found->texels, expected->texels, 16 * cube_image_texels(expected));
+    assert_memory_equal(found->texels, expected->texels, 16 * passes_cube_image_texels(expected));
 }
 
 static void cubes_survive_a_file(void **state) {
@@ -57,13 +57,13 @@ static void cubes_survive_a_file(void **state) {
     for (uint32_t width = 1; width <= 64; width *= 4) {
         cube_image cube = cube_of_directions(width), read;
         lobe_exr_contents contents;
-        assert_int_equal(cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
+        assert_int_equal(passes_cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
         assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
-        assert_int_equal(cube_image_from(path, &contents, NULL, &read), LOBE_OK);
+        assert_int_equal(passes_cube_image_from(path, &contents, NULL, &read), LOBE_OK);
         expect_same(&read, &cube);
         lobe_exr_contents_free(&contents);
-        cube_image_free(&read);
-        cube_image_free(&cube);
+        passes_cube_image_free(&read);
+        passes_cube_image_free(&cube);
     }
 }
 
@@ -74,7 +74,7 @@ static void files_are_oriented_as_the_format_says(void **state) {
     const char *path = temporary_folder_file(&test_folder, "cube.exr");
     cube_image cube = cube_of_directions(16);
     lobe_exr_contents contents;
-    assert_int_equal(cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
+    assert_int_equal(passes_cube_image_write(path, &cube, NULL, 0, NULL), LOBE_OK);
     assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
     assert_int_equal(contents.level_count, 7);
     for (uint32_t level = 0; level < contents.level_count; ++level) {
@@ -84,15 +84,15 @@ static void files_are_oriented_as_the_format_says(void **state) {
             double direction[3] = {0, 0, 0};
             double position[2] = {i % image->width + 0.5, i / image->width + 0.5};
             if (level < 5)
-                assert_true(environment_direction(LOBE_ENVIRONMENT_CUBE_COLUMN, image->width,
-                                                  image->height, position, direction));
+                assert_true(scenes_environment_direction(LOBE_ENVIRONMENT_CUBE_COLUMN, image->width,
+                                                         image->height, position, direction));
             for (int k = 0; k < 3; ++k)
                 assert_true(fabs((double)texel[k] - direction[k]) < 1e-6);
             assert_true(texel[3] == (float)(level < 5 ? level : 4));
         }
     }
     lobe_exr_contents_free(&contents);
-    cube_image_free(&cube);
+    passes_cube_image_free(&cube);
 }
 
 static void other_files_are_no_cubes(void **state) {
@@ -118,7 +118,7 @@ static void other_files_are_no_cubes(void **state) {
         cube_image cube;
         assert_int_equal(lobe_exr_write(path, &parameters, NULL), LOBE_OK);
         assert_int_equal(lobe_exr_read_contents(path, NULL, NULL, &contents), LOBE_OK);
-        assert_int_equal(cube_image_from(path, &contents, &recorder.log, &cube),
+        assert_int_equal(passes_cube_image_from(path, &contents, &recorder.host, &cube),
                          LOBE_ERROR_MALFORMED);
         assert_int_equal(recorder.errors, 1);
         assert_null(cube.texels);
@@ -140,22 +140,22 @@ static void keys_tell_content_apart(void **state) {
     b.name = "b";
     b.intensity = 3;
     b.image.texels = texels[1];
-    uint64_t key = environment_cache_key(&a, 64, LOBE_ENVIRONMENT_GGX);
-    assert_true(key == environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
-    assert_true(key != environment_cache_key(&b, 128, LOBE_ENVIRONMENT_GGX));
-    assert_true(key != environment_cache_key(&b, 64, LOBE_ENVIRONMENT_VON_MISES_FISHER));
+    uint64_t key = passes_environment_cache_key(&a, 64, LOBE_ENVIRONMENT_GGX);
+    assert_true(key == passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_environment_cache_key(&b, 128, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_VON_MISES_FISHER));
     for (int i = 0; i < 7; ++i) {
         float kept = texels[1][i];
         texels[1][i] = nextafterf(kept, 9);
-        assert_true(key != environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+        assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
         texels[1][i] = kept;
     }
     b.layout = LOBE_ENVIRONMENT_CUBE_ROW;
-    assert_true(key != environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
     b.layout = a.layout;
     b.image.width = 1;
     b.image.height = 2;
-    assert_true(key != environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
 }
 
 static void what_was_kept_is_found(void **state) {
@@ -163,16 +163,16 @@ static void what_was_kept_is_found(void **state) {
     cube_image cube = cube_of_directions(16), found;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_false(environment_cache_load(test_folder.path, 7, 16, &recorder.log, &found));
-    environment_cache_store(test_folder.path, 7, &cube, &recorder.log);
+    assert_false(passes_environment_cache_load(test_folder.path, 7, 16, &recorder.host, &found));
+    passes_environment_cache_store(test_folder.path, 7, &cube, &recorder.host);
     assert_int_equal(temporary_folder_count(&test_folder), 1);
-    assert_true(environment_cache_load(test_folder.path, 7, 16, &recorder.log, &found));
+    assert_true(passes_environment_cache_load(test_folder.path, 7, 16, &recorder.host, &found));
     expect_same(&found, &cube);
-    cube_image_free(&found);
-    assert_false(environment_cache_load(test_folder.path, 8, 16, &recorder.log, &found));
+    passes_cube_image_free(&found);
+    assert_false(passes_environment_cache_load(test_folder.path, 8, 16, &recorder.host, &found));
     assert_null(found.texels);
     assert_int_equal(recorder.notices + recorder.warnings + recorder.errors, 0);
-    cube_image_free(&cube);
+    passes_cube_image_free(&cube);
 }
 
 /// The file of key 7.
@@ -184,7 +184,7 @@ static void expect_passed_over(uint32_t width) {
     log_recorder recorder;
     cube_image found;
     log_recorder_start(&recorder);
-    assert_false(environment_cache_load(test_folder.path, 7, width, &recorder.log, &found));
+    assert_false(passes_environment_cache_load(test_folder.path, 7, width, &recorder.host, &found));
     assert_null(found.texels);
     assert_int_equal(recorder.notices, 1);
     assert_int_equal(recorder.warnings + recorder.errors, 0);
@@ -194,13 +194,14 @@ static void expect_passed_over(uint32_t width) {
 static void change_a_texel(cube_image *cube) {
     lobe_exr_contents contents;
     assert_int_equal(lobe_exr_read_contents(kept_file(), NULL, NULL, &contents), LOBE_OK);
-    float *texel = cube_image_face(cube, 2, 3), kept = *texel;
+    float *texel = passes_cube_image_face(cube, 2, 3), kept = *texel;
     *texel = nextafterf(kept, 9);
     assert_int_equal(lobe_exr_find_attribute(&contents, "environmentHash", LOBE_EXR_TEXT) -
                          contents.attributes,
                      contents.attribute_count - 2);
-    assert_int_equal(cube_image_write(kept_file(), cube,
-                                      &contents.attributes[contents.attribute_count - 2], 2, NULL),
+    assert_int_equal(passes_cube_image_write(kept_file(), cube,
+                                             &contents.attributes[contents.attribute_count - 2], 2,
+                                             NULL),
                      LOBE_OK);
     *texel = kept;
     lobe_exr_contents_free(&contents);
@@ -213,7 +214,7 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     cube_image cube = cube_of_directions(16), found;
     uint8_t *data;
     size_t size;
-    environment_cache_store(test_folder.path, 7, &cube, NULL);
+    passes_environment_cache_store(test_folder.path, 7, &cube, NULL);
     expect_passed_over(32);
     assert_int_equal(lobe_file_read(kept_file(), NULL, NULL, &data, &size), LOBE_OK);
     for (size_t at = 0; at < size; at += size / 23) {
@@ -228,16 +229,16 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     lobe_release(data);
     change_a_texel(&cube);
     expect_passed_over(16);
-    environment_cache_store(test_folder.path, 8, &cube, NULL);
+    passes_environment_cache_store(test_folder.path, 8, &cube, NULL);
     char other[512];
     snprintf(other, sizeof other, "%s", kept_file());
     assert_int_equal(rename(temporary_folder_file(&test_folder, "0000000000000008.exr"), other), 0);
     expect_passed_over(16);
-    environment_cache_store(test_folder.path, 7, &cube, NULL);
-    assert_true(environment_cache_load(test_folder.path, 7, 16, NULL, &found));
+    passes_environment_cache_store(test_folder.path, 7, &cube, NULL);
+    assert_true(passes_environment_cache_load(test_folder.path, 7, 16, NULL, &found));
     expect_same(&found, &cube);
-    cube_image_free(&found);
-    cube_image_free(&cube);
+    passes_cube_image_free(&found);
+    passes_cube_image_free(&cube);
 }
 
 static void a_folder_that_takes_nothing_is_told(void **state) {
@@ -246,11 +247,11 @@ static void a_folder_that_takes_nothing_is_told(void **state) {
     const char *folder = temporary_folder_file(&test_folder, "none");
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_false(environment_cache_load(folder, 7, 4, &recorder.log, &found));
-    environment_cache_store(folder, 7, &cube, &recorder.log);
+    assert_false(passes_environment_cache_load(folder, 7, 4, &recorder.host, &found));
+    passes_environment_cache_store(folder, 7, &cube, &recorder.host);
     assert_int_equal(recorder.warnings, 1);
     assert_int_equal(recorder.errors, 0);
-    cube_image_free(&cube);
+    passes_cube_image_free(&cube);
 }
 
 int main(void) {

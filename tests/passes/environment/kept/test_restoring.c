@@ -37,7 +37,7 @@ static lobe_environment_maps *make(fixture *f, const lobe_environment *environme
             .size = SIZE,
             .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true, [LOBE_ENVIRONMENT_GGX] = true},
             .cache = cache,
-            .log = &f->log},
+            .host = &f->host},
         &maps);
     if (result != LOBE_OK)
         fail_msg("%s", f->error);

@@ -58,7 +58,7 @@ static void start(fixture *f, const lobe_scene *scene, drawing *drawing) {
     drawing->parts = 0;
     drawing->base = "base=exact";
     log_recorder_start(&drawing->recorder);
-    assert_int_equal(lobe_renderer_create(f->device, &drawing->recorder.log, &drawing->renderer),
+    assert_int_equal(lobe_renderer_create(f->device, &drawing->recorder.host, &drawing->renderer),
                      LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(drawing->renderer, scene), LOBE_OK);
 }
@@ -145,7 +145,7 @@ static void what_one_renderer_makes_another_finds(void **state) {
 /// Any of the two files.
 static const char *a_kept_file(const lobe_scene *scene) {
     char name[32];
-    uint64_t key = environment_cache_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
+    uint64_t key = passes_environment_cache_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
     snprintf(name, sizeof name, "%016llx.exr", (unsigned long long)key);
     return temporary_folder_file(&test_folder, name);
 }

@@ -45,34 +45,34 @@ static float *floats_from(const void *data, size_t bytes, lobe_format format) {
 static clusters cluster(fixture *f, const lobe_scene *scene, const request *asked) {
     const lobe_filter *filter;
     lobe_settings settings;
-    assert_int_equal(lobe_filter_find("lobes", &f->log, &filter), LOBE_OK);
+    assert_int_equal(lobe_filter_find("lobes", &f->host, &filter), LOBE_OK);
     lobe_settings_default(filter, &settings);
     assert_int_equal(lobe_settings_set(filter, &settings,
                                        asked->half_floats ? "storage=float16" : "storage=float32",
-                                       &f->log),
+                                       &f->host),
                      LOBE_OK);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
-                              .log = &f->log};
+                              .host = &f->host};
     lobe_graph_begin(f->graph);
-    clusters result = {
-        .mixture = lobe_clustering(&context, 0, asked->space, asked->subdivision, asked->mean)};
-    level_reduction(f->graph, &result.mixture.map);
+    clusters result = {.mixture = passes_lobe_clustering(&context, 0, asked->space,
+                                                         asked->subdivision, asked->mean)};
+    passes_level_reduction(f->graph, &result.mixture.map);
     lobe_resource resource = result.mixture.map.resource;
     lobe_graph_read_back(f->graph, resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
     size_t bytes;
     const void *data = lobe_graph_data(f->graph, resource, &bytes);
-    assert_int_equal(bytes, reduced_map_bytes(&result.mixture.map, result.mixture.format));
+    assert_int_equal(bytes, passes_reduced_map_bytes(&result.mixture.map, result.mixture.format));
     result.texels = floats_from(data, bytes, result.mixture.format);
     lobe_graph_begin(f->graph);
-    device_scene_destroy(&uploaded);
+    passes_device_scene_destroy(&uploaded);
     return result;
 }
 
@@ -305,8 +305,8 @@ static void every_level_integrates_to_one(void **state) {
                 fail_msg("level %u, subdivision %u: %g", level, subdivision, integral);
         }
         level_texels += (size_t)4 * width * height * map->layers;
-        width = half_extent(width);
-        height = half_extent(height);
+        width = passes_half_extent(width);
+        height = passes_half_extent(height);
         reference_layers_free(&layers);
     }
     free(found.texels);
@@ -456,7 +456,7 @@ static void an_uncovered_atlas_has_no_weight(void **state) {
     double covered = 8.0 * 13 / 256;
     const float *last =
         found.texels +
-        reduced_map_bytes(&found.mixture.map, LOBE_FORMAT_RGBA32_FLOAT) / sizeof(float) -
+        passes_reduced_map_bytes(&found.mixture.map, LOBE_FORMAT_RGBA32_FLOAT) / sizeof(float) -
         (size_t)4 * found.mixture.map.layers;
     assert_true(fabs((double)last[3] - covered) < 1e-6);
     reference_layers_free(&texels);

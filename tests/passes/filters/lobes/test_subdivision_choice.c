@@ -14,10 +14,10 @@ static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *mater
     scene_look_down(scene, 2);
     scene_end(scene);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     uint32_t subdivision = uploaded->materials[0].subdivision;
-    assert_int_equal(subdivision_choose(scene, &uploaded->materials[0]), subdivision);
-    device_scene_destroy(&uploaded);
+    assert_int_equal(passes_subdivision_choose(scene, &uploaded->materials[0]), subdivision);
+    passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     return subdivision;
 }

@@ -61,10 +61,10 @@ static moment_map build_map(fixture *f, const device_scene *scene, const map_req
                               .filter = filter,
                               .scene = scene,
                               .camera = &scene->scene->camera,
-                              .log = &f->log};
+                              .host = &f->host};
     lobe_graph_begin(f->graph);
-    moment_map map = moment_binning(&context, 0, partition, request->format, request->colour,
-                                    (float)request->colour_scale);
+    moment_map map = passes_moment_binning(&context, 0, partition, request->format, request->colour,
+                                           (float)request->colour_scale);
     lobe_graph_read_back(f->graph, map.map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
@@ -78,9 +78,9 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     scene_look_down(scene, 2);
     scene_end(scene);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     const moment_partition *partition =
-        moment_partition_of(uploaded, 0, request->kind, request->bins);
+        passes_moment_partition_of(uploaded, 0, request->kind, request->bins);
     reference_moment_bins bins = moment_bins_of(partition, request->colour, request->colour_scale);
     moment_map map = build_map(f, uploaded, request, partition);
     reference_layers exact =
@@ -90,7 +90,7 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     free(texels);
     reference_layers_free(&exact);
     lobe_graph_begin(f->graph);
-    device_scene_destroy(&uploaded);
+    passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
 }
 
@@ -230,8 +230,8 @@ static void check_sums(const float *texels, const moment_map *map, const referen
                         (double)level[4 * (layer * count + j) + channel];
         }
         level += (size_t)4 * count * map->map.layers;
-        width = half_extent(width);
-        height = half_extent(height);
+        width = passes_half_extent(width);
+        height = passes_half_extent(height);
     }
     size_t used = (size_t)(sum - sums[(calls - 1) % 2]);
     assert_true(used > 0 && used <= sizeof sums[0] / sizeof **sums);

@@ -120,10 +120,10 @@ enum { MOST_LAYERS = 3 * MOMENT_MAXIMUM_BINS + 1 };
 static reference_moment_bins bins_of(fixture *f, lobe_scene *scene, const sharing *how) {
     scene_end(scene);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
-    reference_moment_bins bins =
-        moment_bins_of(moment_partition_of(uploaded, 0, how->kind, how->bins), how->colour, 1);
-    device_scene_destroy(&uploaded);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    reference_moment_bins bins = moment_bins_of(
+        passes_moment_partition_of(uploaded, 0, how->kind, how->bins), how->colour, 1);
+    passes_device_scene_destroy(&uploaded);
     return bins;
 }
 

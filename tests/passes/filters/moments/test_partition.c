@@ -22,10 +22,11 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
     scene_look_down(scene, 2);
     scene_end(scene);
     device_scene *uploaded;
-    assert_int_equal(device_scene_create(f->device, scene, &f->log, &uploaded), LOBE_OK);
-    moment_partition partition = *moment_partition_of(uploaded, 0, kind, bins);
-    assert_memory_equal(&partition, moment_partition_of(uploaded, 0, kind, bins), sizeof partition);
-    device_scene_destroy(&uploaded);
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    moment_partition partition = *passes_moment_partition_of(uploaded, 0, kind, bins);
+    assert_memory_equal(&partition, passes_moment_partition_of(uploaded, 0, kind, bins),
+                        sizeof partition);
+    passes_device_scene_destroy(&uploaded);
     if (!keep)
         lobe_scene_destroy(&scene);
     return partition;

@@ -18,9 +18,9 @@ static lobe_mesh turn(const double (*outline)[2], size_t count) {
                                .tile = 0.5,
                                .tiles_around = 3};
     lobe_mesh mesh;
-    assert_int_equal(lathe_make(&shape, NULL, &mesh), LOBE_OK);
-    mesh_compute_bounds(&mesh);
-    scene_check_mesh(&mesh);
+    assert_int_equal(scenes_lathe_make(&shape, NULL, &mesh), LOBE_OK);
+    scenes_mesh_compute_bounds(&mesh);
+    passes_scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, (count - 1) * CUTS * COLUMNS * 6);
     return mesh;
 }
@@ -44,7 +44,7 @@ static void a_straight_outline_makes_a_cone(void **state) {
         double length = (2 - vertex->position[1]) * sqrt(1.25);
         assert_true(fabs(vertex->texture_coordinates[0][1] - length / 0.5) < 1e-5);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void the_curve_is_smooth_and_stays_between_its_points(void **state) {
@@ -59,7 +59,7 @@ static void the_curve_is_smooth_and_stays_between_its_points(void **state) {
                     fabs(radius_of(above) - outline[row / CUTS][0]) < 1e-6);
         assert_true(radius_of(above) > 0.999 && radius_of(above) < 1.301);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 static void its_seam_is_not_seen(void **state) {
@@ -75,7 +75,7 @@ static void its_seam_is_not_seen(void **state) {
         assert_true(first->texture_coordinates[0][0] == 0);
         assert_true(last->texture_coordinates[0][0] == 3);
     }
-    mesh_free(&mesh);
+    scenes_mesh_free(&mesh);
 }
 
 int main(void) {

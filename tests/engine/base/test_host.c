@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include <lobe/log.h>
+#include <lobe/host.h>
 
 #include "tests/engine/support/log_recorder.h"
 
@@ -10,7 +10,7 @@ static void a_line_has_its_level(void **state) {
     (void)state;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    lobe_log_print(&recorder.log, LOBE_LOG_WARNING, "%d of %s", 3, "four");
+    lobe_host_log(&recorder.host, LOBE_LOG_WARNING, "%d of %s", 3, "four");
     assert_string_equal(recorder.last_warning, "3 of four");
     assert_int_equal(recorder.warnings, 1);
     assert_int_equal(recorder.errors, 0);
@@ -20,7 +20,7 @@ static void a_failure_is_logged_and_returned(void **state) {
     (void)state;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_int_equal(lobe_log_fail(&recorder.log, LOBE_ERROR_LIMIT, "%s: too large", "file"),
+    assert_int_equal(lobe_host_fail(&recorder.host, LOBE_ERROR_LIMIT, "%s: too large", "file"),
                      LOBE_ERROR_LIMIT);
     assert_string_equal(recorder.last_error, "file: too large");
     assert_int_equal(recorder.errors, 1);
@@ -28,11 +28,11 @@ static void a_failure_is_logged_and_returned(void **state) {
 
 static void nobody_need_listen(void **state) {
     (void)state;
-    const lobe_log deaf = {0};
-    lobe_log_print(NULL, LOBE_LOG_ERROR, "unheard");
-    lobe_log_print(&deaf, LOBE_LOG_ERROR, "unheard");
-    assert_int_equal(lobe_log_fail(NULL, LOBE_ERROR_READ, "unheard"), LOBE_ERROR_READ);
-    assert_int_equal(lobe_log_fail(&deaf, LOBE_ERROR_READ, "unheard"), LOBE_ERROR_READ);
+    const lobe_host deaf = {0};
+    lobe_host_log(NULL, LOBE_LOG_ERROR, "unheard");
+    lobe_host_log(&deaf, LOBE_LOG_ERROR, "unheard");
+    assert_int_equal(lobe_host_fail(NULL, LOBE_ERROR_READ, "unheard"), LOBE_ERROR_READ);
+    assert_int_equal(lobe_host_fail(&deaf, LOBE_ERROR_READ, "unheard"), LOBE_ERROR_READ);
 }
 
 /// A name in a file must neither forge a second line nor steer a terminal.
@@ -40,7 +40,7 @@ static void a_message_is_one_line_without_control_characters(void **state) {
     (void)state;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    lobe_log_fail(&recorder.log, LOBE_ERROR_READ, "a\nb\tc\x1b[2Jd\x7f \xc3\xa9");
+    lobe_host_fail(&recorder.host, LOBE_ERROR_READ, "a\nb\tc\x1b[2Jd\x7f \xc3\xa9");
     assert_string_equal(recorder.last_error, "a?b?c?[2Jd? \xc3\xa9");
 }
 
@@ -48,7 +48,7 @@ static void a_long_message_is_cut(void **state) {
     (void)state;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    lobe_log_print(&recorder.log, LOBE_LOG_ERROR, "%5000d", 7);
+    lobe_host_log(&recorder.host, LOBE_LOG_ERROR, "%5000d", 7);
     assert_int_equal(strlen(recorder.last_error), 1023);
 }
 

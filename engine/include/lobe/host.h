@@ -1,5 +1,5 @@
-#ifndef LOBE_LOG_H
-#define LOBE_LOG_H
+#ifndef LOBE_HOST_H
+#define LOBE_HOST_H
 
 #include <lobe/allocator.h>
 #include <lobe/result.h>
@@ -15,35 +15,37 @@ typedef enum lobe_log_level {
     LOBE_LOG_DEBUG,   ///< for developers
 } lobe_log_level;
 
-/// Where the library sends its words, and where it gets its memory. lobe prints nothing of its own.
-typedef struct lobe_log {
+/// What a host gives lobe: somewhere to send messages, and memory. lobe prints nothing itself.
+/// Whatever outlives a call keeps a copy of it. NULL in its place: silent, and the C library's
+/// memory.
+typedef struct lobe_host {
     /// Called with one line of UTF-8 without a line end; `message` lives only during the call.
     /// May be called from several threads at once. NULL drops all messages.
     void (*write)(void *user, lobe_log_level level, const char *message);
-    void *user; ///< handed to `write` unchanged
-    /// Not copied: it must outlive all that was made with this log. NULL: the C library's.
+    /// Not copied: it must outlive everything made with this host. NULL: the C library's.
     const lobe_allocator *allocator;
-} lobe_log;
+    void *user; ///< passed to `write`
+} lobe_host;
 
-/// The log's allocator; NULL, the C library's, where it or the log is NULL.
-const lobe_allocator *lobe_log_allocator(const lobe_log *log);
+/// The host's allocator; NULL (the C library's) if it or `host` is NULL.
+const lobe_allocator *lobe_host_allocator(const lobe_host *host);
 
 /// The compiler checks arguments against the format where it knows how.
 #if defined(__GNUC__)
-#define LOBE_LOG_FORMAT __attribute__((format(printf, 3, 4)))
+#define LOBE_HOST_FORMAT __attribute__((format(printf, 3, 4)))
 #else
-#define LOBE_LOG_FORMAT
+#define LOBE_HOST_FORMAT
 #endif
 
 /// Formats one line as printf does (cut at 1023 bytes) and sends it. Control characters, which
-/// names in files may bring, are shown as '?'. `log` may be NULL.
-LOBE_LOG_FORMAT void lobe_log_print(const lobe_log *log, lobe_log_level level, const char *format,
+/// names in files may bring, are shown as '?'. `host` may be NULL.
+LOBE_HOST_FORMAT void lobe_host_log(const lobe_host *host, lobe_log_level level, const char *format,
                                     ...);
 
 /// Sends the line that explains a failure, at level LOBE_LOG_ERROR, and returns `result`:
-/// `return lobe_log_fail(log, LOBE_ERROR_LIMIT, "texture '%s': ...", name);`
-LOBE_LOG_FORMAT lobe_result lobe_log_fail(const lobe_log *log, lobe_result result,
-                                          const char *format, ...);
+/// `return lobe_host_fail(host, LOBE_ERROR_LIMIT, "texture '%s': ...", name);`
+LOBE_HOST_FORMAT lobe_result lobe_host_fail(const lobe_host *host, lobe_result result,
+                                            const char *format, ...);
 
 #ifdef __cplusplus
 }
