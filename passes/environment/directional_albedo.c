@@ -21,7 +21,7 @@ lobe_resource passes_directional_albedo(lobe_graph *graph, lobe_distribution dis
     table = lobe_pass_write(pass, &(lobe_binding){.name = "directional_albedo", .resource = table});
     const lobe_specialisation specialisation = {SPECIALISE_DISTRIBUTION, (uint32_t)distribution};
     lobe_pass_dispatch(
-        pass, &(lobe_dispatch){.shader = "microfacet/directional_albedo.comp",
+        pass, &(lobe_dispatch){.shader = "environment/directional_albedo.comp",
                                .threads = {DIRECTIONAL_ALBEDO_SIZE * DIRECTIONAL_ALBEDO_SIZE},
                                .specialisation = &specialisation,
                                .specialisation_count = 1});
