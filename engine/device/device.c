@@ -12,17 +12,20 @@
 // ---------------------------------------------------------------------------------------------
 // The steps of creation, in order
 
-static lobe_result open_instance(lobe_device *device, bool validation) {
+static lobe_result open_instance(lobe_device *device, const lobe_device_parameters *parameters) {
     device->validation = (engine_validation){&device->host, &device->validation_count};
-    return engine_instance_create(&device->host, validation ? &device->validation : NULL,
-                                  &device->instance);
+    const engine_instance_parameters wanted = {
+        .get_instance_proc_addr = parameters->get_instance_proc_addr,
+        .validation = parameters->validation ? &device->validation : NULL,
+    };
+    return engine_instance_create(&device->host, &wanted, &device->instance);
 }
 
 static lobe_result select_physical(lobe_device *device, const char *select) {
     engine_candidate *candidates = NULL;
     size_t count = 0, selected = 0;
     lobe_result result =
-        engine_candidates_list(device->instance.vulkan, &device->host, &candidates, &count);
+        engine_candidates_list(&device->instance, &device->host, &candidates, &count);
     if (result == LOBE_OK)
         result = engine_candidates_select(candidates, count, select, &device->host, &selected);
     if (result == LOBE_OK) {
@@ -37,11 +40,22 @@ static lobe_result select_physical(lobe_device *device, const char *select) {
     return result;
 }
 
+static lobe_result load_functions(lobe_device *device) {
+    const lobe_result result =
+        engine_device_api_load(&device->host, &device->instance.api, device->vulkan, &device->api);
+    if (result == LOBE_OK)
+        return LOBE_OK;
+    if (device->api.vkDestroyDevice)
+        device->api.vkDestroyDevice(device->vulkan, NULL);
+    device->vulkan = VK_NULL_HANDLE;
+    return result;
+}
+
 static lobe_result open_device(lobe_device *device) {
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
     uint32_t extension_count;
-    lobe_result result =
-        engine_extensions_fill(device->physical, &device->host, extensions, &extension_count);
+    lobe_result result = engine_extensions_fill(&device->instance.api, device->physical,
+                                                &device->host, extensions, &extension_count);
     if (result != LOBE_OK)
         return result;
     for (uint32_t i = 0; i < extension_count; i++)
@@ -62,17 +76,20 @@ static lobe_result open_device(lobe_device *device) {
         .enabledExtensionCount = extension_count,
         .ppEnabledExtensionNames = extensions,
     };
-    result = VULKAN_CHECK(&device->host,
-                          vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
-                          "device '%s'", device->information.name);
+    result = VULKAN_CHECK(
+        &device->host,
+        device->instance.api.vkCreateDevice(device->physical, &create, NULL, &device->vulkan),
+        "device '%s'", device->information.name);
     if (result == LOBE_OK)
-        vkGetDeviceQueue(device->vulkan, device->queue_family, 0, &device->queue);
+        result = load_functions(device);
+    if (result == LOBE_OK)
+        device->api.vkGetDeviceQueue(device->vulkan, device->queue_family, 0, &device->queue);
     return result;
 }
 
 static void read_limits(lobe_device *device) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(device->physical, &properties);
+    device->instance.api.vkGetPhysicalDeviceProperties(device->physical, &properties);
     device->limits = properties.limits;
 }
 
@@ -85,10 +102,10 @@ static lobe_result create_timeline(lobe_device *device) {
         .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
         .pNext = &type,
     };
-    return VULKAN_CHECK(
-        &device->host,
-        vkCreateSemaphore(device->vulkan, &create, device->callbacks, &device->timeline),
-        "device '%s'", device->information.name);
+    return VULKAN_CHECK(&device->host,
+                        device->api.vkCreateSemaphore(device->vulkan, &create, device->callbacks,
+                                                      &device->timeline),
+                        "device '%s'", device->information.name);
 }
 
 static lobe_result create_command_pool(lobe_device *device) {
@@ -97,26 +114,14 @@ static lobe_result create_command_pool(lobe_device *device) {
         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
         .queueFamilyIndex = device->queue_family,
     };
-    return VULKAN_CHECK(
-        &device->host,
-        vkCreateCommandPool(device->vulkan, &create, device->callbacks, &device->commands),
-        "device '%s'", device->information.name);
-}
-
-static lobe_result create_memory(lobe_device *device, uint64_t limit) {
-    const engine_memory_parameters parameters = {
-        .physical = device->physical,
-        .vulkan = device->vulkan,
-        .callbacks = device->callbacks,
-        .limit = limit,
-        .budget = device->memory_budget,
-        .host = &device->host,
-    };
-    return engine_memory_create(&parameters, &device->memory);
+    return VULKAN_CHECK(&device->host,
+                        device->api.vkCreateCommandPool(device->vulkan, &create, device->callbacks,
+                                                        &device->commands),
+                        "device '%s'", device->information.name);
 }
 
 static lobe_result open_vulkan(lobe_device *device, const lobe_device_parameters *parameters) {
-    lobe_result result = open_instance(device, parameters->validation);
+    lobe_result result = open_instance(device, parameters);
     if (result == LOBE_OK)
         result = select_physical(device, parameters->select);
     return result == LOBE_OK ? open_device(device) : result;
@@ -150,12 +155,11 @@ lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lob
 
 lobe_result engine_device_equip(lobe_device *device, const lobe_device_parameters *parameters) {
     read_limits(device);
-    engine_debug_labels_load(device);
     lobe_result result = create_timeline(device);
     if (result == LOBE_OK)
         result = create_command_pool(device);
     if (result == LOBE_OK)
-        result = create_memory(device, parameters->memory_limit);
+        result = engine_memory_create(device, parameters->memory_limit, &device->memory);
     if (result == LOBE_OK)
         result = engine_shaders_create(device, parameters->shader_source, &device->shaders);
     if (result == LOBE_OK)
@@ -184,16 +188,16 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
 static void destroy_vulkan(lobe_device *device) {
     // Of a host's device, what lobe submitted is all that matters. One that is lost has finished.
     if (!device->imported)
-        vkDeviceWaitIdle(device->vulkan);
+        device->api.vkDeviceWaitIdle(device->vulkan);
     else if (device->timeline)
         (void)engine_device_wait_all(device);
     engine_pipelines_destroy(device, &device->pipelines);
     engine_shaders_destroy(&device->shaders);
     engine_memory_destroy(&device->memory);
-    vkDestroyCommandPool(device->vulkan, device->commands, device->callbacks);
-    vkDestroySemaphore(device->vulkan, device->timeline, device->callbacks);
+    device->api.vkDestroyCommandPool(device->vulkan, device->commands, device->callbacks);
+    device->api.vkDestroySemaphore(device->vulkan, device->timeline, device->callbacks);
     if (!device->imported)
-        vkDestroyDevice(device->vulkan, NULL);
+        device->api.vkDestroyDevice(device->vulkan, NULL);
 }
 
 void lobe_device_destroy(lobe_device **device) {
@@ -217,16 +221,20 @@ const lobe_device_information *lobe_device_describe(const lobe_device *device) {
     return &device->information;
 }
 
-lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
-                             const lobe_host *host) {
+lobe_result lobe_device_list(const lobe_device_parameters *parameters,
+                             lobe_device_information **devices, size_t *count) {
+    const lobe_host *host = parameters ? parameters->host : NULL;
+    const engine_instance_parameters wanted = {
+        .get_instance_proc_addr = parameters ? parameters->get_instance_proc_addr : NULL,
+    };
     *devices = NULL;
     *count = 0;
     engine_instance instance = {0};
     engine_candidate *candidates = NULL;
-    lobe_result result = engine_instance_create(host, NULL, &instance);
+    lobe_result result = engine_instance_create(host, &wanted, &instance);
     if (result != LOBE_OK)
         return result;
-    result = engine_candidates_list(instance.vulkan, host, &candidates, count);
+    result = engine_candidates_list(&instance, host, &candidates, count);
     if (result != LOBE_OK)
         goto cleanup;
     *devices = lobe_allocate(lobe_host_allocator(host), *count, sizeof **devices);

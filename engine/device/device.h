@@ -12,6 +12,7 @@
 #include <lobe/vulkan.h>
 
 #include "engine/device/instance.h"
+#include "engine/device/vulkan_functions.h"
 #include "engine/resource/memory.h"
 
 struct lobe_device {
@@ -20,7 +21,8 @@ struct lobe_device {
     engine_instance instance;
     VkPhysicalDevice physical;
     VkDevice vulkan;
-    VkQueue queue; ///< graphics, compute and transfer; used between lock and unlock alone
+    engine_device_api api; ///< all zero until the device is there
+    VkQueue queue;         ///< graphics, compute and transfer; used between lock and unlock alone
     pthread_mutex_t queue_mutex;
     bool imported;             ///< instance, device and queue are the host's
     lobe_vulkan_device import; ///< where imported: the callbacks; what it points to may be gone
@@ -46,10 +48,6 @@ struct lobe_device {
     lobe_device_information information;
     _Atomic uint64_t validation_count;
     bool memory_budget; ///< VK_EXT_memory_budget is enabled
-    // Debug utilities; NULL where they are absent.
-    PFN_vkSetDebugUtilsObjectNameEXT set_name;
-    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label;
-    PFN_vkCmdEndDebugUtilsLabelEXT end_label;
 };
 
 /// The first step of creation: an empty device with the log. Logs with the parameters' log.
@@ -83,9 +81,6 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
 /// Ends, submits, waits and frees what engine_device_begin_commands gave, failure or not.
 lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
                                           VkCommandBuffer commands);
-
-/// Looks up the functions of the debug utilities, once.
-void engine_debug_labels_load(lobe_device *device);
 
 /// Debug names and labels; nothing happens where the debug utilities are absent.
 void engine_device_name(const lobe_device *device, VkObjectType type, uint64_t handle,

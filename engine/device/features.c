@@ -59,11 +59,11 @@ const lobe_device_feature *lobe_vulkan_feature_list(size_t *count) {
     return known;
 }
 
-void engine_features_query(VkPhysicalDevice physical,
+void engine_features_query(const engine_instance_api *api, VkPhysicalDevice physical,
                            lobe_device_feature features[ENGINE_FEATURE_COUNT]) {
     lobe_vulkan_features present;
     chain(&present);
-    vkGetPhysicalDeviceFeatures2(physical, &present.core);
+    api->vkGetPhysicalDeviceFeatures2(physical, &present.core);
     list_present(&present, features);
 }
 

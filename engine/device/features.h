@@ -8,13 +8,13 @@
 #include <lobe/device.h>
 #include <lobe/vulkan.h>
 
-#include "engine/device/device.h"
+#include "engine/device/vulkan_functions.h"
 
 #define ENGINE_FEATURE_COUNT 12
 
 /// Fills the list of what lobe knows about from what the device has. The device may be older than
 /// Vulkan 1.3: what its version lacks is absent.
-void engine_features_query(VkPhysicalDevice physical,
+void engine_features_query(const engine_instance_api *api, VkPhysicalDevice physical,
                            lobe_device_feature features[ENGINE_FEATURE_COUNT]);
 
 /// The same list from what a host turned on: a chain as for lobe_vulkan_device.
@@ -27,7 +27,8 @@ void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_CO
                             lobe_vulkan_features *enable);
 
 /// As lobe_vulkan_extensions_fill; LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_host *host,
+lobe_result engine_extensions_fill(const engine_instance_api *api, VkPhysicalDevice physical,
+                                   const lobe_host *host,
                                    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
                                    uint32_t *filled);
 

@@ -21,8 +21,8 @@ static lobe_result check_host(const lobe_vulkan_device *import,
         why = "the features that were turned on must be given";
     else if (!import->lock_queue != !import->unlock_queue)
         why = "a callback that locks the queue goes with one that unlocks it";
-    else if (parameters->select || parameters->validation)
-        why = "what device to use and how to validate it is the host's business";
+    else if (parameters->select || parameters->validation || parameters->get_instance_proc_addr)
+        why = "device, validation and loader are chosen by the host, not by the parameters";
     return why ? lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "imported device: %s", why)
                : LOBE_OK;
 }
@@ -30,18 +30,18 @@ static lobe_result check_host(const lobe_vulkan_device *import,
 static lobe_result check_features(const lobe_vulkan_device *import, const char *name,
                                   const lobe_host *host) {
     char text[MISSING_SIZE];
-    if (lobe_vulkan_missing(import->physical_device, import->features, text, sizeof text) == 0)
+    if (lobe_vulkan_missing(import, import->features, text, sizeof text) == 0)
         return LOBE_OK;
     for (char *end = text; (end = strchr(end, '\n'));)
         *end = ',';
     return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE, "imported device '%s' lacks: %s", name, text);
 }
 
-static lobe_result check_queue(const lobe_vulkan_device *import, engine_candidate *candidate,
-                               const lobe_host *host) {
-    if (!engine_queue_family_serves(import->physical_device, import->queue_family,
-                                    &candidate->timestamp_bits))
-        return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
+static lobe_result check_queue(const lobe_vulkan_device *import, const lobe_device *device,
+                               engine_candidate *candidate) {
+    if (!engine_queue_family_serves(&device->instance.api, import->physical_device,
+                                    import->queue_family, &candidate->timestamp_bits))
+        return lobe_host_fail(&device->host, LOBE_ERROR_NO_DEVICE,
                               "imported device '%s': queue family %u lacks graphics or compute",
                               candidate->information.name, import->queue_family);
     candidate->queue_family = import->queue_family;
@@ -60,14 +60,24 @@ static void take_features(const lobe_vulkan_device *import, lobe_device *device)
 
 static lobe_result take_host(const lobe_vulkan_device *import, lobe_device *device) {
     engine_candidate candidate = {0};
+    engine_instance *instance = &device->instance;
     lobe_result result =
-        engine_candidate_describe(import->physical_device, &device->host, &candidate);
+        engine_loader_open(&device->host, import->get_instance_proc_addr, &instance->api);
+    if (result == LOBE_OK)
+        result = engine_instance_api_load(&device->host, import->instance, import->debug_utils,
+                                          &instance->api);
+    if (result == LOBE_OK)
+        result = engine_candidate_describe(&instance->api, import->physical_device, &device->host,
+                                           &candidate);
     if (result != LOBE_OK)
         return result;
     device->information = candidate.information; // with its list of features
-    result = check_queue(import, &candidate, &device->host);
+    result = check_queue(import, device, &candidate);
     if (result == LOBE_OK)
         result = check_features(import, candidate.information.name, &device->host);
+    if (result == LOBE_OK)
+        result =
+            engine_device_api_load(&device->host, &instance->api, import->device, &device->api);
     if (result != LOBE_OK)
         return result;
     device->import = *import;
@@ -122,6 +132,7 @@ static void unlock_queue(void *device) {
 
 void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles) {
     *handles = (lobe_vulkan_device){
+        .get_instance_proc_addr = device->instance.api.vkGetInstanceProcAddr,
         .instance = device->instance.vulkan,
         .physical_device = device->physical,
         .device = device->vulkan,

@@ -6,41 +6,44 @@
 
 #define VALIDATION_LAYER "VK_LAYER_KHRONOS_validation"
 
-static lobe_result fail_memory(const lobe_host *host) {
-    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan: no host memory to look around");
+static lobe_result fail_memory(const lobe_host *host, const char *listed) {
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "out of memory listing Vulkan %s",
+                          listed);
 }
 
-/// Whether `name` is an extension of the loader and drivers.
-static lobe_result find_extension(const lobe_host *host, const char *name, bool *found) {
+/// Whether the loader, a driver or an implicit layer has an instance extension.
+static lobe_result find_extension(const lobe_host *host, const engine_instance_api *api,
+                                  const char *name, bool *found) {
     uint32_t count = 0;
     *found = false;
     lobe_result result = VULKAN_CHECK(
-        host, vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
+        host, api->vkEnumerateInstanceExtensionProperties(NULL, &count, NULL), "extensions");
     if (result != LOBE_OK || count == 0)
         return result;
     VkExtensionProperties *extensions =
         lobe_allocate(lobe_host_allocator(host), count, sizeof *extensions);
     if (!extensions)
-        return fail_memory(host);
-    result = VULKAN_CHECK(host, vkEnumerateInstanceExtensionProperties(NULL, &count, extensions),
-                          "extensions");
+        return fail_memory(host, "extensions");
+    result = VULKAN_CHECK(
+        host, api->vkEnumerateInstanceExtensionProperties(NULL, &count, extensions), "extensions");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !*found; i++)
         *found = !strcmp(extensions[i].extensionName, name);
     lobe_release(extensions);
     return result;
 }
 
-static lobe_result require_layer(const lobe_host *host, const char *name) {
+static lobe_result require_layer(const lobe_host *host, const engine_instance_api *api,
+                                 const char *name) {
     uint32_t count = 0;
     bool found = false;
     lobe_result result =
-        VULKAN_CHECK(host, vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
+        VULKAN_CHECK(host, api->vkEnumerateInstanceLayerProperties(&count, NULL), "layers");
     if (result != LOBE_OK)
         return result;
     VkLayerProperties *layers = lobe_allocate(lobe_host_allocator(host), count, sizeof *layers);
     if (!layers)
-        return fail_memory(host);
-    result = VULKAN_CHECK(host, vkEnumerateInstanceLayerProperties(&count, layers), "layers");
+        return fail_memory(host, "layers");
+    result = VULKAN_CHECK(host, api->vkEnumerateInstanceLayerProperties(&count, layers), "layers");
     for (uint32_t i = 0; result == LOBE_OK && i < count && !found; i++)
         found = !strcmp(layers[i].layerName, name);
     lobe_release(layers);
@@ -74,7 +77,6 @@ static VkDebugUtilsMessengerCreateInfoEXT messenger_settings(const engine_valida
     };
 }
 
-/// What the instance is asked for beside what lobe knows by itself.
 typedef struct instance_request {
     const void *next;
     const char *layer; ///< NULL: none
@@ -109,7 +111,7 @@ static VkResult create_plain(engine_instance *instance, const instance_request *
         .enabledExtensionCount = count,
         .ppEnabledExtensionNames = extensions,
     };
-    const VkResult result = vkCreateInstance(&create, NULL, &instance->vulkan);
+    const VkResult result = instance->api.vkCreateInstance(&create, NULL, &instance->vulkan);
     lobe_release(extensions);
     return result;
 }
@@ -135,50 +137,61 @@ static VkResult create_validated(engine_instance *instance, const engine_validat
 static lobe_result create_messenger(const lobe_host *host, const engine_validation *validation,
                                     engine_instance *instance) {
     const VkDebugUtilsMessengerCreateInfoEXT settings = messenger_settings(validation);
-    PFN_vkCreateDebugUtilsMessengerEXT create =
-        (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->vulkan,
-                                                                  "vkCreateDebugUtilsMessengerEXT");
-    return VULKAN_CHECK(host, create(instance->vulkan, &settings, NULL, &instance->messenger),
+    return VULKAN_CHECK(host,
+                        instance->api.vkCreateDebugUtilsMessengerEXT(instance->vulkan, &settings,
+                                                                     NULL, &instance->messenger),
                         "validation messages");
 }
 
-lobe_result engine_instance_create(const lobe_host *host, const engine_validation *validation,
-                                   engine_instance *instance) {
-    return engine_instance_create_with(host, validation, NULL, 0, instance);
+/// Looks for what the instance is to be created with.
+static lobe_result check_loader(const lobe_host *host, const engine_instance_parameters *parameters,
+                                engine_instance *instance) {
+    const engine_instance_api *api = &instance->api;
+    if (!parameters->validation)
+        return find_extension(host, api, VK_EXT_DEBUG_UTILS_EXTENSION_NAME, &instance->debug_utils);
+    instance->debug_utils = true; // the validation layer implements it
+    return require_layer(host, api, VALIDATION_LAYER);
 }
 
-lobe_result engine_instance_create_with(const lobe_host *host, const engine_validation *validation,
-                                        const char *const *extensions, uint32_t extension_count,
-                                        engine_instance *instance) {
-    const instance_request request = {.extensions = extensions,
-                                      .extension_count = extension_count,
+static lobe_result create_instance(const lobe_host *host,
+                                   const engine_instance_parameters *parameters,
+                                   engine_instance *instance) {
+    const instance_request request = {.extensions = parameters->extensions,
+                                      .extension_count = parameters->extension_count,
                                       .allocator = lobe_host_allocator(host)};
-    *instance = (engine_instance){0};
-    instance->debug_utils = true; // which the layer brings
-    lobe_result result = validation ? require_layer(host, VALIDATION_LAYER)
-                                    : find_extension(host, VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
-                                                     &instance->debug_utils);
-    if (result != LOBE_OK)
-        return result;
-    const VkResult created = validation ? create_validated(instance, validation, &request)
-                                        : create_plain(instance, &request);
+    const VkResult created = parameters->validation
+                                 ? create_validated(instance, parameters->validation, &request)
+                                 : create_plain(instance, &request);
     if (created == VK_ERROR_INCOMPATIBLE_DRIVER)
         return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE, "no Vulkan driver is installed");
-    result = VULKAN_CHECK(host, created, "Vulkan (vkCreateInstance)");
-    if (result == LOBE_OK && validation)
-        result = create_messenger(host, validation, instance);
+    return VULKAN_CHECK(host, created, "Vulkan (vkCreateInstance)");
+}
+
+lobe_result engine_instance_create(const lobe_host *host,
+                                   const engine_instance_parameters *parameters,
+                                   engine_instance *instance) {
+    *instance = (engine_instance){0};
+    lobe_result result =
+        engine_loader_open(host, parameters->get_instance_proc_addr, &instance->api);
+    if (result == LOBE_OK)
+        result = check_loader(host, parameters, instance);
+    if (result == LOBE_OK)
+        result = create_instance(host, parameters, instance);
+    if (result == LOBE_OK)
+        result =
+            engine_instance_api_load(host, instance->vulkan, instance->debug_utils, &instance->api);
+    if (result == LOBE_OK && parameters->validation)
+        result = create_messenger(host, parameters->validation, instance);
     if (result != LOBE_OK)
         engine_instance_destroy(instance);
     return result;
 }
 
 void engine_instance_destroy(engine_instance *instance) {
-    if (instance->messenger) {
-        PFN_vkDestroyDebugUtilsMessengerEXT destroy =
-            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
-                instance->vulkan, "vkDestroyDebugUtilsMessengerEXT");
-        destroy(instance->vulkan, instance->messenger, NULL);
-    }
-    vkDestroyInstance(instance->vulkan, NULL);
+    const engine_instance_api *api = &instance->api;
+    if (instance->messenger)
+        api->vkDestroyDebugUtilsMessengerEXT(instance->vulkan, instance->messenger, NULL);
+    if (instance->vulkan && api->vkDestroyInstance)
+        api->vkDestroyInstance(instance->vulkan, NULL);
     *instance = (engine_instance){0};
 }

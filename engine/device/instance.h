@@ -10,11 +10,14 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// Vulkan's loader, opened. All zero: none.
+#include "engine/device/vulkan_functions.h"
+
+/// All zero: none.
 typedef struct engine_instance {
     VkInstance vulkan;
+    engine_instance_api api;
     VkDebugUtilsMessengerEXT messenger; ///< only with validation
-    bool debug_utils;
+    bool debug_utils;                   ///< VK_EXT_debug_utils is enabled
 } engine_instance;
 
 /// Where validation messages go.
@@ -23,15 +26,19 @@ typedef struct engine_validation {
     _Atomic uint64_t *count; ///< of warnings and errors
 } engine_validation;
 
-/// `validation` turns the validation layer on; it must outlive the instance. NULL: off.
-/// Errors: LOBE_ERROR_NO_DEVICE (no driver, or Vulkan older than 1.3),
+typedef struct engine_instance_parameters {
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr; ///< NULL: that of libvulkan.so.1
+    /// Turns the validation layer on; must outlive the instance. NULL: off.
+    const engine_validation *validation;
+    const char *const *extensions; ///< required ones, such as those of a window's surface
+    uint32_t extension_count;
+} engine_instance_parameters;
+
+/// Errors: LOBE_ERROR_NO_DEVICE (no loader, no driver, or Vulkan older than 1.3),
 /// LOBE_ERROR_UNSUPPORTED (no validation layer).
-lobe_result engine_instance_create(const lobe_host *host, const engine_validation *validation,
+lobe_result engine_instance_create(const lobe_host *host,
+                                   const engine_instance_parameters *parameters,
                                    engine_instance *instance);
-/// The same with extensions that the loader must have: those of a window's surface.
-lobe_result engine_instance_create_with(const lobe_host *host, const engine_validation *validation,
-                                        const char *const *extensions, uint32_t extension_count,
-                                        engine_instance *instance);
 void engine_instance_destroy(engine_instance *instance);
 
 #endif

@@ -30,19 +30,20 @@ static bool has_extension(const VkExtensionProperties *extensions, uint32_t coun
     return false;
 }
 
-lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_host *host,
+lobe_result engine_extensions_fill(const engine_instance_api *api, VkPhysicalDevice physical,
+                                   const lobe_host *host,
                                    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
                                    uint32_t *filled) {
     uint32_t count = 0;
     *filled = 0;
-    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
+    if (api->vkEnumerateDeviceExtensionProperties(physical, NULL, &count, NULL) != VK_SUCCESS)
         return LOBE_OK;
     VkExtensionProperties *extensions =
         lobe_allocate(lobe_host_allocator(host), count, sizeof *extensions);
     if (!extensions)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
                               "Vulkan: no host memory for a device's extensions");
-    if (vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
+    if (api->vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
         for (size_t i = 0; i < KNOWN_COUNT; i++)
             if (has_extension(extensions, count, known[i].name))
                 names[(*filled)++] = known[i].name;
@@ -50,27 +51,42 @@ lobe_result engine_extensions_fill(VkPhysicalDevice physical, const lobe_host *h
     return LOBE_OK;
 }
 
-uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
+/// Only what the helpers below ask of the host's instance; false where the loader is not found.
+static bool load_functions(const lobe_vulkan_device *host, engine_instance_api *api) {
+    return engine_loader_open(NULL, host->get_instance_proc_addr, api) == LOBE_OK &&
+           engine_instance_api_load(NULL, host->instance, false, api) == LOBE_OK;
+}
+
+uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
                                      const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
     const lobe_host silent = {.allocator = allocator};
-    uint32_t filled;
-    (void)engine_extensions_fill(physical_device, &silent, names, &filled);
+    engine_instance_api api;
+    uint32_t filled = 0;
+    if (load_functions(host, &api))
+        (void)engine_extensions_fill(&api, host->physical_device, &silent, names, &filled);
     return filled;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Features and queues
 
-void lobe_vulkan_features_fill(VkPhysicalDevice physical_device, lobe_vulkan_features *features) {
+void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_features *features) {
     lobe_device_feature present[ENGINE_FEATURE_COUNT];
-    engine_features_query(physical_device, present);
+    engine_instance_api api;
+    if (load_functions(host, &api))
+        engine_features_query(&api, host->physical_device, present);
+    else
+        engine_features_read(&(VkPhysicalDeviceFeatures2){0}, present);
     engine_features_enable(present, features);
 }
 
-uint32_t lobe_vulkan_queue_family(VkPhysicalDevice physical_device) {
+uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host) {
+    engine_instance_api api;
     uint32_t timestamp_bits;
-    return engine_queue_family_find(physical_device, &timestamp_bits);
+    return load_functions(host, &api)
+               ? engine_queue_family_find(&api, host->physical_device, &timestamp_bits)
+               : UINT32_MAX;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -98,30 +114,38 @@ add_line(line_list *list, const char *format, ...) {
     list->used += (size_t)length < left ? (size_t)length : left ? left - 1 : 0;
 }
 
-static void add_features(line_list *list, VkPhysicalDevice physical_device,
+static void add_features(line_list *list, const engine_instance_api *api,
+                         VkPhysicalDevice physical_device,
                          const VkPhysicalDeviceFeatures2 *enabled) {
     lobe_device_feature features[ENGINE_FEATURE_COUNT];
     if (enabled)
         engine_features_read(enabled, features);
     else
-        engine_features_query(physical_device, features);
+        engine_features_query(api, physical_device, features);
     for (size_t i = 0; i < ENGINE_FEATURE_COUNT; i++)
         if (features[i].required && !features[i].present)
             add_line(list, "feature %s (%s)", features[i].name, features[i].use);
 }
 
-size_t lobe_vulkan_missing(VkPhysicalDevice physical_device,
-                           const VkPhysicalDeviceFeatures2 *enabled, char *text, size_t size) {
+size_t lobe_vulkan_missing(const lobe_vulkan_device *host, const VkPhysicalDeviceFeatures2 *enabled,
+                           char *text, size_t size) {
+    const VkPhysicalDevice physical = host->physical_device;
     line_list list = {.text = text, .size = size};
+    engine_instance_api api;
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical_device, &properties);
+    uint32_t timestamp_bits;
     if (size > 0)
         text[0] = '\0';
+    if (!load_functions(host, &api)) {
+        add_line(&list, "a Vulkan loader (libvulkan.so.1, or the host's get_instance_proc_addr)");
+        return list.count;
+    }
+    api.vkGetPhysicalDeviceProperties(physical, &properties);
     if (properties.apiVersion < LOBE_VULKAN_API_VERSION)
         add_line(&list, "Vulkan 1.3 (it offers %u.%u)", VK_API_VERSION_MAJOR(properties.apiVersion),
                  VK_API_VERSION_MINOR(properties.apiVersion));
-    if (lobe_vulkan_queue_family(physical_device) == UINT32_MAX)
+    if (engine_queue_family_find(&api, physical, &timestamp_bits) == UINT32_MAX)
         add_line(&list, "a queue with both graphics and compute");
-    add_features(&list, physical_device, enabled);
+    add_features(&list, &api, physical, enabled);
     return list.count;
 }

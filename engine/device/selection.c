@@ -27,29 +27,30 @@ static lobe_device_type type_of(VkPhysicalDeviceType type) {
 
 #define MAXIMUM_FAMILIES 32
 
-bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
-                                uint32_t *timestamp_bits) {
+bool engine_queue_family_serves(const engine_instance_api *api, VkPhysicalDevice physical,
+                                uint32_t family, uint32_t *timestamp_bits) {
     const VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     VkQueueFamilyProperties families[MAXIMUM_FAMILIES];
     uint32_t count = MAXIMUM_FAMILIES;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
+    api->vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
     if (family >= count || (families[family].queueFlags & wanted) != wanted)
         return false;
     *timestamp_bits = families[family].timestampValidBits;
     return true;
 }
 
-uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits) {
+uint32_t engine_queue_family_find(const engine_instance_api *api, VkPhysicalDevice physical,
+                                  uint32_t *timestamp_bits) {
     *timestamp_bits = 0;
     for (uint32_t family = 0; family < MAXIMUM_FAMILIES; family++)
-        if (engine_queue_family_serves(physical, family, timestamp_bits))
+        if (engine_queue_family_serves(api, physical, family, timestamp_bits))
             return family;
     return UINT32_MAX;
 }
 
-static uint64_t device_local_bytes(VkPhysicalDevice physical) {
+static uint64_t device_local_bytes(const engine_instance_api *api, VkPhysicalDevice physical) {
     VkPhysicalDeviceMemoryProperties memory;
-    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    api->vkGetPhysicalDeviceMemoryProperties(physical, &memory);
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < memory.memoryHeapCount; i++)
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT &&
@@ -58,9 +59,9 @@ static uint64_t device_local_bytes(VkPhysicalDevice physical) {
     return bytes;
 }
 
-static bool filters_float32(VkPhysicalDevice physical) {
+static bool filters_float32(const engine_instance_api *api, VkPhysicalDevice physical) {
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(physical, VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
+    api->vkGetPhysicalDeviceFormatProperties(physical, VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
     return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
 }
 
@@ -75,7 +76,7 @@ static void describe_driver(const VkPhysicalDeviceProperties *properties,
                  properties->driverVersion);
 }
 
-static void describe(engine_candidate *candidate) {
+static void describe(const engine_instance_api *api, engine_candidate *candidate) {
     VkPhysicalDeviceDriverProperties driver = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
     };
@@ -83,7 +84,7 @@ static void describe(engine_candidate *candidate) {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
         .pNext = &driver,
     };
-    vkGetPhysicalDeviceProperties2(candidate->physical, &properties2);
+    api->vkGetPhysicalDeviceProperties2(candidate->physical, &properties2);
     const VkPhysicalDeviceProperties *properties = &properties2.properties;
     lobe_device_information *information = &candidate->information;
     snprintf(information->name, sizeof information->name, "%s", properties->deviceName);
@@ -93,30 +94,31 @@ static void describe(engine_candidate *candidate) {
     information->vulkan_minor = VK_API_VERSION_MINOR(properties->apiVersion);
     information->vulkan_patch = VK_API_VERSION_PATCH(properties->apiVersion);
     information->maximum_image_extent = properties->limits.maxImageDimension2D;
-    information->memory_bytes = device_local_bytes(candidate->physical);
-    information->linear_filter_float32 = filters_float32(candidate->physical);
+    information->memory_bytes = device_local_bytes(api, candidate->physical);
+    information->linear_filter_float32 = filters_float32(api, candidate->physical);
     candidate->queue_family =
-        engine_queue_family_find(candidate->physical, &candidate->timestamp_bits);
+        engine_queue_family_find(api, candidate->physical, &candidate->timestamp_bits);
     if (candidate->timestamp_bits)
         information->timestamp_period = properties->limits.timestampPeriod;
 }
 
-static bool describe_features(engine_candidate *candidate, const lobe_allocator *allocator) {
+static bool describe_features(const engine_instance_api *api, engine_candidate *candidate,
+                              const lobe_allocator *allocator) {
     lobe_device_feature *features =
         lobe_allocate(allocator, ENGINE_FEATURE_COUNT, sizeof *features);
     if (!features)
         return false;
-    engine_features_query(candidate->physical, features);
+    engine_features_query(api, candidate->physical, features);
     candidate->information.features = features;
     candidate->information.feature_count = ENGINE_FEATURE_COUNT;
     return true;
 }
 
-lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_host *host,
-                                      engine_candidate *candidate) {
+lobe_result engine_candidate_describe(const engine_instance_api *api, VkPhysicalDevice physical,
+                                      const lobe_host *host, engine_candidate *candidate) {
     *candidate = (engine_candidate){.physical = physical};
-    describe(candidate);
-    return describe_features(candidate, lobe_host_allocator(host))
+    describe(api, candidate);
+    return describe_features(api, candidate, lobe_host_allocator(host))
                ? LOBE_OK
                : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
                                 candidate->information.name);
@@ -132,15 +134,16 @@ void engine_candidates_free(engine_candidate **candidates, size_t count) {
     *candidates = NULL;
 }
 
-static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count,
-                                const lobe_host *host, engine_candidate **candidates) {
+static lobe_result describe_all(const engine_instance_api *api, const VkPhysicalDevice *physical,
+                                size_t count, const lobe_host *host,
+                                engine_candidate **candidates) {
     const lobe_allocator *allocator = lobe_host_allocator(host);
     *candidates = lobe_allocate(allocator, count, sizeof **candidates);
     bool complete = *candidates != NULL;
     for (size_t i = 0; complete && i < count; i++) {
         (*candidates)[i].physical = physical[i];
-        describe(&(*candidates)[i]);
-        complete = describe_features(&(*candidates)[i], allocator);
+        describe(api, &(*candidates)[i]);
+        complete = describe_features(api, &(*candidates)[i], allocator);
     }
     if (complete)
         return LOBE_OK;
@@ -148,21 +151,23 @@ static lobe_result describe_all(const VkPhysicalDevice *physical, size_t count,
     return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
 }
 
-lobe_result engine_candidates_list(VkInstance instance, const lobe_host *host,
+lobe_result engine_candidates_list(const engine_instance *instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count) {
     *candidates = NULL;
     *count = 0;
+    const engine_instance_api *api = &instance->api;
     VkPhysicalDevice physical[64];
     uint32_t found = sizeof physical / sizeof *physical;
-    const lobe_result result = VULKAN_CHECK(
-        host, vkEnumeratePhysicalDevices(instance, &found, physical), "Vulkan devices");
+    const lobe_result result =
+        VULKAN_CHECK(host, api->vkEnumeratePhysicalDevices(instance->vulkan, &found, physical),
+                     "Vulkan devices");
     if (result != LOBE_OK)
         return result;
     if (found == 0)
         return lobe_host_fail(host, LOBE_ERROR_NO_DEVICE,
                               "no Vulkan device: no driver reports one on this machine");
     *count = found;
-    return describe_all(physical, found, host, candidates);
+    return describe_all(api, physical, found, host, candidates);
 }
 
 // ---------------------------------------------------------------------------------------------

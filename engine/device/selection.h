@@ -8,6 +8,8 @@
 
 #include <lobe/device.h>
 
+#include "engine/device/instance.h"
+
 /// A device of this machine, used or not.
 typedef struct engine_candidate {
     VkPhysicalDevice physical;
@@ -19,17 +21,18 @@ typedef struct engine_candidate {
 
 /// Whether a queue family has both graphics and compute; if so, says how many bits its timestamps
 /// have.
-bool engine_queue_family_serves(VkPhysicalDevice physical, uint32_t family,
-                                uint32_t *timestamp_bits);
+bool engine_queue_family_serves(const engine_instance_api *api, VkPhysicalDevice physical,
+                                uint32_t family, uint32_t *timestamp_bits);
 /// The first that serves; UINT32_MAX (and no bits): none.
-uint32_t engine_queue_family_find(VkPhysicalDevice physical, uint32_t *timestamp_bits);
+uint32_t engine_queue_family_find(const engine_instance_api *api, VkPhysicalDevice physical,
+                                  uint32_t *timestamp_bits);
 
 /// Describes one device; `candidate->information.features` is to lobe_release.
-lobe_result engine_candidate_describe(VkPhysicalDevice physical, const lobe_host *host,
-                                      engine_candidate *candidate);
+lobe_result engine_candidate_describe(const engine_instance_api *api, VkPhysicalDevice physical,
+                                      const lobe_host *host, engine_candidate *candidate);
 
 /// Lists all devices. LOBE_ERROR_NO_DEVICE where there is none, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result engine_candidates_list(VkInstance instance, const lobe_host *host,
+lobe_result engine_candidates_list(const engine_instance *instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count);
 void engine_candidates_free(engine_candidate **candidates, size_t count);
 

@@ -68,7 +68,8 @@ lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
         .value = reached,
         .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
     };
-    const VkResult submitted = vkQueueSubmit2(device->queue, 1, &submit, VK_NULL_HANDLE);
+    const VkResult submitted =
+        device->api.vkQueueSubmit2(device->queue, 1, &submit, VK_NULL_HANDLE);
     if (submitted == VK_SUCCESS)
         device->submitted = reached;
     engine_device_unlock_queue(device);
@@ -79,7 +80,7 @@ lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
 
 lobe_result engine_device_wait_queue(lobe_device *device) {
     engine_device_lock_queue(device);
-    const VkResult waited = vkQueueWaitIdle(device->queue);
+    const VkResult waited = device->api.vkQueueWaitIdle(device->queue);
     engine_device_unlock_queue(device);
     return check(device, waited, "vkQueueWaitIdle", "waiting for the device");
 }
@@ -91,8 +92,8 @@ lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
         .pSemaphores = &device->timeline,
         .pValues = &value,
     };
-    return check(device, vkWaitSemaphores(device->vulkan, &wait, UINT64_MAX), "vkWaitSemaphores",
-                 "waiting for the device");
+    return check(device, device->api.vkWaitSemaphores(device->vulkan, &wait, UINT64_MAX),
+                 "vkWaitSemaphores", "waiting for the device");
 }
 
 lobe_result engine_device_wait_all(lobe_device *device) {
@@ -112,9 +113,9 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
         .commandBufferCount = 1,
     };
     pthread_mutex_lock(&device->commands_mutex);
-    lobe_result result =
-        VULKAN_CHECK(&device->host, vkAllocateCommandBuffers(device->vulkan, &allocate, commands),
-                     "%s", purpose);
+    lobe_result result = VULKAN_CHECK(
+        &device->host, device->api.vkAllocateCommandBuffers(device->vulkan, &allocate, commands),
+        "%s", purpose);
     if (result != LOBE_OK) {
         pthread_mutex_unlock(&device->commands_mutex);
         return result;
@@ -123,9 +124,10 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
-    result = VULKAN_CHECK(&device->host, vkBeginCommandBuffer(*commands, &begin), "%s", purpose);
+    result = VULKAN_CHECK(&device->host, device->api.vkBeginCommandBuffer(*commands, &begin), "%s",
+                          purpose);
     if (result != LOBE_OK) {
-        vkFreeCommandBuffers(device->vulkan, device->commands, 1, commands);
+        device->api.vkFreeCommandBuffers(device->vulkan, device->commands, 1, commands);
         *commands = VK_NULL_HANDLE;
         pthread_mutex_unlock(&device->commands_mutex);
     }
@@ -135,12 +137,13 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
 lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
                                           VkCommandBuffer commands) {
     uint64_t value = 0;
-    lobe_result result = VULKAN_CHECK(&device->host, vkEndCommandBuffer(commands), "%s", purpose);
+    lobe_result result =
+        VULKAN_CHECK(&device->host, device->api.vkEndCommandBuffer(commands), "%s", purpose);
     if (result == LOBE_OK)
         result = engine_device_submit(device, commands, NULL, &value);
     if (result == LOBE_OK)
         result = engine_device_wait(device, value);
-    vkFreeCommandBuffers(device->vulkan, device->commands, 1, &commands);
+    device->api.vkFreeCommandBuffers(device->vulkan, device->commands, 1, &commands);
     pthread_mutex_unlock(&device->commands_mutex);
     return result;
 }

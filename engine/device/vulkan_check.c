@@ -65,10 +65,11 @@ lobe_result engine_vulkan_check(const lobe_host *host, VkResult vulkan, const ch
     va_start(arguments, format);
     vsnprintf(purpose, sizeof purpose, format, arguments);
     va_end(arguments);
-    // The name of the function is enough; its arguments are our own business.
-    const char *end = expression;
-    while (*end && *end != '(')
-        end++;
-    return lobe_host_fail(host, result, "%s: %.*s gave %s", purpose, (int)(end - expression),
-                          expression, engine_vulkan_result_name(vulkan));
+    // Only the function's name: "vkCreateImage" of "device->api.vkCreateImage(…)".
+    const char *name = expression, *end = expression;
+    for (; *end && *end != '('; end++)
+        if (*end == '.' || *end == '>')
+            name = end + 1;
+    return lobe_host_fail(host, result, "%s: %.*s gave %s", purpose, (int)(end - name), name,
+                          engine_vulkan_result_name(vulkan));
 }

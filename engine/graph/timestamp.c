@@ -11,7 +11,7 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
     uint32_t needed = 2 * graph->dependencies.running_count;
     if (!can_time(graph) || needed <= graph->flight->timestamp_capacity)
         return LOBE_OK;
-    vkDestroyQueryPool(device->vulkan, graph->flight->timestamps, device->callbacks);
+    device->api.vkDestroyQueryPool(device->vulkan, graph->flight->timestamps, device->callbacks);
     graph->flight->timestamps = VK_NULL_HANDLE;
     graph->flight->timestamp_capacity = 0;
     const VkQueryPoolCreateInfo create = {
@@ -19,10 +19,11 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
         .queryType = VK_QUERY_TYPE_TIMESTAMP,
         .queryCount = needed,
     };
-    lobe_result result = VULKAN_CHECK(
-        &device->host,
-        vkCreateQueryPool(device->vulkan, &create, device->callbacks, &graph->flight->timestamps),
-        "render graph");
+    lobe_result result =
+        VULKAN_CHECK(&device->host,
+                     device->api.vkCreateQueryPool(device->vulkan, &create, device->callbacks,
+                                                   &graph->flight->timestamps),
+                     "render graph");
     if (result == LOBE_OK)
         graph->flight->timestamp_capacity = needed;
     return result;
@@ -30,16 +31,17 @@ lobe_result engine_graph_prepare_timestamps(lobe_graph *graph) {
 
 void engine_graph_reset_timestamps(lobe_graph *graph) {
     if (can_time(graph))
-        vkCmdResetQueryPool(graph->commands, graph->flight->timestamps, 0,
-                            graph->flight->timestamp_capacity);
+        graph->device->api.vkCmdResetQueryPool(graph->commands, graph->flight->timestamps, 0,
+                                               graph->flight->timestamp_capacity);
 }
 
 /// After all commands so far are done, on both sides of a pass: else passes that overlap would
 /// count twice, and on a CPU driver, where commands run one after the other, nothing would count.
 void engine_graph_write_timestamp(lobe_graph *graph, uint32_t position, bool after) {
     if (can_time(graph))
-        vkCmdWriteTimestamp2(graph->commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                             graph->flight->timestamps, 2 * position + after);
+        graph->device->api.vkCmdWriteTimestamp2(graph->commands,
+                                                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                                graph->flight->timestamps, 2 * position + after);
 }
 
 static double milliseconds_between(const lobe_graph *graph, uint64_t first, uint64_t last) {
@@ -55,12 +57,13 @@ lobe_result engine_graph_read_timestamps(lobe_graph *graph) {
     uint64_t *ticks = engine_arena_allocate(&graph->arena, 2 * count * sizeof *ticks);
     if (!ticks)
         return engine_graph_fail_memory(graph);
-    lobe_result result = VULKAN_CHECK(
-        &graph->device->host,
-        vkGetQueryPoolResults(graph->device->vulkan, graph->flight->timestamps, 0, 2 * count,
-                              2 * count * sizeof *ticks, ticks, sizeof *ticks,
-                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "render graph");
+    lobe_result result =
+        VULKAN_CHECK(&graph->device->host,
+                     graph->device->api.vkGetQueryPoolResults(
+                         graph->device->vulkan, graph->flight->timestamps, 0, 2 * count,
+                         2 * count * sizeof *ticks, ticks, sizeof *ticks,
+                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+                     "render graph");
     if (result != LOBE_OK)
         return result;
     for (uint32_t n = 0; n < count; n++)

@@ -31,7 +31,7 @@ static bool belongs_to(const lobe_device *device, const uint8_t *data, size_t si
     if (size < sizeof mark)
         return false;
     memcpy(&mark, data, sizeof mark);
-    vkGetPhysicalDeviceProperties(device->physical, &properties);
+    device->instance.api.vkGetPhysicalDeviceProperties(device->physical, &properties);
     return mark.headerSize == sizeof mark &&
            mark.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
            mark.vendorID == properties.vendorID && mark.deviceID == properties.deviceID &&
@@ -61,10 +61,10 @@ static lobe_result create_cache(lobe_device *device, const uint8_t *data, size_t
         .initialDataSize = size,
         .pInitialData = data,
     };
-    return VULKAN_CHECK(
-        &device->host,
-        vkCreatePipelineCache(device->vulkan, &create, device->callbacks, &cache->vulkan),
-        "pipeline cache");
+    return VULKAN_CHECK(&device->host,
+                        device->api.vkCreatePipelineCache(device->vulkan, &create,
+                                                          device->callbacks, &cache->vulkan),
+                        "pipeline cache");
 }
 
 lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
@@ -94,13 +94,13 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
 static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *size,
                            uint64_t *checksum) {
     size_t data_size = 0;
-    if (vkGetPipelineCacheData(device->vulkan, cache, &data_size, NULL) != VK_SUCCESS)
+    if (device->api.vkGetPipelineCacheData(device->vulkan, cache, &data_size, NULL) != VK_SUCCESS)
         return NULL;
     uint8_t *content = lobe_allocate(device->host.allocator, 1, sizeof(cache_header) + data_size);
     if (!content)
         return NULL;
     uint8_t *data = content + sizeof(cache_header);
-    if (vkGetPipelineCacheData(device->vulkan, cache, &data_size, data) != VK_SUCCESS) {
+    if (device->api.vkGetPipelineCacheData(device->vulkan, cache, &data_size, data) != VK_SUCCESS) {
         lobe_release(content);
         return NULL;
     }
@@ -127,7 +127,7 @@ static void save(lobe_device *device, const engine_pipeline_cache *cache) {
 void engine_pipeline_cache_destroy(lobe_device *device, engine_pipeline_cache *cache) {
     if (cache->file && cache->vulkan)
         save(device, cache);
-    vkDestroyPipelineCache(device->vulkan, cache->vulkan, device->callbacks);
+    device->api.vkDestroyPipelineCache(device->vulkan, cache->vulkan, device->callbacks);
     lobe_release(cache->file);
     *cache = (engine_pipeline_cache){0};
 }

@@ -105,8 +105,8 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
     };
     const lobe_result result =
         VULKAN_CHECK(&device->host,
-                     vkCreateDescriptorSetLayout(device->vulkan, &create, device->callbacks,
-                                                 &pipeline->set_layout),
+                     device->api.vkCreateDescriptorSetLayout(
+                         device->vulkan, &create, device->callbacks, &pipeline->set_layout),
                      "pipeline '%s'", pipeline->name);
     lobe_release(bindings);
     return result;
@@ -129,10 +129,10 @@ static lobe_result create_layout(lobe_device *device, engine_pipeline *pipeline)
         .pushConstantRangeCount = pipeline->push_constant_size ? 1 : 0,
         .pPushConstantRanges = &range,
     };
-    return VULKAN_CHECK(
-        &device->host,
-        vkCreatePipelineLayout(device->vulkan, &create, device->callbacks, &pipeline->layout),
-        "pipeline '%s'", pipeline->name);
+    return VULKAN_CHECK(&device->host,
+                        device->api.vkCreatePipelineLayout(device->vulkan, &create,
+                                                           device->callbacks, &pipeline->layout),
+                        "pipeline '%s'", pipeline->name);
 }
 
 lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shader *const *shaders,
@@ -147,7 +147,8 @@ lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shad
 }
 
 void engine_pipeline_layout_destroy(lobe_device *device, engine_pipeline *pipeline) {
-    vkDestroyPipelineLayout(device->vulkan, pipeline->layout, device->callbacks);
-    vkDestroyDescriptorSetLayout(device->vulkan, pipeline->set_layout, device->callbacks);
+    device->api.vkDestroyPipelineLayout(device->vulkan, pipeline->layout, device->callbacks);
+    device->api.vkDestroyDescriptorSetLayout(device->vulkan, pipeline->set_layout,
+                                             device->callbacks);
     lobe_release(pipeline->bindings);
 }

@@ -146,7 +146,7 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
 // Making
 
 static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
-    vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
+    device->api.vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
     engine_pipeline_layout_destroy(device, &cached->pipeline);
     lobe_release((void *)cached->pipeline.name);
     lobe_release(cached->key.specialisation);
@@ -192,10 +192,11 @@ static lobe_result create_compute(lobe_device *device, const cached_pipeline *ca
             },
         .layout = pipeline->layout,
     };
-    return VULKAN_CHECK(&device->host,
-                        vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
-                                                 &create, device->callbacks, &pipeline->pipeline),
-                        "pipeline '%s'", pipeline->name);
+    return VULKAN_CHECK(
+        &device->host,
+        device->api.vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
+                                             &create, device->callbacks, &pipeline->pipeline),
+        "pipeline '%s'", pipeline->name);
 }
 
 static char *name_of(const lobe_allocator *allocator, const pipeline_key *key) {

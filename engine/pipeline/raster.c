@@ -86,7 +86,7 @@ static lobe_result check_blending(lobe_device *device, const engine_raster_param
         if (parameters->colour[i] == LOBE_FORMAT_NONE)
             continue;
         VkFormatProperties properties;
-        vkGetPhysicalDeviceFormatProperties(
+        device->instance.api.vkGetPhysicalDeviceFormatProperties(
             device->physical, engine_format_vulkan(parameters->colour[i]), &properties);
         if (!(properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
             return lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
@@ -166,7 +166,8 @@ lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache c
         .layout = pipeline->layout,
     };
     return VULKAN_CHECK(&device->host,
-                        vkCreateGraphicsPipelines(device->vulkan, cache, 1, &create,
-                                                  device->callbacks, &pipeline->pipeline),
+                        device->api.vkCreateGraphicsPipelines(device->vulkan, cache, 1, &create,
+                                                              device->callbacks,
+                                                              &pipeline->pipeline),
                         "pipeline '%s'", pipeline->name);
 }

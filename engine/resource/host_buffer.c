@@ -17,12 +17,13 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
         .size = size,
         .usage = usage,
     };
-    const lobe_result result = VULKAN_CHECK(
-        &device->host, vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
-        "buffer '%s'", name);
+    const lobe_result result =
+        VULKAN_CHECK(&device->host,
+                     device->api.vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
+                     "buffer '%s'", name);
     if (result != LOBE_OK)
         return result;
-    vkGetBufferMemoryRequirements(device->vulkan, *buffer, requirements);
+    device->api.vkGetBufferMemoryRequirements(device->vulkan, *buffer, requirements);
     engine_device_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)*buffer, name);
     return LOBE_OK;
 }
@@ -37,10 +38,10 @@ lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, V
     if (result == LOBE_OK)
         result = engine_memory_allocate(device->memory, &request, allocation);
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(
-            &device->host,
-            vkBindBufferMemory(device->vulkan, *buffer, allocation->memory, allocation->offset),
-            "buffer '%s'", name);
+        result = VULKAN_CHECK(&device->host,
+                              device->api.vkBindBufferMemory(
+                                  device->vulkan, *buffer, allocation->memory, allocation->offset),
+                              "buffer '%s'", name);
     if (result != LOBE_OK)
         engine_buffer_destroy_placed(device, buffer, allocation);
     return result;
@@ -48,7 +49,7 @@ lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, V
 
 void engine_buffer_destroy_placed(lobe_device *device, VkBuffer *buffer,
                                   engine_allocation *allocation) {
-    vkDestroyBuffer(device->vulkan, *buffer, device->callbacks);
+    device->api.vkDestroyBuffer(device->vulkan, *buffer, device->callbacks);
     *buffer = VK_NULL_HANDLE;
     engine_memory_free(device->memory, allocation);
 }

@@ -35,8 +35,8 @@ static VkResult query_limits(const lobe_device *device, const VkImageCreateInfo 
     VkImageFormatProperties2 properties = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_FORMAT_PROPERTIES_2,
     };
-    const VkResult result =
-        vkGetPhysicalDeviceImageFormatProperties2(device->physical, &query, &properties);
+    const VkResult result = device->instance.api.vkGetPhysicalDeviceImageFormatProperties2(
+        device->physical, &query, &properties);
     *limits = properties.imageFormatProperties;
     return result;
 }
@@ -81,12 +81,12 @@ lobe_result engine_image_create(lobe_device *device, const engine_image_paramete
     lobe_result result = check_limits(device, parameters, &create);
     if (result != LOBE_OK)
         return result;
-    result = VULKAN_CHECK(&device->host,
-                          vkCreateImage(device->vulkan, &create, device->callbacks, image),
-                          "image '%s'", parameters->name);
+    result = VULKAN_CHECK(
+        &device->host, device->api.vkCreateImage(device->vulkan, &create, device->callbacks, image),
+        "image '%s'", parameters->name);
     if (result != LOBE_OK)
         return result;
-    vkGetImageMemoryRequirements(device->vulkan, *image, requirements);
+    device->api.vkGetImageMemoryRequirements(device->vulkan, *image, requirements);
     engine_device_name(device, VK_OBJECT_TYPE_IMAGE, (uint64_t)*image, parameters->name);
     return LOBE_OK;
 }
@@ -109,7 +109,8 @@ lobe_result engine_view_create(lobe_device *device, const engine_view_parameters
             },
     };
     const lobe_result result = VULKAN_CHECK(
-        &device->host, vkCreateImageView(device->vulkan, &create, device->callbacks, view),
+        &device->host,
+        device->api.vkCreateImageView(device->vulkan, &create, device->callbacks, view),
         "image '%s'", parameters->name);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)*view, parameters->name);

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
 #include "engine/resource/range_allocator.h"
 
@@ -19,8 +20,9 @@ struct engine_memory_block {
 };
 
 struct engine_memory {
-    pthread_mutex_t mutex; ///< around all that follows the parameters
-    engine_memory_parameters parameters;
+    lobe_device *device;
+    uint64_t limit;        ///< most bytes in blocks; 0: none
+    pthread_mutex_t mutex; ///< around all that follows
     VkPhysicalDeviceMemoryProperties properties;
     VkDeviceSize granularity;        ///< bufferImageGranularity
     VkDeviceSize maximum_allocation; ///< bytes
@@ -29,13 +31,13 @@ struct engine_memory {
     uint64_t allocated_of_heap[VK_MAX_MEMORY_HEAPS]; ///< bytes
 };
 
-lobe_result engine_memory_create(const engine_memory_parameters *parameters,
-                                 engine_memory **memory) {
-    *memory = lobe_allocate(parameters->host->allocator, 1, sizeof **memory);
+lobe_result engine_memory_create(lobe_device *device, uint64_t limit, engine_memory **memory) {
+    *memory = lobe_allocate(device->host.allocator, 1, sizeof **memory);
     if (!*memory)
-        return lobe_host_fail(parameters->host, LOBE_ERROR_OUT_OF_MEMORY,
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "device memory: no host memory to manage it");
-    (*memory)->parameters = *parameters;
+    (*memory)->device = device;
+    (*memory)->limit = limit;
     pthread_mutex_init(&(*memory)->mutex, NULL);
     VkPhysicalDeviceVulkan11Properties maintenance = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES,
@@ -44,8 +46,9 @@ lobe_result engine_memory_create(const engine_memory_parameters *parameters,
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
         .pNext = &maintenance,
     };
-    vkGetPhysicalDeviceProperties2(parameters->physical, &properties);
-    vkGetPhysicalDeviceMemoryProperties(parameters->physical, &(*memory)->properties);
+    device->instance.api.vkGetPhysicalDeviceProperties2(device->physical, &properties);
+    device->instance.api.vkGetPhysicalDeviceMemoryProperties(device->physical,
+                                                             &(*memory)->properties);
     (*memory)->granularity = properties.properties.limits.bufferImageGranularity;
     (*memory)->maximum_allocation = maintenance.maxMemoryAllocationSize;
     return LOBE_OK;
@@ -53,7 +56,8 @@ lobe_result engine_memory_create(const engine_memory_parameters *parameters,
 
 static void release_block(engine_memory *memory, engine_memory_block *block) {
     // Freeing unmaps.
-    vkFreeMemory(memory->parameters.vulkan, block->memory, memory->parameters.callbacks);
+    const lobe_device *device = memory->device;
+    device->api.vkFreeMemory(device->vulkan, block->memory, device->callbacks);
     memory->allocated -= block->size;
     memory->allocated_of_heap[memory->properties.memoryTypes[block->type].heapIndex] -= block->size;
     engine_range_allocator_destroy(&block->ranges);
@@ -118,7 +122,7 @@ static uint64_t subtract(uint64_t from, uint64_t amount) {
 
 /// Bytes that this process may still take from a heap.
 static uint64_t heap_room(const engine_memory *memory, uint32_t heap) {
-    if (!memory->parameters.budget)
+    if (!memory->device->memory_budget)
         return subtract(memory->properties.memoryHeaps[heap].size, memory->allocated_of_heap[heap]);
     VkPhysicalDeviceMemoryBudgetPropertiesEXT budget = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT,
@@ -127,13 +131,13 @@ static uint64_t heap_room(const engine_memory *memory, uint32_t heap) {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
         .pNext = &budget,
     };
-    vkGetPhysicalDeviceMemoryProperties2(memory->parameters.physical, &properties);
+    memory->device->instance.api.vkGetPhysicalDeviceMemoryProperties2(memory->device->physical,
+                                                                      &properties);
     return subtract(budget.heapBudget[heap], budget.heapUsage[heap]);
 }
 
 static uint64_t limit_room(const engine_memory *memory) {
-    return memory->parameters.limit ? subtract(memory->parameters.limit, memory->allocated)
-                                    : UINT64_MAX;
+    return memory->limit ? subtract(memory->limit, memory->allocated) : UINT64_MAX;
 }
 
 static uint64_t minimum(uint64_t first, uint64_t second) {
@@ -146,10 +150,10 @@ static uint64_t maximum(uint64_t first, uint64_t second) {
 
 static lobe_result fail_without_room(const engine_memory *memory,
                                      const engine_memory_request *request, uint64_t room) {
-    return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+    return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
                           "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
                           request->name, (unsigned long long)request->requirements.size,
-                          (unsigned long long)room, memory->parameters.limit ? " (limited)" : "");
+                          (unsigned long long)room, memory->limit ? " (limited)" : "");
 }
 
 /// A block of the usual size, but enough for the request, and where there is little room a small
@@ -176,22 +180,22 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
         .allocationSize = block->size,
         .memoryTypeIndex = block->type,
     };
-    const VkDevice vulkan = memory->parameters.vulkan;
+    const lobe_device *device = memory->device;
     lobe_result result = VULKAN_CHECK(
-        memory->parameters.host,
-        vkAllocateMemory(vulkan, &allocate, memory->parameters.callbacks, &block->memory),
+        &memory->device->host,
+        device->api.vkAllocateMemory(device->vulkan, &allocate, device->callbacks, &block->memory),
         "'%s' (%llu bytes)", request->name, (unsigned long long)request->requirements.size);
     if (result == LOBE_OK && request->place != ENGINE_MEMORY_DEVICE)
-        result =
-            VULKAN_CHECK(memory->parameters.host,
-                         vkMapMemory(vulkan, block->memory, 0, VK_WHOLE_SIZE, 0, &block->mapped),
-                         "'%s'", request->name);
+        result = VULKAN_CHECK(&memory->device->host,
+                              device->api.vkMapMemory(device->vulkan, block->memory, 0,
+                                                      VK_WHOLE_SIZE, 0, &block->mapped),
+                              "'%s'", request->name);
     return result;
 }
 
 static lobe_result fail_host_memory(const engine_memory *memory,
                                     const engine_memory_request *request) {
-    return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_MEMORY,
+    return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_MEMORY,
                           "'%s': no host memory to manage device memory", request->name);
 }
 
@@ -201,7 +205,7 @@ static lobe_result add_block(engine_memory *memory, const engine_memory_request 
     lobe_result result = choose_block_size(memory, request, type, &size);
     if (result != LOBE_OK)
         return result;
-    const lobe_allocator *allocator = memory->parameters.host->allocator;
+    const lobe_allocator *allocator = memory->device->host.allocator;
     engine_memory_block *block = lobe_allocate(allocator, 1, sizeof *block);
     if (!block || !engine_range_allocator_create(allocator, size, &block->ranges)) {
         lobe_release(block);
@@ -253,7 +257,7 @@ static lobe_result allocate(engine_memory *memory, const engine_memory_request *
                             engine_allocation *allocation) {
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
-        return lobe_host_fail(memory->parameters.host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+        return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
                               "'%s': the device has no memory of the needed kind", request->name);
     // Where tiled images and buffers may be neighbours they share blocks.
     const bool linear = request->linear && memory->granularity > 1;

@@ -37,17 +37,8 @@ typedef struct engine_allocation {
     engine_memory_block *block;
 } engine_allocation;
 
-typedef struct engine_memory_parameters {
-    VkPhysicalDevice physical;
-    VkDevice vulkan;
-    const VkAllocationCallbacks *callbacks; ///< NULL: none
-    uint64_t limit;                         ///< most bytes in blocks; 0: none
-    bool budget;                            ///< VK_EXT_memory_budget is enabled
-    const lobe_host *host;                  ///< must outlive the memory
-} engine_memory_parameters;
-
-lobe_result engine_memory_create(const engine_memory_parameters *parameters,
-                                 engine_memory **memory);
+/// `limit`: most bytes to take from Vulkan; 0: none. The device must outlive the memory.
+lobe_result engine_memory_create(lobe_device *device, uint64_t limit, engine_memory **memory);
 /// All allocations must have been freed.
 void engine_memory_destroy(engine_memory **memory);
 

@@ -57,9 +57,10 @@ static lobe_result create(lobe_device *device, const lobe_sampler *settings, VkS
         .maxAnisotropy = settings->maximum_anisotropy,
         .maxLod = VK_LOD_CLAMP_NONE,
     };
-    return VULKAN_CHECK(&device->host,
-                        vkCreateSampler(device->vulkan, &information, device->callbacks, sampler),
-                        "sampler");
+    return VULKAN_CHECK(
+        &device->host,
+        device->api.vkCreateSampler(device->vulkan, &information, device->callbacks, sampler),
+        "sampler");
 }
 
 lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *cache,
@@ -89,7 +90,7 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
 void engine_sampler_cache_destroy(lobe_device *device, engine_sampler_cache *cache) {
     for (engine_cached_sampler *sampler = cache->samplers, *next; sampler; sampler = next) {
         next = sampler->next;
-        vkDestroySampler(device->vulkan, sampler->sampler, device->callbacks);
+        device->api.vkDestroySampler(device->vulkan, sampler->sampler, device->callbacks);
         lobe_release(sampler);
     }
     cache->samplers = NULL;

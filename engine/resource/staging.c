@@ -32,9 +32,9 @@ void engine_staging_destroy(lobe_device *device, engine_staging *staging) {
 // ---------------------------------------------------------------------------------------------
 // Barriers around an upload: nothing before may still use the target, everything after sees it
 
-static void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from,
-                                  VkAccessFlags2 written, VkPipelineStageFlags2 to,
-                                  VkAccessFlags2 used) {
+static void record_memory_barrier(const lobe_device *device, VkCommandBuffer commands,
+                                  VkPipelineStageFlags2 from, VkAccessFlags2 written,
+                                  VkPipelineStageFlags2 to, VkAccessFlags2 used) {
     const VkMemoryBarrier2 barrier = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
         .srcStageMask = from,
@@ -47,23 +47,23 @@ static void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags
         .memoryBarrierCount = 1,
         .pMemoryBarriers = &barrier,
     };
-    vkCmdPipelineBarrier2(commands, &dependency);
+    device->api.vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-static void record_before(VkCommandBuffer commands) {
-    record_memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+static void record_before(const lobe_device *device, VkCommandBuffer commands) {
+    record_memory_barrier(device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                           VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
                           VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
 
-static void record_after(VkCommandBuffer commands) {
-    record_memory_barrier(commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
+static void record_after(const lobe_device *device, VkCommandBuffer commands) {
+    record_memory_barrier(device, commands, VK_PIPELINE_STAGE_2_TRANSFER_BIT,
                           VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                           VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 }
 
-static void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from,
-                          VkImageLayout to) {
+static void record_layout(const lobe_device *device, VkCommandBuffer commands, VkImage image,
+                          VkImageLayout from, VkImageLayout to) {
     const VkImageMemoryBarrier2 barrier = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -82,7 +82,7 @@ static void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout
         .imageMemoryBarrierCount = 1,
         .pImageMemoryBarriers = &barrier,
     };
-    vkCmdPipelineBarrier2(commands, &dependency);
+    device->api.vkCmdPipelineBarrier2(commands, &dependency);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -93,9 +93,9 @@ static lobe_result zero_buffer(lobe_device *device, const char *name, VkBuffer b
     const lobe_result result = engine_device_begin_commands(device, name, &commands);
     if (result != LOBE_OK)
         return result;
-    record_before(commands);
-    vkCmdFillBuffer(commands, buffer, 0, VK_WHOLE_SIZE, 0);
-    record_after(commands);
+    record_before(device, commands);
+    device->api.vkCmdFillBuffer(commands, buffer, 0, VK_WHOLE_SIZE, 0);
+    record_after(device, commands);
     return engine_device_finish_commands(device, name, commands);
 }
 
@@ -105,10 +105,10 @@ static lobe_result copy_to_buffer(lobe_device *device, const char *name, VkBuffe
     const lobe_result result = engine_device_begin_commands(device, name, &commands);
     if (result != LOBE_OK)
         return result;
-    record_before(commands);
-    vkCmdCopyBuffer(commands, source, target, 1,
-                    &(VkBufferCopy){.dstOffset = offset, .size = size});
-    record_after(commands);
+    record_before(device, commands);
+    device->api.vkCmdCopyBuffer(commands, source, target, 1,
+                                &(VkBufferCopy){.dstOffset = offset, .size = size});
+    record_after(device, commands);
     return engine_device_finish_commands(device, name, commands);
 }
 
@@ -139,7 +139,7 @@ static lobe_result copy_to_image(lobe_device *device, const char *name, VkBuffer
     if (result != LOBE_OK)
         return result;
     const bool first = first_row == 0, last = first_row + rows == content->height;
-    record_layout(commands, image,
+    record_layout(device, commands, image,
                   first ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const VkBufferImageCopy copy = {
@@ -147,9 +147,10 @@ static lobe_result copy_to_image(lobe_device *device, const char *name, VkBuffer
         .imageOffset = {0, (int32_t)first_row, 0},
         .imageExtent = {content->width, rows, 1},
     };
-    vkCmdCopyBufferToImage(commands, source, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    device->api.vkCmdCopyBufferToImage(commands, source, image,
+                                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     if (last)
-        record_layout(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        record_layout(device, commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                       VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     return engine_device_finish_commands(device, name, commands);
 }

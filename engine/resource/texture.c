@@ -35,11 +35,11 @@ static lobe_result create_image(lobe_texture *texture) {
     if (result == LOBE_OK)
         result = engine_memory_allocate(device->memory, &request, &texture->allocation);
     if (result == LOBE_OK)
-        result =
-            VULKAN_CHECK(&device->host,
-                         vkBindImageMemory(device->vulkan, texture->image,
-                                           texture->allocation.memory, texture->allocation.offset),
-                         "texture '%s'", texture->name);
+        result = VULKAN_CHECK(&device->host,
+                              device->api.vkBindImageMemory(device->vulkan, texture->image,
+                                                            texture->allocation.memory,
+                                                            texture->allocation.offset),
+                              "texture '%s'", texture->name);
     return result;
 }
 
@@ -116,9 +116,9 @@ void lobe_texture_destroy(lobe_texture **texture) {
     lobe_device *device = (*texture)->device;
     // A device that is lost has finished, too.
     (void)engine_device_wait_all(device);
-    vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
-    vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
-    vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
+    device->api.vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
+    device->api.vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
+    device->api.vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
     engine_memory_free(device->memory, &(*texture)->allocation);
     lobe_release((*texture)->name);
     lobe_release(*texture);

@@ -93,7 +93,7 @@ static void free_words(const engine_shader_code *code, engine_shader_words *word
 }
 
 static void free_loaded(lobe_device *device, loaded_shader *loaded) {
-    vkDestroyShaderModule(device->vulkan, loaded->shader.module, device->callbacks);
+    device->api.vkDestroyShaderModule(device->vulkan, loaded->shader.module, device->callbacks);
     engine_reflection_free(&loaded->shader);
     free_words(loaded->code, &loaded->words);
     lobe_release(loaded);
@@ -105,10 +105,11 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
         .codeSize = loaded->words.count * sizeof *loaded->words.words,
         .pCode = loaded->words.words,
     };
-    const lobe_result result = VULKAN_CHECK(
-        &device->host,
-        vkCreateShaderModule(device->vulkan, &create, device->callbacks, &loaded->shader.module),
-        "shader '%s'", loaded->shader.name);
+    const lobe_result result =
+        VULKAN_CHECK(&device->host,
+                     device->api.vkCreateShaderModule(device->vulkan, &create, device->callbacks,
+                                                      &loaded->shader.module),
+                     "shader '%s'", loaded->shader.name);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)loaded->shader.module,
                            loaded->shader.name);

@@ -41,13 +41,13 @@ static void choose_physical_device(host *h) {
     uint32_t count = 16;
     char missing[1024] = "a Vulkan device";
     if (vkEnumeratePhysicalDevices(h->vulkan.instance, &count, devices) >= VK_SUCCESS)
-        for (uint32_t i = 0; i < count && !h->vulkan.physical_device; i++)
-            if (lobe_vulkan_missing(devices[i], NULL, missing, sizeof missing) == 0)
-                h->vulkan.physical_device = devices[i];
-    if (!h->vulkan.physical_device) {
-        fprintf(stderr, "host_device: no device serves, for lack of:\n%s\n", missing);
-        exit(1);
-    }
+        for (uint32_t i = 0; i < count; i++) {
+            h->vulkan.physical_device = devices[i];
+            if (lobe_vulkan_missing(&h->vulkan, NULL, missing, sizeof missing) == 0)
+                return;
+        }
+    fprintf(stderr, "host_device: no device serves, for lack of:\n%s\n", missing);
+    exit(1);
 }
 
 static void open_host(host *h) {
@@ -58,12 +58,11 @@ static void open_host(host *h) {
     CHECK(vkCreateInstance(&instance, NULL, &h->vulkan.instance));
     choose_physical_device(h);
 
-    lobe_vulkan_features_fill(h->vulkan.physical_device, &h->features);
+    lobe_vulkan_features_fill(&h->vulkan, &h->features);
     h->vulkan.features = &h->features.core;
     h->vulkan.extensions = h->extensions;
-    h->vulkan.extension_count =
-        lobe_vulkan_extensions_fill(h->vulkan.physical_device, NULL, h->extensions);
-    h->vulkan.queue_family = lobe_vulkan_queue_family(h->vulkan.physical_device);
+    h->vulkan.extension_count = lobe_vulkan_extensions_fill(&h->vulkan, NULL, h->extensions);
+    h->vulkan.queue_family = lobe_vulkan_queue_family(&h->vulkan);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = h->vulkan.queue_family,

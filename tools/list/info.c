@@ -53,7 +53,7 @@ static int show(const device_options *options) {
     lobe_device_information *devices;
     lobe_device *device;
     size_t count;
-    if (lobe_device_list(&devices, &count, &host) != LOBE_OK)
+    if (lobe_device_list(&(lobe_device_parameters){.host = &host}, &devices, &count) != LOBE_OK)
         return 1;
     print_list(devices, count);
     lobe_device_list_free(&devices, count);

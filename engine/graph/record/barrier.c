@@ -10,11 +10,11 @@ typedef struct barrier_batch {
     uint32_t image_count, buffer_count, memory_count;
 } barrier_batch;
 
-static void record_memory_barrier(VkCommandBuffer commands, const VkMemoryBarrier2 *barrier) {
+static void record_memory_barrier(const lobe_graph *graph, const VkMemoryBarrier2 *barrier) {
     const VkDependencyInfo dependency = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                          .memoryBarrierCount = 1,
                                          .pMemoryBarriers = barrier};
-    vkCmdPipelineBarrier2(commands, &dependency);
+    graph->device->api.vkCmdPipelineBarrier2(graph->commands, &dependency);
 }
 
 void engine_graph_record_start(lobe_graph *graph) {
@@ -25,7 +25,7 @@ void engine_graph_record_start(lobe_graph *graph) {
         .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
         .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
     };
-    record_memory_barrier(graph->commands, &barrier);
+    record_memory_barrier(graph, &barrier);
 }
 
 void engine_graph_record_end(lobe_graph *graph) {
@@ -36,7 +36,7 @@ void engine_graph_record_end(lobe_graph *graph) {
         .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
         .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT,
     };
-    record_memory_barrier(graph->commands, &barrier);
+    record_memory_barrier(graph, &barrier);
 }
 
 /// Content from a former frame has no stage in this one to wait for: its transition must then
@@ -107,7 +107,7 @@ static void add_barrier(const lobe_graph *graph, const engine_dependency_barrier
         add_buffer(graph, barrier, batch);
 }
 
-static void record_batch(VkCommandBuffer commands, const barrier_batch *batch) {
+static void record_batch(const lobe_graph *graph, const barrier_batch *batch) {
     const VkDependencyInfo dependency = {
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
         .memoryBarrierCount = batch->memory_count,
@@ -117,7 +117,7 @@ static void record_batch(VkCommandBuffer commands, const barrier_batch *batch) {
         .imageMemoryBarrierCount = batch->image_count,
         .pImageMemoryBarriers = batch->images,
     };
-    vkCmdPipelineBarrier2(commands, &dependency);
+    graph->device->api.vkCmdPipelineBarrier2(graph->commands, &dependency);
 }
 
 lobe_result engine_graph_record_barriers(lobe_graph *graph, uint32_t position, uint32_t *next) {
@@ -136,6 +136,6 @@ lobe_result engine_graph_record_barriers(lobe_graph *graph, uint32_t position, u
         return engine_graph_fail_memory(graph);
     for (uint32_t n = first; n < *next; n++)
         add_barrier(graph, &dependencies->barriers[n], &batch);
-    record_batch(graph->commands, &batch);
+    record_batch(graph, &batch);
     return LOBE_OK;
 }

@@ -110,8 +110,9 @@ static lobe_result create_pool(lobe_graph *graph) {
         .pPoolSizes = sizes,
     };
     return VULKAN_CHECK(&device->host,
-                        vkCreateDescriptorPool(device->vulkan, &create, device->callbacks,
-                                               &graph->flight->descriptors),
+                        device->api.vkCreateDescriptorPool(device->vulkan, &create,
+                                                           device->callbacks,
+                                                           &graph->flight->descriptors),
                         "render graph");
 }
 
@@ -126,10 +127,11 @@ static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
             large_enough = false;
         }
     if (large_enough)
-        return VULKAN_CHECK(&device->host,
-                            vkResetDescriptorPool(device->vulkan, flight->descriptors, 0),
-                            "render graph");
-    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
+        return VULKAN_CHECK(
+            &device->host,
+            device->api.vkResetDescriptorPool(device->vulkan, flight->descriptors, 0),
+            "render graph");
+    device->api.vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
     flight->descriptors = VK_NULL_HANDLE;
     return create_pool(graph);
 }
@@ -153,9 +155,10 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
         .descriptorSetCount = count,
         .pSetLayouts = layouts,
     };
-    return VULKAN_CHECK(&graph->device->host,
-                        vkAllocateDescriptorSets(graph->device->vulkan, &allocate, flight->sets),
-                        "render graph");
+    return VULKAN_CHECK(
+        &graph->device->host,
+        graph->device->api.vkAllocateDescriptorSets(graph->device->vulkan, &allocate, flight->sets),
+        "render graph");
 }
 
 /// The sets of the flight's last frame serve where this one needs the very same.
@@ -254,7 +257,8 @@ static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {
             if (result != LOBE_OK)
                 return result;
         }
-    vkUpdateDescriptorSets(graph->device->vulkan, batch.count, batch.writes, 0, NULL);
+    graph->device->api.vkUpdateDescriptorSets(graph->device->vulkan, batch.count, batch.writes, 0,
+                                              NULL);
     return LOBE_OK;
 }
 

@@ -63,12 +63,14 @@ static lobe_result begin_recording(lobe_graph *graph) {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
-    lobe_result result = VULKAN_CHECK(
-        &device->host, vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
-        "render graph");
+    lobe_result result =
+        VULKAN_CHECK(&device->host,
+                     device->api.vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
+                     "render graph");
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(&device->host, vkBeginCommandBuffer(graph->commands, &begin),
-                              "render graph");
+        result =
+            VULKAN_CHECK(&device->host, device->api.vkBeginCommandBuffer(graph->commands, &begin),
+                         "render graph");
     return result;
 }
 
@@ -98,7 +100,8 @@ static lobe_result record(lobe_graph *graph, VkCommandBuffer host) {
         result = record_passes(graph);
     if (result == LOBE_OK && !host)
         result =
-            VULKAN_CHECK(&graph->device->host, vkEndCommandBuffer(graph->commands), "render graph");
+            VULKAN_CHECK(&graph->device->host,
+                         graph->device->api.vkEndCommandBuffer(graph->commands), "render graph");
     return result;
 }
 

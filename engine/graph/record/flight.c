@@ -14,10 +14,10 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
         return LOBE_OK;
     lobe_result result = LOBE_OK;
     if (!flight->command_pool)
-        result = VULKAN_CHECK(
-            &device->host,
-            vkCreateCommandPool(device->vulkan, &pool, device->callbacks, &flight->command_pool),
-            "render graph");
+        result = VULKAN_CHECK(&device->host,
+                              device->api.vkCreateCommandPool(
+                                  device->vulkan, &pool, device->callbacks, &flight->command_pool),
+                              "render graph");
     if (result != LOBE_OK)
         return result;
     const VkCommandBufferAllocateInfo commands = {
@@ -26,9 +26,10 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
         .commandBufferCount = 1,
     };
-    return VULKAN_CHECK(&device->host,
-                        vkAllocateCommandBuffers(device->vulkan, &commands, &flight->commands),
-                        "render graph");
+    return VULKAN_CHECK(
+        &device->host,
+        device->api.vkAllocateCommandBuffers(device->vulkan, &commands, &flight->commands),
+        "render graph");
 }
 
 lobe_result engine_graph_create_flights(lobe_graph *graph) {
@@ -86,10 +87,10 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
     engine_graph_retire_flight(graph, flight);
     engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
     engine_staging_destroy(device, &flight->read_back);
-    vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
+    device->api.vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
     lobe_release(flight->sets);
-    vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
-    vkDestroyCommandPool(device->vulkan, flight->command_pool, device->callbacks);
+    device->api.vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
+    device->api.vkDestroyCommandPool(device->vulkan, flight->command_pool, device->callbacks);
 }
 
 void engine_graph_free_flights(lobe_graph *graph) {

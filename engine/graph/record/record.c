@@ -24,21 +24,23 @@ static void bind_command(lobe_graph *graph, const engine_graph_command *command,
     const engine_pipeline *pipeline = command->pipeline;
     const bool bound = before && before->pipeline == pipeline;
     if (!bound)
-        vkCmdBindPipeline(graph->commands, pipeline->bind_point, pipeline->pipeline);
+        graph->device->api.vkCmdBindPipeline(graph->commands, pipeline->bind_point,
+                                             pipeline->pipeline);
     if (!bound || before->set != command->set)
-        vkCmdBindDescriptorSets(graph->commands, pipeline->bind_point, pipeline->layout, 0, 1,
-                                &command->set, 0, NULL);
+        graph->device->api.vkCmdBindDescriptorSets(graph->commands, pipeline->bind_point,
+                                                   pipeline->layout, 0, 1, &command->set, 0, NULL);
     if (constants_size > 0)
-        vkCmdPushConstants(graph->commands, pipeline->layout, pipeline->push_constant_stages, 0,
-                           (uint32_t)constants_size, constants);
+        graph->device->api.vkCmdPushConstants(graph->commands, pipeline->layout,
+                                              pipeline->push_constant_stages, 0,
+                                              (uint32_t)constants_size, constants);
 }
 
 static void record_dispatch(lobe_graph *graph, const engine_graph_command *command,
                             const engine_graph_command *before) {
     bind_command(graph, command, before, command->dispatch.constants,
                  command->dispatch.constants_size);
-    vkCmdDispatch(graph->commands, command->group_count[0], command->group_count[1],
-                  command->group_count[2]);
+    graph->device->api.vkCmdDispatch(graph->commands, command->group_count[0],
+                                     command->group_count[1], command->group_count[2]);
 }
 
 static void record_draw(lobe_graph *graph, const engine_graph_command *command,
@@ -46,14 +48,15 @@ static void record_draw(lobe_graph *graph, const engine_graph_command *command,
     const lobe_draw *draw = &command->draw;
     bind_command(graph, command, before, draw->constants, draw->constants_size);
     if (command->index_access == ENGINE_DEPENDENCY_NONE) {
-        vkCmdDraw(graph->commands, draw->index_count, draw->instance_count, draw->first_index, 0);
+        graph->device->api.vkCmdDraw(graph->commands, draw->index_count, draw->instance_count,
+                                     draw->first_index, 0);
         return;
     }
     const engine_graph_resource *indices = resource_at(graph, command->index_access);
-    vkCmdBindIndexBuffer(graph->commands, indices->object->buffer, indices->offset,
-                         VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(graph->commands, draw->index_count, draw->instance_count, draw->first_index, 0,
-                     0);
+    graph->device->api.vkCmdBindIndexBuffer(graph->commands, indices->object->buffer,
+                                            indices->offset, VK_INDEX_TYPE_UINT32);
+    graph->device->api.vkCmdDrawIndexed(graph->commands, draw->index_count, draw->instance_count,
+                                        draw->first_index, 0, 0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -137,7 +140,7 @@ static lobe_result begin_rendering(lobe_graph *graph, const lobe_pass *pass) {
         .pColorAttachments = colours,
         .pDepthAttachment = depth.imageView ? &depth : NULL,
     };
-    vkCmdBeginRendering(graph->commands, &rendering);
+    graph->device->api.vkCmdBeginRendering(graph->commands, &rendering);
     return LOBE_OK;
 }
 
@@ -148,12 +151,12 @@ static lobe_result record_raster(lobe_graph *graph, const lobe_pass *pass) {
     const VkViewport viewport = {
         .width = (float)pass->extent.width, .height = (float)pass->extent.height, .maxDepth = 1};
     const VkRect2D scissor = {.extent = pass->extent};
-    vkCmdSetViewport(graph->commands, 0, 1, &viewport);
-    vkCmdSetScissor(graph->commands, 0, 1, &scissor);
+    graph->device->api.vkCmdSetViewport(graph->commands, 0, 1, &viewport);
+    graph->device->api.vkCmdSetScissor(graph->commands, 0, 1, &scissor);
     for (const engine_graph_command *command = pass->first_command, *before = NULL; command;
          before = command, command = command->next)
         record_draw(graph, command, before);
-    vkCmdEndRendering(graph->commands);
+    graph->device->api.vkCmdEndRendering(graph->commands);
     return LOBE_OK;
 }
 
@@ -180,9 +183,9 @@ static void copy_images(lobe_graph *graph, const engine_graph_command *command) 
         const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, n),
                                   .dstSubresource = layers_of(target, &to->range, n),
                                   .extent = level_extent(source, from->range.first_level + n)};
-        vkCmdCopyImage(graph->commands, source->object->image,
-                       engine_graph_vulkan_layout(from->state.layout), target->object->image,
-                       engine_graph_vulkan_layout(to->state.layout), 1, &copy);
+        graph->device->api.vkCmdCopyImage(
+            graph->commands, source->object->image, engine_graph_vulkan_layout(from->state.layout),
+            target->object->image, engine_graph_vulkan_layout(to->state.layout), 1, &copy);
     }
 }
 
@@ -195,7 +198,8 @@ static void record_copy(lobe_graph *graph, const engine_graph_command *command) 
     }
     const VkBufferCopy copy = {
         .srcOffset = source->offset, .dstOffset = target->offset, .size = source->size};
-    vkCmdCopyBuffer(graph->commands, source->object->buffer, target->object->buffer, 1, &copy);
+    graph->device->api.vkCmdCopyBuffer(graph->commands, source->object->buffer,
+                                       target->object->buffer, 1, &copy);
 }
 
 static void fill_image(lobe_graph *graph, const engine_graph_command *command) {
@@ -210,10 +214,11 @@ static void fill_image(lobe_graph *graph, const engine_graph_command *command) {
     memcpy(colour.float32, command->value, sizeof colour.float32);
     const VkClearDepthStencilValue depth = {.depth = command->value[0]};
     if (aspect == VK_IMAGE_ASPECT_DEPTH_BIT)
-        vkCmdClearDepthStencilImage(graph->commands, target->object->image, layout, &depth, 1,
-                                    &range);
+        graph->device->api.vkCmdClearDepthStencilImage(graph->commands, target->object->image,
+                                                       layout, &depth, 1, &range);
     else
-        vkCmdClearColorImage(graph->commands, target->object->image, layout, &colour, 1, &range);
+        graph->device->api.vkCmdClearColorImage(graph->commands, target->object->image, layout,
+                                                &colour, 1, &range);
 }
 
 static void record_fill(lobe_graph *graph, const engine_graph_command *command) {
@@ -224,7 +229,8 @@ static void record_fill(lobe_graph *graph, const engine_graph_command *command) 
         return;
     }
     memcpy(&bits, command->value, sizeof bits);
-    vkCmdFillBuffer(graph->commands, target->object->buffer, target->offset, VK_WHOLE_SIZE, bits);
+    graph->device->api.vkCmdFillBuffer(graph->commands, target->object->buffer, target->offset,
+                                       VK_WHOLE_SIZE, bits);
 }
 
 static void read_back_image(lobe_graph *graph, const engine_graph_command *command) {
@@ -236,9 +242,9 @@ static void read_back_image(lobe_graph *graph, const engine_graph_command *comma
         const VkBufferImageCopy copy = {.bufferOffset = offset,
                                         .imageSubresource = layers_of(source, &access->range, n),
                                         .imageExtent = extent};
-        vkCmdCopyImageToBuffer(graph->commands, source->object->image,
-                               engine_graph_vulkan_layout(access->state.layout),
-                               graph->flight->read_back.buffer, 1, &copy);
+        graph->device->api.vkCmdCopyImageToBuffer(graph->commands, source->object->image,
+                                                  engine_graph_vulkan_layout(access->state.layout),
+                                                  graph->flight->read_back.buffer, 1, &copy);
         offset += (VkDeviceSize)extent.width * extent.height * access->range.layer_count *
                   lobe_format_size(source->format);
     }
@@ -253,8 +259,8 @@ static void record_read_back(lobe_graph *graph, const engine_graph_command *comm
     const VkBufferCopy copy = {.srcOffset = source->offset,
                                .dstOffset = command->read_back_offset,
                                .size = command->read_back_size};
-    vkCmdCopyBuffer(graph->commands, source->object->buffer, graph->flight->read_back.buffer, 1,
-                    &copy);
+    graph->device->api.vkCmdCopyBuffer(graph->commands, source->object->buffer,
+                                       graph->flight->read_back.buffer, 1, &copy);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -38,12 +38,14 @@ lobe_result engine_graph_bind_object(lobe_device *device, const char *name,
                                      const engine_allocation *allocation, uint64_t offset) {
     if (object->image)
         return VULKAN_CHECK(&device->host,
-                            vkBindImageMemory(device->vulkan, object->image, allocation->memory,
-                                              allocation->offset + offset),
+                            device->api.vkBindImageMemory(device->vulkan, object->image,
+                                                          allocation->memory,
+                                                          allocation->offset + offset),
                             "image '%s'", name);
     return VULKAN_CHECK(&device->host,
-                        vkBindBufferMemory(device->vulkan, object->buffer, allocation->memory,
-                                           allocation->offset + offset),
+                        device->api.vkBindBufferMemory(device->vulkan, object->buffer,
+                                                       allocation->memory,
+                                                       allocation->offset + offset),
                         "buffer '%s'", name);
 }
 
@@ -51,15 +53,15 @@ void engine_graph_free_views(lobe_device *device, engine_graph_object *object) {
     while (object->views) {
         engine_graph_view *view = object->views;
         object->views = view->next;
-        vkDestroyImageView(device->vulkan, view->view, device->callbacks);
+        device->api.vkDestroyImageView(device->vulkan, view->view, device->callbacks);
         lobe_release(view);
     }
 }
 
 void engine_graph_free_object(lobe_device *device, engine_graph_object *object) {
     engine_graph_free_views(device, object);
-    vkDestroyImage(device->vulkan, object->image, device->callbacks);
-    vkDestroyBuffer(device->vulkan, object->buffer, device->callbacks);
+    device->api.vkDestroyImage(device->vulkan, object->image, device->callbacks);
+    device->api.vkDestroyBuffer(device->vulkan, object->buffer, device->callbacks);
     *object = (engine_graph_object){0};
 }
 

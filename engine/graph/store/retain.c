@@ -55,8 +55,8 @@ static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resourc
                VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(graph->device->physical,
-                                        engine_format_vulkan(resource->format), &properties);
+    graph->device->instance.api.vkGetPhysicalDeviceFormatProperties(
+        graph->device->physical, engine_format_vulkan(resource->format), &properties);
     VkFlags usage = resource->usage | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                     VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (resource->samples == 1 &&

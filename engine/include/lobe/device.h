@@ -29,6 +29,11 @@ typedef enum lobe_device_type {
 /// "discrete GPU", "CPU" and so on. Never NULL.
 const char *lobe_device_type_name(lobe_device_type type);
 
+struct VkInstance_T;
+/// The type of Vulkan's vkGetInstanceProcAddr, without Vulkan's headers.
+typedef void (*(*lobe_get_instance_proc_addr)(struct VkInstance_T *instance,
+                                              const char *name))(void);
+
 typedef struct lobe_device_parameters {
     /// Which device: an index ("0"), or a part of its name in any case ("llvmpipe", "radeon").
     /// NULL: the best suited, discrete GPU before integrated before virtual before CPU.
@@ -45,13 +50,17 @@ typedef struct lobe_device_parameters {
     /// Most bytes of device memory to take; an allocation above fails with
     /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY. 0: no limit but the device's own.
     uint64_t memory_limit;
+    /// Where lobe gets Vulkan's functions: the vkGetInstanceProcAddr of the host's loader, for
+    /// example one that is linked statically. NULL: that of libvulkan.so.1, loaded when needed.
+    lobe_get_instance_proc_addr get_instance_proc_addr;
     /// Copied. NULL: silent. Its allocator serves the device and all that is made on it.
     const lobe_host *host;
 } lobe_device_parameters;
 
 /// Creates a device. `parameters` may be NULL for all defaults. On failure `*device` is NULL.
-/// Errors: LOBE_ERROR_NO_DEVICE (none at all, none matches `select`, or the one selected lacks a
-/// required feature: the log line names it), LOBE_ERROR_UNSUPPORTED (no validation layer).
+/// Errors: LOBE_ERROR_NO_DEVICE (no Vulkan loader, no device at all, none matches `select`, or the
+/// one selected lacks a required feature: the log line names it), LOBE_ERROR_UNSUPPORTED (no
+/// validation layer).
 lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_device **device);
 
 /// Waits for the device, saves the pipeline cache, frees everything and clears the pointer.
@@ -87,9 +96,10 @@ typedef struct lobe_device_information {
 const lobe_device_information *lobe_device_describe(const lobe_device *device);
 
 /// Lists every Vulkan device of this machine, suited or not, as information that the caller
-/// frees with lobe_device_list_free. LOBE_ERROR_NO_DEVICE where there is none.
-lobe_result lobe_device_list(lobe_device_information **devices, size_t *count,
-                             const lobe_host *host);
+/// frees with lobe_device_list_free. LOBE_ERROR_NO_DEVICE where there is none. Of `parameters`,
+/// which may be NULL, `get_instance_proc_addr` and `host` count.
+lobe_result lobe_device_list(const lobe_device_parameters *parameters,
+                             lobe_device_information **devices, size_t *count);
 void lobe_device_list_free(lobe_device_information **devices, size_t count);
 
 typedef struct lobe_device_memory {

@@ -20,18 +20,20 @@ extern "C" {
 /// lobe inside a program that has Vulkan of its own: its device, its images, its semaphores. The
 /// one header of lobe that speaks of Vulkan; lobe/lobe.h does not bring it.
 ///
-/// lobe is linked to the loader's shared library (libvulkan.so.1) and calls its functions, so that
-/// layers see what lobe does as they see what the host does. Instance, device and queue must come
-/// from that same library: by its functions, or by pointers that a host got of its
-/// vkGetInstanceProcAddr and vkGetDeviceProcAddr after dlopen() (as volk does: a process has the
-/// library once). A loader that is linked statically into the host is another one, whose handles
-/// lobe cannot use.
+/// lobe refers to no function of Vulkan by name: it asks the host's vkGetInstanceProcAddr for them,
+/// or, where the host gives none, that of libvulkan.so.1, which it loads. Instance, device and
+/// queue must come from that same loader. A host that links a loader statically therefore gives its
+/// vkGetInstanceProcAddr; one that links libvulkan, or loads it as volk does, need not. Layers see
+/// what lobe does as they see what the host does.
 
 // ---------------------------------------------------------------------------------------------
 // What lobe needs of a device
 
 /// The version of Vulkan that instance and device must offer, and VkApplicationInfo ask for.
 #define LOBE_VULKAN_API_VERSION VK_API_VERSION_1_3
+
+/// See "Devices".
+typedef struct lobe_vulkan_device lobe_vulkan_device;
 
 /// Features in the form in which devices are asked for them.
 typedef struct lobe_vulkan_features {
@@ -45,11 +47,14 @@ typedef struct lobe_vulkan_features {
 /// false. Static storage.
 const lobe_device_feature *lobe_vulkan_feature_list(size_t *count);
 
+/// Where the functions below take a lobe_vulkan_device, they read its `get_instance_proc_addr`,
+/// `instance` and `physical_device` only: the device need not have been made.
+
 /// Turns on whatever of that list the device has, in structures chained for
 /// VkDeviceCreateInfo.pNext (`features->core` is the first). A host turns on what it needs itself
 /// beside these, and may append its own structures to `features->vulkan_1_3.pNext`. The structures
 /// point to one another: they must stay where they are.
-void lobe_vulkan_features_fill(VkPhysicalDevice physical_device, lobe_vulkan_features *features);
+void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_features *features);
 
 /// A device extension that lobe makes use of.
 typedef struct lobe_vulkan_extension {
@@ -66,27 +71,29 @@ const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count);
 /// The names of those the device has, for VkDeviceCreateInfo.ppEnabledExtensionNames; returns how
 /// many. Static storage. There are none without memory, which `allocator` gives for the call; NULL:
 /// the C library's.
-uint32_t lobe_vulkan_extensions_fill(VkPhysicalDevice physical_device,
+uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
                                      const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]);
 
 /// The first queue family that serves lobe: one with both graphics and compute. UINT32_MAX where
 /// the device has none.
-uint32_t lobe_vulkan_queue_family(VkPhysicalDevice physical_device);
+uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host);
 
 /// Says in words what lobe requires and a device lacks, one thing a line: "feature
 /// synchronization2 (barriers of the render graph)". `enabled`: what the host turned on, or is
 /// about to, as for lobe_vulkan_device; NULL: what the device itself offers is looked at.
 /// Returns how many things are missing; 0: the device serves. `text` is cut to `size` bytes with
 /// the zero at its end, and may be NULL where `size` is 0.
-size_t lobe_vulkan_missing(VkPhysicalDevice physical_device,
-                           const VkPhysicalDeviceFeatures2 *enabled, char *text, size_t size);
+size_t lobe_vulkan_missing(const lobe_vulkan_device *host, const VkPhysicalDeviceFeatures2 *enabled,
+                           char *text, size_t size);
 
 // ---------------------------------------------------------------------------------------------
 // Devices
 
 /// A device with the queue that lobe submits to.
-typedef struct lobe_vulkan_device {
+struct lobe_vulkan_device {
+    /// The loader that all handles come from. NULL: libvulkan.so.1.
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
     VkInstance instance; ///< made for LOBE_VULKAN_API_VERSION or later
     VkPhysicalDevice physical_device;
     VkDevice device;
@@ -109,14 +116,15 @@ typedef struct lobe_vulkan_device {
     void (*lock_queue)(void *user);
     void (*unlock_queue)(void *user);
     void *user; ///< handed to both
-} lobe_vulkan_device;
+};
 
 /// Makes a lobe device of a host's. lobe_device_destroy waits for lobe's submissions and frees
 /// what is lobe's; instance, device and queue stay as they are, and must live until then.
-/// `parameters` may be NULL; `select` and `validation` are the host's business and must be empty.
+/// `parameters` may be NULL; `select`, `validation` and
+/// `get_instance_proc_addr` are the host's business and must be empty.
 /// Validation messages go to the host's messenger; lobe_device_validation_count stays 0.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (a handle or the features are missing, one callback without
-/// the other), LOBE_ERROR_NO_DEVICE (the log line says what the device lacks).
+/// the other), LOBE_ERROR_NO_DEVICE (the log line says what the device or its loader lacks).
 lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
                                       const lobe_device_parameters *parameters,
                                       lobe_device **device);

@@ -63,7 +63,9 @@ static void devices_are_listed_and_selected(void **state) {
     (void)state;
     lobe_device_information *devices = NULL;
     size_t count = 0;
-    assert_int_equal(lobe_device_list(&devices, &count, &recorder.host), LOBE_OK);
+    assert_int_equal(
+        lobe_device_list(&(lobe_device_parameters){.host = &recorder.host}, &devices, &count),
+        LOBE_OK);
     assert_true(count > 0);
     for (size_t i = 0; i < count; i++) {
         const char index[] = {(char)('0' + i), '\0'};
@@ -107,7 +109,9 @@ static void without_a_driver_there_is_no_device(void **state) {
     setenv("VK_DRIVER_FILES", "/nonexistent", 1);
     setenv("VK_ICD_FILENAMES", "/nonexistent", 1);
     assert_refused(NULL);
-    assert_int_equal(lobe_device_list(&devices, &count, &recorder.host), LOBE_ERROR_NO_DEVICE);
+    assert_int_equal(
+        lobe_device_list(&(lobe_device_parameters){.host = &recorder.host}, &devices, &count),
+        LOBE_ERROR_NO_DEVICE);
     assert_null(devices);
     assert_int_equal(count, 0);
     assert_int_equal(recorder.errors, 2);

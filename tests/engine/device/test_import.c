@@ -180,24 +180,23 @@ static void recommended_features_are_turned_on(void **state) {
 static void missing_features_are_told_in_words(void **state) {
     (void)state;
     char text[256];
-    VkPhysicalDevice physical = host.vulkan.physical_device;
-    assert_int_equal(lobe_vulkan_missing(physical, NULL, text, sizeof text), 0);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, NULL, text, sizeof text), 0);
     assert_string_equal(text, "");
-    assert_int_equal(lobe_vulkan_missing(physical, &host.features.core, text, sizeof text), 0);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, &host.features.core, text, sizeof text), 0);
     lobe_vulkan_features less;
-    lobe_vulkan_features_fill(physical, &less);
+    lobe_vulkan_features_fill(&host.vulkan, &less);
     less.vulkan_1_3.synchronization2 = VK_FALSE;
     less.vulkan_1_2.timelineSemaphore = VK_FALSE;
     less.core.features.samplerAnisotropy = VK_FALSE; // not required
-    assert_int_equal(lobe_vulkan_missing(physical, &less.core, text, sizeof text), 2);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, sizeof text), 2);
     assert_string_equal(text, "feature synchronization2 (barriers of the render graph)\n"
                               "feature timelineSemaphore (knowing when a frame is done)");
     // Cut, and without any room.
-    assert_int_equal(lobe_vulkan_missing(physical, &less.core, text, 20), 2);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, 20), 2);
     assert_string_equal(text, "feature synchroniza");
-    assert_int_equal(lobe_vulkan_missing(physical, &less.core, NULL, 0), 2);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, NULL, 0), 2);
     assert_int_equal(
-        lobe_vulkan_missing(physical, &(VkPhysicalDeviceFeatures2){0}, text, sizeof text), 7);
+        lobe_vulkan_missing(&host.vulkan, &(VkPhysicalDeviceFeatures2){0}, text, sizeof text), 7);
 }
 
 /// Hosts may turn each feature on by a structure of its own.
@@ -215,8 +214,7 @@ static void single_structures_count(void **state) {
         .pNext = &maintenance};
     VkPhysicalDeviceFeatures2 features = {.pNext = &other};
     char text[512];
-    assert_int_equal(lobe_vulkan_missing(host.vulkan.physical_device, &features, text, sizeof text),
-                     5);
+    assert_int_equal(lobe_vulkan_missing(&host.vulkan, &features, text, sizeof text), 5);
     assert_null(strstr(text, "dynamicRendering"));
     assert_null(strstr(text, "maintenance4"));
 }
@@ -241,12 +239,15 @@ static void unsuited_devices_are_refused(void **state) {
     host.features.vulkan_1_3.maintenance4 = VK_TRUE;
     host.vulkan.queue_family = 77;
     assert_refused(LOBE_ERROR_NO_DEVICE, NULL, "queue family 77");
-    host.vulkan.queue_family = lobe_vulkan_queue_family(host.vulkan.physical_device);
+    host.vulkan.queue_family = lobe_vulkan_queue_family(&host.vulkan);
     host.vulkan.lock_queue = lock;
     assert_refused(LOBE_ERROR_INVALID_ARGUMENT, NULL, "callback");
     host.vulkan.lock_queue = NULL;
     assert_refused(LOBE_ERROR_INVALID_ARGUMENT, &(lobe_device_parameters){.validation = true},
-                   "host's business");
+                   "chosen by the host");
+    assert_refused(LOBE_ERROR_INVALID_ARGUMENT,
+                   &(lobe_device_parameters){.get_instance_proc_addr = vkGetInstanceProcAddr},
+                   "chosen by the host");
     host.vulkan.features = NULL;
     assert_refused(LOBE_ERROR_INVALID_ARGUMENT, NULL, "features");
     host.vulkan.features = &host.features.core;

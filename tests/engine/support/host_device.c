@@ -64,12 +64,11 @@ static void open_device(host_device *host) {
     assert_true(vkEnumeratePhysicalDevices(vulkan->instance, &count, &vulkan->physical_device) >=
                 VK_SUCCESS);
     assert_int_equal(count, 1);
-    lobe_vulkan_features_fill(vulkan->physical_device, &host->features);
+    lobe_vulkan_features_fill(vulkan, &host->features);
     vulkan->features = &host->features.core;
     vulkan->extensions = host->extensions;
-    vulkan->extension_count =
-        lobe_vulkan_extensions_fill(vulkan->physical_device, NULL, host->extensions);
-    vulkan->queue_family = lobe_vulkan_queue_family(vulkan->physical_device);
+    vulkan->extension_count = lobe_vulkan_extensions_fill(vulkan, NULL, host->extensions);
+    vulkan->queue_family = lobe_vulkan_queue_family(vulkan);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,

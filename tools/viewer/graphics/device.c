@@ -17,8 +17,16 @@ static lobe_result create_instance(viewer_device *device, bool validation) {
         return lobe_host_fail(&device->host, LOBE_ERROR_NO_DEVICE,
                               "window: Vulkan offers no surfaces here");
     device->validation = (engine_validation){&device->host, &device->fault_count};
-    return engine_instance_create_with(&device->host, validation ? &device->validation : NULL,
-                                       extensions, count, &device->instance);
+    const engine_instance_parameters wanted = {
+        .get_instance_proc_addr = vkGetInstanceProcAddr,
+        .validation = validation ? &device->validation : NULL,
+        .extensions = extensions,
+        .extension_count = count,
+    };
+    const lobe_result result = engine_instance_create(&device->host, &wanted, &device->instance);
+    device->vulkan.get_instance_proc_addr = vkGetInstanceProcAddr;
+    device->vulkan.instance = device->instance.vulkan;
+    return result;
 }
 
 lobe_result viewer_device_renew_surface(viewer_device *device, struct GLFWwindow *window) {
@@ -34,7 +42,7 @@ static lobe_result choose(viewer_device *device, const char *select) {
     engine_candidate *candidates = NULL;
     size_t count = 0, selected = 0;
     lobe_result result =
-        engine_candidates_list(device->instance.vulkan, &device->host, &candidates, &count);
+        engine_candidates_list(&device->instance, &device->host, &candidates, &count);
     if (result == LOBE_OK)
         result = engine_candidates_select(candidates, count, select, &device->host, &selected);
     VkBool32 presents = VK_FALSE;
@@ -61,8 +69,8 @@ static lobe_result create_device(viewer_device *device) {
     lobe_vulkan_device *vulkan = &device->vulkan;
     lobe_vulkan_features features;
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS + 1];
-    lobe_vulkan_features_fill(vulkan->physical_device, &features);
-    uint32_t count = lobe_vulkan_extensions_fill(vulkan->physical_device, NULL, extensions);
+    lobe_vulkan_features_fill(vulkan, &features);
+    uint32_t count = lobe_vulkan_extensions_fill(vulkan, NULL, extensions);
     extensions[count++] = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -81,7 +89,6 @@ static lobe_result create_device(viewer_device *device) {
     if (result != LOBE_OK)
         return result;
     vkGetDeviceQueue(vulkan->device, vulkan->queue_family, 0, &vulkan->queue);
-    vulkan->instance = device->instance.vulkan;
     vulkan->debug_utils = device->instance.debug_utils;
     vulkan->features = &features.core;
     vulkan->extensions = extensions;
