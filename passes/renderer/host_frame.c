@@ -1,7 +1,7 @@
 #include "passes/renderer/host_frame.h"
 
 bool passes_host_frame_delivers(const lobe_render_parameters *parameters) {
-    return !parameters->discard && !parameters->submission;
+    return !parameters->discard && !parameters->host.submission;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -20,7 +20,7 @@ static lobe_result check_extent(const lobe_render_parameters *parameters, const 
 
 lobe_result passes_host_frame_import(lobe_graph *graph, const lobe_render_parameters *parameters,
                                      const lobe_host *host, shading_targets *imported) {
-    const lobe_render_target *target = parameters->target;
+    const lobe_render_target *target = parameters->host.target;
     *imported = (shading_targets){0};
     if (!target)
         return LOBE_OK;
@@ -58,9 +58,9 @@ static void add_passes(lobe_graph *graph, const lobe_render_parameters *paramete
         .normal_depth = targets->normal_depth,
         .lobes_level = targets->lobes_level,
     };
-    if (!parameters->add_passes)
+    if (!parameters->host.add_passes)
         return;
-    parameters->add_passes(parameters->user, graph, stage, &resources);
+    parameters->host.add_passes(parameters->host.user, graph, stage, &resources);
     targets->radiance = resources.radiance;
     targets->depth = resources.depth;
     targets->normal_depth = resources.normal_depth;
@@ -88,6 +88,6 @@ void passes_host_frame_after(lobe_graph *graph, const lobe_render_parameters *pa
 // Execution
 
 lobe_result passes_host_frame_run(lobe_graph *graph, const lobe_render_parameters *parameters) {
-    return parameters->submission ? lobe_graph_submit(graph, parameters->submission)
-                                  : lobe_graph_execute(graph);
+    return parameters->host.submission ? lobe_graph_submit(graph, parameters->host.submission)
+                                       : lobe_graph_execute(graph);
 }

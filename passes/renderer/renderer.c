@@ -215,7 +215,7 @@ static lobe_result out_of_memory(const rendering *r) {
 
 static lobe_result execute(rendering *r, lobe_frame *frame) {
     lobe_result result = passes_host_frame_run(r->renderer->graph, r->parameters);
-    if (result != LOBE_OK || r->parameters->submission)
+    if (result != LOBE_OK || r->parameters->host.submission)
         return result;
     passes_environment_light_save(&r->context);
     return passes_pass_times_add(frame, lobe_graph_describe(r->renderer->graph),
@@ -253,7 +253,7 @@ static void draw_once(rendering *r, bool outputs, const shading_targets *importe
 static lobe_result take_images(const rendering *r, bool outputs, const shading_targets *targets,
                                lobe_frame *frame) {
     lobe_result result = LOBE_OK;
-    if (!r->parameters->target)
+    if (!r->parameters->host.target)
         result = take_image(r, targets->radiance, LOBE_FORMAT_RGBA32_FLOAT, &frame->radiance);
     if (result == LOBE_OK && outputs)
         result =
@@ -266,14 +266,14 @@ static lobe_result take_images(const rendering *r, bool outputs, const shading_t
 /// One shading pass at the pixels' centres. `outputs`: with arbitrary output variables.
 static lobe_result render_once(rendering *r, bool outputs, lobe_frame *frame) {
     shading_targets imported, targets;
-    lobe_graph_set_frames_in_flight(r->renderer->graph, r->parameters->frames_in_flight);
+    lobe_graph_set_frames_in_flight(r->renderer->graph, r->parameters->host.frames_in_flight);
     lobe_graph_begin(r->renderer->graph);
     lobe_result result = import_target(r, &imported);
     if (result != LOBE_OK)
         return result;
     build_maps(r, frame);
     draw_once(r, outputs, &imported, &targets);
-    if (r->parameters->target)
+    if (r->parameters->host.target)
         lobe_graph_output(r->renderer->graph, targets.radiance);
     else
         want(r, targets.radiance);
@@ -321,7 +321,7 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
 }
 
 static bool progress(const rendering *r, double part) {
-    return !r->parameters->progress || r->parameters->progress(r->parameters->user, part);
+    return !r->parameters->host.progress || r->parameters->host.progress(r->parameters->host.user, part);
 }
 
 static lobe_result take_mean(rendering *r, lobe_frame *frame) {
@@ -341,7 +341,7 @@ static lobe_result render_reference(rendering *r, lobe_frame *frame) {
         if (!r->sum)
             return out_of_memory(r);
     }
-    if (r->parameters->arbitrary_output_variables) {
+    if (r->parameters->aov) {
         result = render_once(r, true, frame);
         lobe_image_free(&frame->radiance);
     }
@@ -380,7 +380,7 @@ static lobe_result measure_target(rendering *r) {
 static lobe_result draw_mean(rendering *r, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
     shading_targets imported, targets = {.width = r->width, .height = r->height};
-    lobe_graph_set_frames_in_flight(graph, r->parameters->frames_in_flight);
+    lobe_graph_set_frames_in_flight(graph, r->parameters->host.frames_in_flight);
     lobe_graph_begin(graph);
     lobe_result result = import_target(r, &imported);
     if (result != LOBE_OK)
@@ -398,11 +398,11 @@ static lobe_result draw_mean(rendering *r, lobe_frame *frame) {
 static lobe_result render_reference_into_target(rendering *r, lobe_frame *frame) {
     const lobe_render_parameters *wanted = r->parameters;
     lobe_render_parameters delivered = *wanted;
-    delivered.target = NULL;
-    delivered.submission = NULL;
-    delivered.arbitrary_output_variables &= !wanted->submission;
+    delivered.host.target = NULL;
+    delivered.host.submission = NULL;
+    delivered.aov &= !wanted->host.submission;
     lobe_result result = measure_target(r);
-    r->without_background = wanted->target->keep;
+    r->without_background = wanted->host.target->keep;
     r->parameters = &delivered;
     if (result == LOBE_OK)
         result = render_reference(r, frame);
@@ -413,9 +413,9 @@ static lobe_result render_reference_into_target(rendering *r, lobe_frame *frame)
 
 static lobe_result render(rendering *r, lobe_frame *frame) {
     if (!r->context.filter->supersamples)
-        return render_once(r, r->parameters->arbitrary_output_variables, frame);
-    return r->parameters->target ? render_reference_into_target(r, frame)
-                                 : render_reference(r, frame);
+        return render_once(r, r->parameters->aov, frame);
+    return r->parameters->host.target ? render_reference_into_target(r, frame)
+                                      : render_reference(r, frame);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -428,9 +428,9 @@ static lobe_result refuse(const lobe_host *host, lobe_result result, const char 
 
 /// Whether the host wants what a picture in many parts cannot give.
 static bool asks_for_one_submission(const lobe_render_parameters *parameters) {
-    const lobe_render_target *target = parameters->target;
-    return parameters->add_passes || (target && target->depth) ||
-           (parameters->submission && !target);
+    const lobe_render_target *target = parameters->host.target;
+    return parameters->host.add_passes || (target && target->depth) ||
+           (parameters->host.submission && !target);
 }
 
 static lobe_result check(const rendering *r) {
@@ -457,8 +457,8 @@ static lobe_result check(const rendering *r) {
 /// What a frame reads back is there when the next is begun, unless more are in flight: of those in
 /// commands of the host, only the host knows when they are finished.
 static bool keeps_environment(const lobe_render_parameters *parameters) {
-    return parameters->environment_cache &&
-           (!parameters->submission || parameters->frames_in_flight <= 1);
+    return parameters->environment.cache &&
+           (!parameters->host.submission || parameters->host.frames_in_flight <= 1);
 }
 
 static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters *parameters,
@@ -468,8 +468,8 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .parameters = parameters,
         .width = parameters->width ? parameters->width : 1280,
         .height = parameters->height ? parameters->height : 720,
-        .samples = parameters->samples ? parameters->samples : 64,
-        .pattern = parameters->pattern,
+        .samples = parameters->reference.samples ? parameters->reference.samples : 64,
+        .pattern = parameters->reference.pattern,
     };
     lobe_result result = check(r);
     if (result != LOBE_OK)
@@ -496,8 +496,8 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .height = r->height,
         .images = &r->images,
         .environment = &renderer->environment,
-        .environment_parts = parameters->environment_parts,
-        .environment_cache = parameters->environment_cache,
+        .environment_parts = parameters->environment.parts,
+        .environment_cache = parameters->environment.cache,
         .keeps_environment = keeps_environment(parameters),
         .host = &renderer->host,
     };
@@ -529,7 +529,7 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     if (result != LOBE_OK)
         return result;
     warn_of_limits(&r);
-    if (parameters->rebuild && parameters->keep_environment)
+    if (parameters->rebuild && parameters->environment.keep)
         lobe_graph_invalidate_except(renderer->graph, ENVIRONMENT_MAP_PREFIX);
     else if (parameters->rebuild)
         lobe_graph_invalidate(renderer->graph);

@@ -29,11 +29,11 @@ static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_fo
 }
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                               bool arbitrary_output_variables) {
+                                               bool aov) {
     shading_targets targets = {.width = width, .height = height};
     targets.radiance = declare_target(graph, "radiance", LOBE_FORMAT_RGBA32_FLOAT, width, height);
     targets.depth = declare_target(graph, "depth", LOBE_FORMAT_D32_FLOAT, width, height);
-    if (arbitrary_output_variables) {
+    if (aov) {
         targets.normal_depth =
             declare_target(graph, "normal and depth", LOBE_FORMAT_RGBA32_FLOAT, width, height);
         targets.lobes_level =

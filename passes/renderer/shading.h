@@ -19,7 +19,7 @@ typedef struct shading_targets {
 } shading_targets;
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                               bool arbitrary_output_variables);
+                                               bool aov);
 
 /// All that lights the scene, once for all shading passes of a frame.
 typedef struct shading_light {

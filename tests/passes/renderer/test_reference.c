@@ -291,10 +291,9 @@ static void progress_grows_to_one_and_may_stop(void **state) {
     lobe_render_parameters parameters = {.filter = filter_named("reference"),
                                          .width = 4,
                                          .height = 4,
-                                         .samples = 64,
-                                         .arbitrary_output_variables = true,
-                                         .progress = record_progress,
-                                         .user = &record};
+                                         .reference.samples = 64,
+                                         .aov = true,
+                                         .host = {.progress = record_progress, .user = &record}};
     lobe_frame frame;
     assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
     assert_true(record.calls > 1 && record.last == 1);
@@ -315,13 +314,13 @@ static void samples_have_a_limit(void **state) {
     lobe_scene *scene = board_scene(5, 0.2);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     lobe_render_parameters parameters = {
-        .filter = filter_named("reference"), .width = 2, .height = 2, .samples = 4097};
+        .filter = filter_named("reference"), .width = 2, .height = 2, .reference.samples = 4097};
     lobe_frame frame;
     fixture_forget_messages(f);
     lobe_result result = lobe_renderer_render(f->renderer, &parameters, &frame);
     assert_failure(f, result, LOBE_ERROR_INVALID_ARGUMENT, "4096");
     assert_null(frame.radiance.texels);
-    parameters.samples = LOBE_MAXIMUM_SAMPLES;
+    parameters.reference.samples = LOBE_MAXIMUM_SAMPLES;
     assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
     assert_true(all_finite(&frame.radiance));
     lobe_frame_free(&frame);
