@@ -33,6 +33,7 @@ typedef struct rendering {
     lobe_renderer *renderer;
     const lobe_render_parameters *parameters;
     filter_context context;
+    environment_work environment;
     lobe_settings settings;
     filtered_images images;
     uint32_t width, height, samples, pattern;
@@ -107,7 +108,7 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->warned = NULL;
     if (result == LOBE_OK && changes->environment)
-        passes_environment_light_change(&renderer->environment);
+        passes_environment_light_invalidate(&renderer->environment);
     if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
         result != LOBE_ERROR_MALFORMED)
         forget_scene(renderer);
@@ -217,7 +218,7 @@ static lobe_result execute(rendering *r, lobe_frame *frame) {
     lobe_result result = passes_host_frame_run(r->renderer->graph, r->parameters);
     if (result != LOBE_OK || r->parameters->host.submission)
         return result;
-    passes_environment_light_save(&r->context);
+    passes_environment_light_save(&r->environment, r->renderer->graph, &r->renderer->host);
     return passes_pass_times_add(frame, lobe_graph_describe(r->renderer->graph),
                                  r->renderer->host.allocator)
                ? LOBE_OK
@@ -245,7 +246,7 @@ static void draw_once(rendering *r, bool outputs, const shading_targets *importe
     *targets = passes_shading_targets_declare(graph, r->width, r->height, outputs);
     passes_host_frame_replace(imported, targets);
     passes_host_frame_before(graph, r->parameters, targets);
-    shading_light light = passes_shading_light_prepare(&r->context);
+    shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     passes_shading(&r->context, r->renderer->appearances, &light, &centre, targets);
     passes_host_frame_after(graph, r->parameters, targets);
 }
@@ -294,7 +295,7 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
     build_maps(r, frame);
     shading_targets targets = passes_shading_targets_declare(graph, r->width, r->height, false);
     targets.without_background = r->without_background;
-    shading_light light = passes_shading_light_prepare(&r->context);
+    shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     lobe_resource sum =
         lobe_graph_image(graph, &(lobe_image_description){.name = "sum of samples",
                                                           .format = LOBE_FORMAT_RGBA32_FLOAT,
@@ -321,7 +322,8 @@ static lobe_result render_samples(rendering *r, uint32_t first, uint32_t count, 
 }
 
 static bool progress(const rendering *r, double part) {
-    return !r->parameters->host.progress || r->parameters->host.progress(r->parameters->host.user, part);
+    return !r->parameters->host.progress ||
+           r->parameters->host.progress(r->parameters->host.user, part);
 }
 
 static lobe_result take_mean(rendering *r, lobe_frame *frame) {
@@ -386,7 +388,7 @@ static lobe_result draw_mean(rendering *r, lobe_frame *frame) {
     if (result != LOBE_OK)
         return result;
     build_maps(r, frame);
-    (void)passes_shading_light_prepare(&r->context);
+    (void)passes_shading_light_prepare(&r->context, &r->environment);
     passes_host_frame_replace(&imported, &targets);
     passes_picture_drawing(graph, frame->radiance.texels, &targets);
     lobe_graph_output(graph, targets.radiance);
@@ -456,7 +458,7 @@ static lobe_result check(const rendering *r) {
 
 /// What a frame reads back is there when the next is begun, unless more are in flight: of those in
 /// commands of the host, only the host knows when they are finished.
-static bool keeps_environment(const lobe_render_parameters *parameters) {
+static bool saves_environment(const lobe_render_parameters *parameters) {
     return parameters->environment.cache &&
            (!parameters->host.submission || parameters->host.frames_in_flight <= 1);
 }
@@ -495,27 +497,30 @@ static lobe_result prepare(lobe_renderer *renderer, const lobe_render_parameters
         .width = r->width,
         .height = r->height,
         .images = &r->images,
-        .environment = &renderer->environment,
-        .environment_parts = parameters->environment.parts,
-        .environment_cache = parameters->environment.cache,
-        .keeps_environment = keeps_environment(parameters),
         .host = &renderer->host,
+    };
+    r->environment = (environment_work){
+        .state = &renderer->environment,
+        .parts = parameters->environment.parts,
+        .cache = parameters->environment.cache,
+        .saves = saves_environment(parameters),
     };
     return LOBE_OK;
 }
 
-/// Keeps what a submitted frame read back, for which nobody has waited yet, and looks for what this
+/// Saves what a submitted frame read back, for which nobody has waited yet, and loads what this
 /// frame needs.
-static lobe_result tend_environment(rendering *r) {
-    environment_state *state = r->context.environment;
+static lobe_result update_environment(rendering *r) {
+    environment_state *state = r->environment.state;
     lobe_result result = LOBE_OK;
     if (state->reads_back)
         result = lobe_graph_wait(r->context.graph);
-    if (result == LOBE_OK && r->context.keeps_environment)
-        passes_environment_light_save(&r->context);
+    if (result == LOBE_OK && r->environment.saves)
+        passes_environment_light_save(&r->environment, r->context.graph, r->context.host);
     state->reads_back = false;
-    return result == LOBE_OK ? passes_environment_light_load(&r->context, r->renderer->device)
-                             : result;
+    return result == LOBE_OK
+               ? passes_environment_light_load(&r->context, &r->environment, r->renderer->device)
+               : result;
 }
 
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
@@ -525,7 +530,7 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     lobe_result result = prepare(renderer, parameters, &r);
     if (result != LOBE_OK)
         return result;
-    result = tend_environment(&r);
+    result = update_environment(&r);
     if (result != LOBE_OK)
         return result;
     warn_of_limits(&r);

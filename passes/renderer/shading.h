@@ -27,7 +27,8 @@ typedef struct shading_light {
     environment_light environment;
 } shading_light;
 
-shading_light passes_shading_light_prepare(const filter_context *context);
+shading_light passes_shading_light_prepare(const filter_context *context,
+                                           const environment_work *work);
 
 /// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,

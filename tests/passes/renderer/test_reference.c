@@ -184,18 +184,18 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    environment_state environment = {0};
+    environment_state state = {0};
+    const environment_work environment = {.state = &state};
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
-                              .environment = &environment,
                               .host = &f->host};
     filtered_appearance appearance = {0};
     lobe_graph_begin(f->graph);
     shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
-    shading_light light = passes_shading_light_prepare(&context);
+    shading_light light = passes_shading_light_prepare(&context, &environment);
     lobe_resource sum = lobe_graph_image(
         f->graph,
         &(lobe_image_description){
