@@ -452,7 +452,7 @@ static void mistakes_are_refused(void **state) {
                    "32x16 pixels for a target of 16x16");
     lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
     target.depth = &depth;
-    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "no depth");
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "target's depth");
     target.depth = NULL;
     colour.format = VK_FORMAT_UNDEFINED;
     reference.width = 0;
