@@ -68,7 +68,8 @@ static uint32_t environment_width(const filter_context *context) {
     return 16u << (uint32_t)passes_filter_setting(context, "env_size");
 }
 
-static environment_maps_request request_of(const filter_context *context) {
+static environment_maps_request request_of(const filter_context *context,
+                                           const environment_work *work) {
     bool prefiltered = method_of(context) == ENVIRONMENT_PREFILTERED;
     environment_maps_request request = {
         .environment = context->scene->scene->environment,
@@ -77,32 +78,33 @@ static environment_maps_request request_of(const filter_context *context) {
         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = prefiltered,
                    [LOBE_ENVIRONMENT_BETWEEN] = prefiltered && blends(context),
                    [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
-        .parts = context->environment_parts,
+        .parts = work->parts,
     };
-    request.stored = passes_environment_store_cubes(&context->environment->store, &request);
+    request.stored = passes_environment_store_cubes(&work->state->store, &request);
     return request;
 }
 
-/// Of those that the folder of kept cubes lacks, as soon as they are finished.
-static void read_back_lacking(const filter_context *context, const environment_maps *maps) {
-    environment_state *state = context->environment;
+/// Reads back finished cubes that the cache lacks.
+static void read_back_missing(lobe_graph *graph, environment_state *state,
+                              const environment_maps *maps) {
     for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
         if (!passes_environment_store_lacks(&state->store, maps, map))
             continue;
-        lobe_graph_read_back(context->graph, maps->cubes[map], (lobe_range){0});
+        lobe_graph_read_back(graph, maps->cubes[map], (lobe_range){0});
         state->reads_back = true;
     }
 }
 
-/// The cubes; filtered ones may not be complete yet, and then means over texels take their place.
-static environment_maps build_cubes(const filter_context *context, environment_light *light) {
+/// Until the filtered cubes are complete, the plain MIP chain takes their place.
+static environment_maps build_cubes(const filter_context *context, const environment_work *work,
+                                    environment_light *light) {
     bool prefiltered = light->method == ENVIRONMENT_PREFILTERED;
-    environment_maps_request request = request_of(context);
+    environment_maps_request request = request_of(context, work);
     environment_maps maps =
-        passes_environment_maps_declare(context->graph, &request, &context->environment->progress);
-    context->environment->last = maps;
-    if (context->keeps_environment && maps.up_to_date)
-        read_back_lacking(context, &maps);
+        passes_environment_maps_declare(context->graph, &request, &work->state->progress);
+    work->state->last = maps;
+    if (work->saves && maps.up_to_date)
+        read_back_missing(context->graph, work->state, &maps);
     if (prefiltered && !maps.complete)
         light->method = ENVIRONMENT_MIP;
     light->cube = maps.cubes[LOBE_ENVIRONMENT_RADIANCE];
@@ -117,8 +119,9 @@ static environment_maps build_cubes(const filter_context *context, environment_l
     return maps;
 }
 
-static void build_maps(const filter_context *context, environment_light *light) {
-    environment_maps maps = build_cubes(context, light);
+static void build_maps(const filter_context *context, const environment_work *work,
+                       environment_light *light) {
+    environment_maps maps = build_cubes(context, work, light);
     irradiance_source source = {light->cube, maps.width[LOBE_ENVIRONMENT_RADIANCE],
                                 maps.levels[LOBE_ENVIRONMENT_RADIANCE]};
     bool harmonics =
@@ -129,25 +132,27 @@ static void build_maps(const filter_context *context, environment_light *light) 
                   : no_harmonics(context->graph);
 }
 
-lobe_result passes_environment_light_load(const filter_context *context, lobe_device *device) {
-    if (!context->environment_cache || !context->scene->environment)
+lobe_result passes_environment_light_load(const filter_context *context,
+                                          const environment_work *work, lobe_device *device) {
+    if (!work->cache || !context->scene->environment)
         return LOBE_OK;
-    environment_maps_request request = request_of(context);
-    return passes_environment_store_load(&context->environment->store, device,
-                                         context->environment_cache, &request, context->host);
+    environment_maps_request request = request_of(context, work);
+    return passes_environment_store_load(&work->state->store, device, work->cache, &request,
+                                         context->host);
 }
 
-void passes_environment_light_save(const filter_context *context) {
-    environment_state *state = context->environment;
+void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,
+                                   const lobe_host *host) {
+    environment_state *state = work->state;
     for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
         if (passes_environment_store_lacks(&state->store, &state->last, map))
-            passes_environment_store_save(&state->store, context->environment_cache, context->graph,
-                                          &state->last, map, context->host);
+            passes_environment_store_save(&state->store, work->cache, graph, &state->last, map,
+                                          host);
     }
     state->reads_back = false;
 }
 
-void passes_environment_light_change(environment_state *state) {
+void passes_environment_light_invalidate(environment_state *state) {
     passes_environment_maps_renew(&state->last, &state->progress);
     passes_environment_store_forget(&state->store);
     state->reads_back = false;
@@ -158,7 +163,8 @@ void passes_environment_light_forget(environment_state *state) {
     *state = (environment_state){0};
 }
 
-environment_light passes_environment_light_build(const filter_context *context) {
+environment_light passes_environment_light_build(const filter_context *context,
+                                                 const environment_work *work) {
     environment_light light = {.method = method_of(context)};
     light.present = context->scene->environment != NULL;
     bool split = light.present &&
@@ -167,10 +173,10 @@ environment_light passes_environment_light_build(const filter_context *context) 
     if (split || scatters(context))
         build_albedo(context, &light);
     if (!light.present) {
-        passes_environment_light_forget(context->environment);
+        passes_environment_light_forget(work->state);
         return light;
     }
-    build_maps(context, &light);
+    build_maps(context, work, &light);
     return light;
 }
 
@@ -198,7 +204,7 @@ static lobe_range levels_read(const environment_light *light, const filter_conte
     return (lobe_range){.first_level = level, .level_count = 1};
 }
 
-void passes_environment_light_read(const environment_light *light, const filter_context *context,
+void passes_environment_light_bind(const environment_light *light, const filter_context *context,
                                    lobe_pass *pass, const shading_sample *sample) {
     if (!light->present)
         return;

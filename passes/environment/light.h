@@ -1,8 +1,25 @@
 #ifndef PASSES_ENVIRONMENT_LIGHT_H
 #define PASSES_ENVIRONMENT_LIGHT_H
 
+#include "passes/environment/kept/store.h"
 #include "passes/filters/filter.h"
 #include "passes/renderer/material_specialisation.h"
+
+/// What a renderer remembers of an environment's maps from frame to frame; all zero: nothing.
+typedef struct environment_state {
+    environment_maps_progress progress;
+    environment_maps last; ///< of the last frame
+    environment_store store;
+    bool reads_back; ///< the last frame reads back cubes that are to be saved
+} environment_state;
+
+/// How one frame makes the environment's maps.
+typedef struct environment_work {
+    environment_state *state;
+    uint32_t parts;    ///< most parts of the work to do in this frame; 0: all
+    const char *cache; ///< folder of cached maps; NULL: none
+    bool saves;        ///< adds missing maps to the cache
+} environment_work;
 
 /// The sample of each pixel that a shading pass draws.
 typedef struct shading_sample {
@@ -23,24 +40,27 @@ typedef struct environment_light {
     lobe_resource albedo[DISTRIBUTION_COUNT];
 } environment_light;
 
-/// Looks for what this frame needs in the folder of kept maps, if there is one; before the frame is
-/// begun. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
-lobe_result passes_environment_light_load(const filter_context *context, lobe_device *device);
+/// Loads the maps that this frame needs from the cache, if there is one. Call it before the frame
+/// begins. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+lobe_result passes_environment_light_load(const filter_context *context,
+                                          const environment_work *work, lobe_device *device);
 
-/// Keeps in that folder what the last frame read back for it (`reads_back`). The device must have
+/// Saves the maps that the last frame read back (`reads_back`) to the cache. The device must have
 /// finished that frame, and the next must not have begun.
-void passes_environment_light_save(const filter_context *context);
+void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,
+                                   const lobe_host *host);
 
-/// The scene's environment has changed.
-void passes_environment_light_change(environment_state *state);
-/// There is no environment any more, or no scene.
+/// Rebuilds the maps from the next frame on: the scene's environment has changed.
+void passes_environment_light_invalidate(environment_state *state);
+/// Frees what belongs to an environment or scene that is gone.
 void passes_environment_light_forget(environment_state *state);
 
 /// Adds the passes that make the maps.
-environment_light passes_environment_light_build(const filter_context *context);
+environment_light passes_environment_light_build(const filter_context *context,
+                                                 const environment_work *work);
 
-/// Binds them to all draws of a shading pass.
-void passes_environment_light_read(const environment_light *light, const filter_context *context,
+/// Binds the maps to all draws of a shading pass.
+void passes_environment_light_bind(const environment_light *light, const filter_context *context,
                                    lobe_pass *pass, const shading_sample *sample);
 
 /// How many of `lights` punctual lights filters see together.

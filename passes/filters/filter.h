@@ -5,7 +5,6 @@
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
-#include "passes/environment/kept/store.h"
 #include "passes/upload/device_scene.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
@@ -27,14 +26,6 @@ typedef struct filtered_images {
     uint64_t bytes;
 } filtered_images;
 
-/// What a renderer remembers of an environment's maps from frame to frame; all zero: nothing.
-typedef struct environment_state {
-    environment_maps_progress progress;
-    environment_maps last; ///< of the last frame
-    environment_store store;
-    bool reads_back; ///< the last frame delivers cubes that are to be kept
-} environment_state;
-
 /// What a filter may use to build its maps.
 typedef struct filter_context {
     lobe_graph *graph;
@@ -44,10 +35,6 @@ typedef struct filter_context {
     const lobe_camera *camera;
     uint32_t width, height; ///< of the picture, pixels
     filtered_images *images;
-    environment_state *environment;
-    uint32_t environment_parts;    ///< of the work on its maps to do in this frame at most; 0: all
-    const char *environment_cache; ///< folder of kept maps; NULL: none
-    bool keeps_environment;        ///< adds to it
     const lobe_host *host;
 } filter_context;
 

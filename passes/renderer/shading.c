@@ -29,11 +29,11 @@ static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_fo
 }
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                               bool arbitrary_output_variables) {
+                                               bool aov) {
     shading_targets targets = {.width = width, .height = height};
     targets.radiance = declare_target(graph, "radiance", LOBE_FORMAT_RGBA32_FLOAT, width, height);
     targets.depth = declare_target(graph, "depth", LOBE_FORMAT_D32_FLOAT, width, height);
-    if (arbitrary_output_variables) {
+    if (aov) {
         targets.normal_depth =
             declare_target(graph, "normal and depth", LOBE_FORMAT_RGBA32_FLOAT, width, height);
         targets.lobes_level =
@@ -89,9 +89,10 @@ static lobe_resource upload_lights(const filter_context *context) {
     return resource;
 }
 
-shading_light passes_shading_light_prepare(const filter_context *context) {
+shading_light passes_shading_light_prepare(const filter_context *context,
+                                           const environment_work *work) {
     return (shading_light){.punctual = upload_lights(context),
-                           .environment = passes_environment_light_build(context)};
+                           .environment = passes_environment_light_build(context, work)};
 }
 
 static lobe_resource upload_frame(const filter_context *context, const float sample[2],
@@ -230,7 +231,7 @@ void passes_shading(const filter_context *context, const filtered_appearance *ap
     lobe_resource frame = upload_frame(context, sample->position, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
-    passes_environment_light_read(&light->environment, context, pass, sample);
+    passes_environment_light_bind(&light->environment, context, pass, sample);
     bool outputs = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&

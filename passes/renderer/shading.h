@@ -19,7 +19,7 @@ typedef struct shading_targets {
 } shading_targets;
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
-                                               bool arbitrary_output_variables);
+                                               bool aov);
 
 /// All that lights the scene, once for all shading passes of a frame.
 typedef struct shading_light {
@@ -27,7 +27,8 @@ typedef struct shading_light {
     environment_light environment;
 } shading_light;
 
-shading_light passes_shading_light_prepare(const filter_context *context);
+shading_light passes_shading_light_prepare(const filter_context *context,
+                                           const environment_work *work);
 
 /// Adds a pass that draws all instances with the filter's shader. `appearances`: one an instance.
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,

@@ -33,9 +33,8 @@ static lobe_render_parameters parameters_of(const bench_job *job, const bench_fi
         .settings = &filter->settings,
         .width = job->size[0],
         .height = job->size[1],
-        .samples = BENCH_TIMED_SAMPLES,
-        .progress = progress_part,
-        .user = job->progress,
+        .reference.samples = BENCH_TIMED_SAMPLES,
+        .host = {.progress = progress_part, .user = job->progress},
     };
 }
 
@@ -57,7 +56,7 @@ static lobe_result render_truth(const bench_run *run, lobe_renderer *renderer,
     progress_step(run->job->progress, "%s: %s, samples a pixel: %u", run->name, kind,
                   run->job->samples);
     lobe_render_parameters parameters = parameters_of(run->job, &reference);
-    parameters.samples = run->job->samples;
+    parameters.reference.samples = run->job->samples;
     lobe_frame frame;
     result = lobe_renderer_render(renderer, &parameters, &frame);
     *image = frame.radiance;
@@ -88,7 +87,7 @@ static lobe_result measure_memory(bench_run *run, size_t index, bench_result *re
     lobe_result status = open_renderer(run, &run->renderers[index]);
     lobe_render_parameters parameters = parameters_of(run->job, result->filter);
     parameters.discard = true;
-    parameters.samples = 1; // the memory does not depend on them
+    parameters.reference.samples = 1; // the memory does not depend on them
     lobe_frame frame = {0};
     if (status == LOBE_OK)
         status = lobe_renderer_render(run->renderers[index], &parameters, &frame);
@@ -133,7 +132,7 @@ static lobe_result time_frame(const bench_run *run, size_t index, const bench_fi
     lobe_render_parameters parameters = parameters_of(run->job, filter);
     parameters.rebuild = rebuild;
     parameters.discard = true;
-    parameters.progress = NULL;
+    parameters.host.progress = NULL;
     lobe_frame frame;
     lobe_result result = lobe_renderer_render(run->renderers[index], &parameters, &frame);
     if (result == LOBE_OK && profile)

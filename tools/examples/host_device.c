@@ -208,13 +208,13 @@ static lobe_result draw(const host *h, lobe_renderer *renderer, const lobe_scene
     VkCommandBuffer commands = begin(h);
     draw_background(commands, image.image, scene->background);
     lobe_frame frame;
-    lobe_result result =
-        lobe_renderer_render(renderer,
-                             &(lobe_render_parameters){
-                                 .target = &(lobe_render_target){.radiance = &image, .keep = true},
-                                 .submission = &(lobe_vulkan_submission){.commands = commands},
-                             },
-                             &frame);
+    lobe_result result = lobe_renderer_render(
+        renderer,
+        &(lobe_render_parameters){
+            .host = {.target = &(lobe_render_target){.radiance = &image, .keep = true},
+                     .submission = &(lobe_vulkan_submission){.commands = commands}},
+        },
+        &frame);
     if (result == LOBE_OK) {
         const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                         .imageExtent = {image.width, image.height, 1}};

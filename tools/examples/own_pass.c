@@ -44,7 +44,7 @@ static lobe_result draw(lobe_renderer *renderer, char **argv) {
                                               &(lobe_render_parameters){
                                                   .width = (uint32_t)strtoul(argv[3], NULL, 10),
                                                   .height = (uint32_t)strtoul(argv[4], NULL, 10),
-                                                  .add_passes = add_outlines,
+                                                  .host.add_passes = add_outlines,
                                               },
                                               &frame);
     if (result != LOBE_OK)

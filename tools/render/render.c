@@ -192,20 +192,19 @@ static uint32_t samples_of(const render_request *request) {
 
 static lobe_result render_frame(const render_request *request, render_state *state) {
     lobe_frame_free(&state->frame);
-    lobe_result result = lobe_renderer_render(
-        state->renderer,
-        &(lobe_render_parameters){
-            .filter = request->filter,
-            .settings = &request->settings,
-            .width = request->size[0],
-            .height = request->size[1],
-            .samples = request->samples,
-            .environment_cache = state->cache,
-            .arbitrary_output_variables = request->layers && writes(request, false),
-            .progress = progress_part,
-            .user = &state->progress,
-        },
-        &state->frame);
+    lobe_result result =
+        lobe_renderer_render(state->renderer,
+                             &(lobe_render_parameters){
+                                 .filter = request->filter,
+                                 .settings = &request->settings,
+                                 .width = request->size[0],
+                                 .height = request->size[1],
+                                 .reference.samples = request->samples,
+                                 .environment.cache = state->cache,
+                                 .aov = request->layers && writes(request, false),
+                                 .host = {.progress = progress_part, .user = &state->progress},
+                             },
+                             &state->frame);
     return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->host) : result;
 }
 

@@ -56,7 +56,7 @@ static lobe_result render_station(const sweep_job *job, const lobe_scene *scene,
     lobe_frame pairs[2][2] = {0};
     lobe_result result = LOBE_OK;
     for (uint32_t k = 0; result == LOBE_OK && k < 2; ++k) {
-        parameters.pattern = k;
+        parameters.reference.pattern = k;
         result = render_pair(job, scene, renderer, parameters, station, pairs[k]);
     }
     if (result == LOBE_OK && !sweep_stopped(job))
@@ -78,7 +78,7 @@ lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
     sweep_variant reference = {.filter.settings = job->bench.truth};
     lobe_result result = lobe_filter_find("reference", job->bench.host, &reference.filter.filter);
     lobe_render_parameters parameters = sweep_parameters(job, &reference);
-    parameters.samples = job->path_samples;
+    parameters.reference.samples = job->path_samples;
     for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); ++i) {
         progress_step(job->bench.progress, "%s: references along the path, %u of %u", scene->name,
                       i + 1, job->stations);

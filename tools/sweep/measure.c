@@ -92,11 +92,11 @@ static lobe_result render_part(const scene_run *run, lobe_renderer *renderer,
     progress_step(bench->progress, "%s: %s, samples a pixel: %u", run->name, parts->kind, samples);
     progress_weigh(bench->progress, samples);
     lobe_render_parameters parameters = sweep_parameters(run->job, parts->reference);
-    parameters.samples = samples;
+    parameters.reference.samples = samples;
     // Of two parts neither has the pattern of the filter reference, which is held against them.
-    parameters.pattern = parts->samples[1] > 0 ? part + 1 : 0;
+    parameters.reference.pattern = parts->samples[1] > 0 ? part + 1 : 0;
     parameters.discard = false;
-    parameters.progress = sweep_show_progress;
+    parameters.host.progress = sweep_show_progress;
     return lobe_renderer_render(renderer, &parameters, frame);
 }
 
@@ -213,8 +213,8 @@ static lobe_result measure_memory(const scene_run *run, const sweep_variant *var
     if (!*renderer)
         result = open_renderer(run, quiet ? &run->errors : bench->host, renderer);
     lobe_render_parameters parameters = sweep_parameters(run->job, variant);
-    parameters.rebuild = parameters.keep_environment = true;
-    parameters.samples = 1; // the memory does not depend on them
+    parameters.rebuild = parameters.environment.keep = true;
+    parameters.reference.samples = 1; // the memory does not depend on them
     if (result == LOBE_OK)
         result = lobe_renderer_render(*renderer, &parameters, built);
     lobe_device_memory_query(bench->device, &after);
@@ -315,8 +315,8 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
     const row_times *times = &run->times[index];
     lobe_render_parameters parameters = sweep_parameters(run->job, &run->job->plan.variants[index]);
     parameters.rebuild = rebuild;
-    parameters.keep_environment = true;
-    parameters.samples = keep ? parameters.samples : 1;
+    parameters.environment.keep = true;
+    parameters.reference.samples = keep ? parameters.reference.samples : 1;
     lobe_frame frame;
     lobe_result result = lobe_renderer_render(renderer, &parameters, &frame);
     if (result == LOBE_OK && keep && !sweep_stopped(run->job)) {

@@ -31,10 +31,9 @@ lobe_render_parameters sweep_parameters(const sweep_job *job, const sweep_varian
         .settings = &variant->filter.settings,
         .width = job->bench.size[0],
         .height = job->bench.size[1],
-        .samples = BENCH_TIMED_SAMPLES,
+        .reference.samples = BENCH_TIMED_SAMPLES,
         .discard = true,
-        .progress = go_on,
-        .user = (void *)job,
+        .host = {.progress = go_on, .user = (void *)job},
     };
 }
 

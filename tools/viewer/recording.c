@@ -45,9 +45,9 @@ static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
                                     .camera = &v->view.camera,
                                     .width = v->view.width,
                                     .height = v->view.height,
-                                    .samples = side->samples > 0 ? side->samples : 1,
-                                    .environment_cache = v->view.cache,
-                                    .arbitrary_output_variables = true,
+                                    .reference.samples = side->samples > 0 ? side->samples : 1,
+                                    .environment.cache = v->view.cache,
+                                    .aov = true,
                                 },
                                 frame);
 }

@@ -145,18 +145,18 @@ static void adapt_step(viewer_side *side, double seconds) {
 
 static lobe_result render_samples(const viewer_view *view, viewer_side *side, uint32_t count) {
     lobe_frame frame;
-    lobe_result result = lobe_renderer_render(side->renderer,
-                                              &(lobe_render_parameters){
-                                                  .filter = side->filter,
-                                                  .settings = &side->settings,
-                                                  .camera = &view->camera,
-                                                  .width = view->width,
-                                                  .height = view->height,
-                                                  .samples = count,
-                                                  .pattern = side->pattern++,
-                                                  .environment_cache = view->cache,
-                                              },
-                                              &frame);
+    lobe_result result =
+        lobe_renderer_render(side->renderer,
+                             &(lobe_render_parameters){
+                                 .filter = side->filter,
+                                 .settings = &side->settings,
+                                 .camera = &view->camera,
+                                 .width = view->width,
+                                 .height = view->height,
+                                 .reference = {.samples = count, .pattern = side->pattern++},
+                                 .environment.cache = view->cache,
+                             },
+                             &frame);
     if (result != LOBE_OK)
         return result;
     take_times(side);
@@ -252,21 +252,20 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     const lobe_filter *filter = filter_to_draw(side, &settings);
     adapt_parts(side);
     side->target.image.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    lobe_result result =
-        lobe_renderer_render(side->renderer,
-                             &(lobe_render_parameters){
-                                 .filter = filter,
-                                 .settings = &settings,
-                                 .camera = &view->camera,
-                                 .environment_parts = side->parts,
-                                 .environment_cache = view->cache,
-                                 .arbitrary_output_variables = outputs,
-                                 .add_passes = outputs ? show_output : NULL,
-                                 .user = &constants,
-                                 .target = &(lobe_render_target){.radiance = &side->target.image},
-                                 .submission = &(lobe_vulkan_submission){.commands = commands},
-                             },
-                             &frame);
+    lobe_result result = lobe_renderer_render(
+        side->renderer,
+        &(lobe_render_parameters){
+            .filter = filter,
+            .settings = &settings,
+            .camera = &view->camera,
+            .environment = {.parts = side->parts, .cache = view->cache},
+            .aov = outputs,
+            .host = {.add_passes = outputs ? show_output : NULL,
+                     .user = &constants,
+                     .target = &(lobe_render_target){.radiance = &side->target.image},
+                     .submission = &(lobe_vulkan_submission){.commands = commands}},
+        },
+        &frame);
     go_on_with_parts(side, frame.environment_parts_left);
     side->failed = result != LOBE_OK;
     if (result != LOBE_OK)

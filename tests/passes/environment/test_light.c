@@ -490,7 +490,7 @@ static void maps_are_made_part_by_part(void **state) {
                                          .settings = &settings,
                                          .width = 1,
                                          .height = 1,
-                                         .environment_parts = 3};
+                                         .environment.parts = 3};
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     double former = chain, next = whole;
     for (int content = 0; content < 2; content++) {

@@ -153,13 +153,13 @@ static void draw_somehow(churn *c) {
     lobe_render_parameters parameters = {.filter = c->filters[pick(c, c->filter_count)],
                                          .width = sizes[size],
                                          .height = sizes[size],
-                                         .frames_in_flight = 1 + pick(c, 3)};
+                                         .host.frames_in_flight = 1 + pick(c, 3)};
     if (how == 0)
         (void)pick(c, 24);
     else
-        parameters.target = &target;
+        parameters.host.target = &target;
     if (how > 1)
-        parameters.submission = &submission;
+        parameters.host.submission = &submission;
     if (how > 2)
         submission.commands = host_begin(&c->host);
     render(c, &parameters);

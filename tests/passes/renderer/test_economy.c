@@ -401,7 +401,7 @@ static void rebuilding_materials_keeps_the_environment(void **state) {
                                          .width = extent,
                                          .height = extent,
                                          .rebuild = true,
-                                         .keep_environment = true};
+                                         .environment.keep = true};
     assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
     assert_true(once > 3 && all > once + 1);
     assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN),

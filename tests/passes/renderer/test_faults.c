@@ -56,11 +56,11 @@ static lobe_result submit(way *w) {
     const lobe_render_target target = {.radiance = &lent};
     const lobe_vulkan_submission submission = {0};
     lobe_frame frame;
-    lobe_result result = lobe_renderer_render(w->f->renderer,
-                                              &(lobe_render_parameters){.target = &target,
-                                                                        .submission = &submission,
-                                                                        .frames_in_flight = 2},
-                                              &frame);
+    lobe_result result = lobe_renderer_render(
+        w->f->renderer,
+        &(lobe_render_parameters){
+            .host = {.target = &target, .submission = &submission, .frames_in_flight = 2}},
+        &frame);
     lobe_frame_free(&frame);
     return result;
 }

@@ -129,7 +129,7 @@ static void the_hosts_image_gets_the_same_bits(void **state) {
         lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
         lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
         const lobe_render_target target = {.radiance = &colour, .depth = given ? &depth : NULL};
-        lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+        lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target});
         assert_null(frame.radiance.texels);
         assert_int_equal(frame.pass_count, 1); // maps are found ready
         lobe_image image = host_texels(f, &f->colour);
@@ -144,8 +144,7 @@ static void other_outputs_are_still_delivered(void **state) {
     host_fixture *f = *state;
     lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
     const lobe_render_target target = {.radiance = &colour};
-    lobe_frame frame =
-        render(f, &(lobe_render_parameters){.target = &target, .arbitrary_output_variables = true});
+    lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target, .aov = true});
     assert_null(frame.radiance.texels);
     assert_true(pixel_at(&frame.normal_depth, SIZE / 2, SIZE / 2)[1] > 0.5f);
     lobe_frame_free(&frame);
@@ -163,7 +162,7 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
         lobe_vulkan_image depth =
             lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const lobe_render_target target = {.radiance = &colour, .depth = &depth, .keep = true};
-        lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+        lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target});
         lobe_image image = host_texels(f, &f->colour);
         unsigned covered = 0;
         for (uint32_t n = 0; n < SIZE * SIZE; n++) {
@@ -195,7 +194,7 @@ static void the_environment_stays_behind_the_hosts_background(void **state) {
     fill(f, green, 0);
     lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     const lobe_render_target target = {.radiance = &colour, .keep = true};
-    parameters.target = &target;
+    parameters.host.target = &target;
     lobe_frame frame = render(f, &parameters);
     lobe_image image = host_texels(f, &f->colour);
     const uint32_t middle = SIZE / 2;
@@ -217,7 +216,7 @@ static void formats_of_displays_are_encoded(void **state) {
     lobe_frame expected = delivered(f, NULL);
     lobe_vulkan_image colour = lend(&image, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
     const lobe_render_target target = {.radiance = &colour};
-    lobe_frame frame = render(f, &(lobe_render_parameters){.target = &target});
+    lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target});
     lobe_image texels = host_texels(f, &image);
     for (uint32_t n = 0; n < SIZE * SIZE; n++)
         for (int channel = 0; channel < 3; channel++) {
@@ -256,10 +255,10 @@ static void frames_in_flight_are_those_delivered(void **state) {
         const lobe_vulkan_semaphore signal = {.semaphore = timeline, .value = (uint64_t)n + 1};
         const lobe_vulkan_submission submission = {
             .waits = &wait, .wait_count = 1, .signals = &signal, .signal_count = 1};
-        lobe_frame frame = render(f, &(lobe_render_parameters){.camera = &camera,
-                                                               .target = &target,
-                                                               .submission = &submission,
-                                                               .frames_in_flight = 2});
+        lobe_frame frame = render(
+            f, &(lobe_render_parameters){
+                   .camera = &camera,
+                   .host = {.target = &target, .submission = &submission, .frames_in_flight = 2}});
         assert_int_equal(frame.pass_count, 0);
         lobe_frame_free(&frame);
     }
@@ -285,8 +284,8 @@ static void pictures_are_recorded_into_the_hosts_commands(void **state) {
         lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
         const lobe_render_target target = {.radiance = &colour};
         const lobe_vulkan_submission submission = {.commands = commands};
-        lobe_frame frame =
-            render(f, &(lobe_render_parameters){.target = &target, .submission = &submission});
+        lobe_frame frame = render(
+            f, &(lobe_render_parameters){.host = {.target = &target, .submission = &submission}});
         host_finish(&f->host, commands);
         lobe_frame_free(&frame);
         images[n] = host_texels(f, &f->colour);
@@ -335,7 +334,7 @@ static void hosts_add_passes_before_and_after(void **state) {
     lobe_frame expected = delivered(f, NULL);
     added what = {0};
     lobe_render_parameters parameters = {
-        .width = SIZE, .height = SIZE, .add_passes = add_passes, .user = &what};
+        .width = SIZE, .height = SIZE, .host = {.add_passes = add_passes, .user = &what}};
     lobe_frame frame = render(f, &parameters);
     assert_int_equal(what.calls[LOBE_RENDER_BEFORE_SHADING], 1);
     assert_int_equal(what.calls[LOBE_RENDER_AFTER_SHADING], 1);
@@ -366,8 +365,8 @@ static lobe_render_parameters reference_parameters(const lobe_render_target *tar
     return (lobe_render_parameters){.filter = filter_named("reference"),
                                     .width = SIZE,
                                     .height = SIZE,
-                                    .samples = SAMPLES,
-                                    .target = target};
+                                    .reference.samples = SAMPLES,
+                                    .host.target = target};
 }
 
 /// Waited for by lobe, by the host, or in its commands.
@@ -380,7 +379,7 @@ static void the_reference_gets_into_the_hosts_image(void **state) {
     for (int way = 0; way < 3; way++) {
         lobe_vulkan_submission submission = {.commands = way == 2 ? host_begin(&f->host) : NULL};
         parameters = reference_parameters(&target);
-        parameters.submission = way > 0 ? &submission : NULL;
+        parameters.host.submission = way > 0 ? &submission : NULL;
         lobe_frame frame = render(f, &parameters);
         assert_null(frame.radiance.texels);
         assert_int_equal(lobe_graph_wait(lobe_renderer_graph(f->passes.renderer)), LOBE_OK);
@@ -440,29 +439,31 @@ static void mistakes_are_refused(void **state) {
     host_fixture *f = *state;
     lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
     lobe_render_target target = {.radiance = &colour};
-    assert_refused(f, &(lobe_render_parameters){.target = &target, .width = 2 * SIZE},
+    assert_refused(f, &(lobe_render_parameters){.host.target = &target, .width = 2 * SIZE},
                    LOBE_ERROR_INVALID_ARGUMENT, "32x16 pixels for a target of 16x16");
-    lobe_render_parameters reference = {.filter = filter_named("reference"), .samples = 2};
+    lobe_render_parameters reference = {.filter = filter_named("reference"),
+                                        .reference.samples = 2};
     const lobe_vulkan_submission submission = {0};
-    reference.submission = &submission;
+    reference.host.submission = &submission;
     assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "reference");
-    reference.target = &target;
+    reference.host.target = &target;
     reference.width = 2 * SIZE;
     assert_refused(f, &reference, LOBE_ERROR_INVALID_ARGUMENT,
                    "32x16 pixels for a target of 16x16");
     lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
     target.depth = &depth;
-    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "no depth");
+    assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "target's depth");
     target.depth = NULL;
     colour.format = VK_FORMAT_UNDEFINED;
     reference.width = 0;
     assert_refused(f, &reference, LOBE_ERROR_UNSUPPORTED, "host image");
     colour.format = f->colour.format;
     target.keep = true;
-    assert_refused(f, &(lobe_render_parameters){.target = &target}, LOBE_ERROR_GRAPH, "host image");
+    assert_refused(f, &(lobe_render_parameters){.host.target = &target}, LOBE_ERROR_GRAPH,
+                   "host image");
     target.radiance = NULL;
-    assert_refused(f, &(lobe_render_parameters){.target = &target}, LOBE_ERROR_INVALID_ARGUMENT,
-                   "without radiance");
+    assert_refused(f, &(lobe_render_parameters){.host.target = &target},
+                   LOBE_ERROR_INVALID_ARGUMENT, "without radiance");
     lobe_frame frame = delivered(f, NULL);
     assert_true(largest_value(&frame.radiance) > 0);
     lobe_frame_free(&frame);

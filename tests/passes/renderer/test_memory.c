@@ -72,8 +72,8 @@ static lobe_result draw_picture(lobe_renderer *renderer, const char *name, lobe_
                                                .settings = &settings,
                                                .width = EXTENT,
                                                .height = EXTENT,
-                                               .samples = 2,
-                                               .arbitrary_output_variables = true};
+                                               .reference.samples = 2,
+                                               .aov = true};
     return lobe_renderer_render(renderer, &parameters, frame);
 }
 

@@ -214,7 +214,7 @@ static void images_have_limits(void **state) {
 /// draws what fits again.
 static void memory_may_run_out(void **state) {
     fixture *shared = *state;
-    fixture f = {.host = {shared->host.write, &f}};
+    fixture f = {.host = {.write = shared->host.write, .user = &f}};
     lobe_scene *scene = small_scene();
     f.device = fixture_device(&f, (lobe_device_parameters){.memory_limit = 24u << 20});
     assert_int_equal(lobe_renderer_create(f.device, &f.host, &f.renderer), LOBE_OK);

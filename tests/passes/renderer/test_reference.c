@@ -184,18 +184,18 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    environment_state environment = {0};
+    environment_state state = {0};
+    const environment_work environment = {.state = &state};
     filter_context context = {.graph = f->graph,
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
                               .camera = &scene->camera,
-                              .environment = &environment,
                               .host = &f->host};
     filtered_appearance appearance = {0};
     lobe_graph_begin(f->graph);
     shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
-    shading_light light = passes_shading_light_prepare(&context);
+    shading_light light = passes_shading_light_prepare(&context, &environment);
     lobe_resource sum = lobe_graph_image(
         f->graph,
         &(lobe_image_description){
@@ -291,10 +291,9 @@ static void progress_grows_to_one_and_may_stop(void **state) {
     lobe_render_parameters parameters = {.filter = filter_named("reference"),
                                          .width = 4,
                                          .height = 4,
-                                         .samples = 64,
-                                         .arbitrary_output_variables = true,
-                                         .progress = record_progress,
-                                         .user = &record};
+                                         .reference.samples = 64,
+                                         .aov = true,
+                                         .host = {.progress = record_progress, .user = &record}};
     lobe_frame frame;
     assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
     assert_true(record.calls > 1 && record.last == 1);
@@ -315,13 +314,13 @@ static void samples_have_a_limit(void **state) {
     lobe_scene *scene = board_scene(5, 0.2);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     lobe_render_parameters parameters = {
-        .filter = filter_named("reference"), .width = 2, .height = 2, .samples = 4097};
+        .filter = filter_named("reference"), .width = 2, .height = 2, .reference.samples = 4097};
     lobe_frame frame;
     fixture_forget_messages(f);
     lobe_result result = lobe_renderer_render(f->renderer, &parameters, &frame);
     assert_failure(f, result, LOBE_ERROR_INVALID_ARGUMENT, "4096");
     assert_null(frame.radiance.texels);
-    parameters.samples = LOBE_MAXIMUM_SAMPLES;
+    parameters.reference.samples = LOBE_MAXIMUM_SAMPLES;
     assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
     assert_true(all_finite(&frame.radiance));
     lobe_frame_free(&frame);

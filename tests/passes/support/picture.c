@@ -28,8 +28,8 @@ lobe_frame draw(fixture *f, const picture_request *request) {
                                                   .settings = &settings,
                                                   .width = request->width,
                                                   .height = request->height,
-                                                  .samples = request->samples,
-                                                  .arbitrary_output_variables = request->outputs,
+                                                  .reference.samples = request->samples,
+                                                  .aov = request->outputs,
                                               },
                                               &frame);
     if (result != LOBE_OK)

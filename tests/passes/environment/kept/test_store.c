@@ -86,15 +86,15 @@ static lobe_frame frame_of(drawing *drawing, const char *folder,
     lobe_settings settings =
         settings_of(filter, (const char *[]){"env_size=16", drawing->base, NULL});
     lobe_frame frame;
-    if (lobe_renderer_render(drawing->renderer,
-                             &(lobe_render_parameters){.filter = filter,
-                                                       .settings = &settings,
-                                                       .width = SIZE,
-                                                       .height = SIZE,
-                                                       .environment_parts = drawing->parts,
-                                                       .environment_cache = folder,
-                                                       .submission = submission},
-                             &frame) != LOBE_OK)
+    if (lobe_renderer_render(
+            drawing->renderer,
+            &(lobe_render_parameters){.filter = filter,
+                                      .settings = &settings,
+                                      .width = SIZE,
+                                      .height = SIZE,
+                                      .environment = {.parts = drawing->parts, .cache = folder},
+                                      .host.submission = submission},
+            &frame) != LOBE_OK)
         fail_msg("%s", drawing->recorder.last_error);
     return frame;
 }
@@ -280,7 +280,7 @@ static void other_methods_leave_the_folder_alone(void **state) {
                                                        .settings = &settings,
                                                        .width = SIZE,
                                                        .height = SIZE,
-                                                       .environment_cache = test_folder.path},
+                                                       .environment.cache = test_folder.path},
                              &frame),
         LOBE_OK);
     assert_int_equal(kept(), 0);

@@ -1,0 +1,40 @@
+#ifndef PASSES_RENDERER_DELIVERY_H
+#define PASSES_RENDERER_DELIVERY_H
+
+#include "passes/renderer/renderer.h"
+#include "passes/renderer/shading.h"
+
+/// How one submission reaches the device, and where its images go.
+typedef struct frame_delivery {
+    const lobe_render_target *target;         ///< the host's images; NULL: our own
+    const lobe_vulkan_submission *submission; ///< the host's; NULL: submit and wait
+    bool reads_back;                          ///< images go to host memory, except the target's
+    bool aov;                                 ///< with arbitrary output variables
+} frame_delivery;
+
+/// The delivery that the caller of lobe_renderer_render asks for.
+frame_delivery passes_delivery_of(const lobe_render_parameters *parameters);
+
+/// Imports the images of the delivery's target into the graph and takes over their extent;
+/// `imported` is all zero without a target. LOBE_ERROR_INVALID_ARGUMENT: the target has no
+/// radiance, or an extent that differs from the one asked for. Other errors in an image stay in the
+/// graph.
+lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
+                                   shading_targets *imported);
+/// Puts imported images in the place of those in `targets`.
+void passes_delivery_replace(const shading_targets *imported, shading_targets *targets);
+
+/// Makes the graph compute an image of ours, and read it back if the delivery does.
+void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,
+                                 lobe_resource resource);
+
+/// Executes the graph, or submits it as the host wants. When it was waited for, adds its times to
+/// the frame and saves maps of the environment that were read back.
+lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame);
+
+/// Copies an image that was read back. LOBE_ERROR_INVALID_ARGUMENT: the host's passes replaced it
+/// by one of another extent or format.
+lobe_result passes_delivery_take_image(const rendering *r, lobe_resource resource,
+                                       lobe_format format, lobe_image *image);
+
+#endif

@@ -1,0 +1,53 @@
+#include "passes/renderer/instance_maps.h"
+
+#include <string.h>
+
+/// The first instance before `instance` whose maps also serve it; `instance` if there is none.
+static size_t instance_to_share_with(const filter_context *context, size_t instance) {
+    const lobe_filter *filter = context->filter;
+    if (filter->for_each_instance && filter->for_each_instance(context, instance))
+        return instance;
+    const device_instance *instances = context->scene->instances;
+    for (size_t i = 0; i < instance; i++) {
+        if (instances[i].material == instances[instance].material &&
+            !(filter->for_each_instance && filter->for_each_instance(context, i)))
+            return i;
+    }
+    return instance;
+}
+
+void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
+    const lobe_scene *scene = r->context.scene->scene;
+    filtered_appearance *appearances = r->renderer->appearances;
+    memset(r->images.resources, 0, scene->image_count * sizeof *r->images.resources);
+    r->images.bytes = 0;
+    frame->filtered_bytes = frame->base_texels = 0;
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        size_t shared = instance_to_share_with(&r->context, i);
+        if (shared < i) {
+            appearances[i] = appearances[shared];
+            continue;
+        }
+        appearances[i] = (filtered_appearance){0};
+        if (r->context.filter->build)
+            r->context.filter->build(&r->context, i, &appearances[i]);
+        frame->filtered_bytes += appearances[i].bytes;
+        frame->base_texels += appearances[i].base_texels;
+    }
+    frame->filtered_bytes += r->images.bytes;
+}
+
+void passes_instance_maps_warn(const rendering *r) {
+    const lobe_filter *filter = r->context.filter;
+    const lobe_scene *scene = r->context.scene->scene;
+    if (!filter->ignores || r->renderer->reported_filter == filter)
+        return;
+    for (size_t i = 0; i < scene->material_count; i++) {
+        const char *limit = filter->ignores(&scene->materials[i]);
+        if (limit)
+            lobe_host_log(&r->renderer->host, LOBE_LOG_WARNING,
+                          "%s: material '%s', filter '%s': %s", scene->name,
+                          scene->materials[i].name, filter->name, limit);
+    }
+    r->renderer->reported_filter = filter;
+}

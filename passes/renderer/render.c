@@ -1,0 +1,150 @@
+#include "passes/filters/settings.h"
+#include "passes/renderer/frame.h"
+#include "passes/renderer/instance_maps.h"
+#include "passes/renderer/reference.h"
+
+// ---------------------------------------------------------------------------------------------
+// Checks
+
+/// Whether the host wants something that a picture in many submissions cannot give.
+static bool needs_one_submission(const lobe_render_host *host) {
+    return host->add_passes || (host->target && host->target->depth) ||
+           (host->submission && !host->target);
+}
+
+static lobe_result check(const rendering *r) {
+    const lobe_host *host = &r->renderer->host;
+    const lobe_render_parameters *parameters = r->parameters;
+    uint32_t limit = lobe_device_describe(r->renderer->device)->maximum_image_extent;
+    if (!r->renderer->scene)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "render: no scene is set");
+    if (parameters->filter && lobe_filter_supersamples(parameters->filter) &&
+        needs_one_submission(&parameters->host))
+        return lobe_host_fail(
+            host, LOBE_ERROR_UNSUPPORTED,
+            "render: the reference takes many submissions, and only the last draws "
+            "into the target's radiance: it supports neither a target's depth nor "
+            "the host's passes, nor a submission without a target");
+    if (parameters->reference.samples > LOBE_MAXIMUM_SAMPLES)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "render: more than %d samples per pixel", LOBE_MAXIMUM_SAMPLES);
+    if (r->width > limit || r->height > limit)
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "render: %ux%u pixels exceed the device's limit of %ux%u", r->width,
+                              r->height, limit, limit);
+    return LOBE_OK;
+}
+
+static lobe_result choose_filter(rendering *r, const lobe_filter **filter) {
+    const lobe_host *host = &r->renderer->host;
+    lobe_result result = LOBE_OK;
+    *filter = r->parameters->filter;
+    if (!*filter)
+        result = lobe_filter_find("lobes", host, filter);
+    if (result != LOBE_OK)
+        return result;
+    lobe_settings_default(*filter, &r->settings);
+    if (r->parameters->settings)
+        r->settings = *r->parameters->settings;
+    return passes_settings_check(*filter, &r->settings, host);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Preparation
+
+/// Cubes that a frame reads back can be saved when the next one begins, unless several frames are
+/// in flight: only the host knows when commands of its own have finished.
+static bool saves_environment(const lobe_render_parameters *parameters) {
+    return parameters->environment.cache &&
+           (!parameters->host.submission || parameters->host.frames_in_flight <= 1);
+}
+
+static void fill_context(rendering *r, const lobe_filter *filter) {
+    lobe_renderer *renderer = r->renderer;
+    const lobe_render_parameters *parameters = r->parameters;
+    r->images.resources = renderer->filtered_images;
+    r->context = (filter_context){
+        .graph = renderer->graph,
+        .settings = &r->settings,
+        .filter = filter,
+        .scene = renderer->scene,
+        .camera = parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
+        .width = r->width,
+        .height = r->height,
+        .images = &r->images,
+        .host = &renderer->host,
+    };
+    r->environment = (environment_work){
+        .state = &renderer->environment,
+        .parts = parameters->environment.parts,
+        .cache = parameters->environment.cache,
+        .saves = saves_environment(parameters),
+    };
+}
+
+static lobe_result prepare(rendering *r) {
+    const lobe_filter *filter;
+    lobe_result result = check(r);
+    if (result == LOBE_OK)
+        result = choose_filter(r, &filter);
+    if (result == LOBE_OK)
+        fill_context(r, filter);
+    return result;
+}
+
+/// Saves the cubes that a submitted frame read back, for which nobody has waited yet, and loads
+/// those that this frame needs.
+static lobe_result update_environment(rendering *r) {
+    environment_state *state = r->environment.state;
+    lobe_result result = LOBE_OK;
+    if (state->reads_back)
+        result = lobe_graph_wait(r->context.graph);
+    if (result == LOBE_OK && r->environment.saves)
+        passes_environment_light_save(&r->environment, r->context.graph, r->context.host);
+    state->reads_back = false;
+    return result == LOBE_OK
+               ? passes_environment_light_load(&r->context, &r->environment, r->renderer->device)
+               : result;
+}
+
+static void invalidate_maps(const rendering *r) {
+    if (r->parameters->rebuild && r->parameters->environment.keep)
+        lobe_graph_invalidate_except(r->renderer->graph, ENVIRONMENT_MAP_PREFIX);
+    else if (r->parameters->rebuild)
+        lobe_graph_invalidate(r->renderer->graph);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The call
+
+static lobe_result draw(rendering *r, lobe_frame *frame) {
+    const frame_delivery delivery = passes_delivery_of(r->parameters);
+    return r->context.filter->supersamples ? passes_reference_render(r, &delivery, frame)
+                                           : passes_frame_render(r, &delivery, frame);
+}
+
+lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
+                                 lobe_frame *frame) {
+    *frame = (lobe_frame){0};
+    rendering r = {
+        .renderer = renderer,
+        .parameters = parameters,
+        .width = parameters->width ? parameters->width : 1280,
+        .height = parameters->height ? parameters->height : 720,
+    };
+    lobe_result result = prepare(&r);
+    if (result == LOBE_OK)
+        result = update_environment(&r);
+    if (result != LOBE_OK)
+        return result;
+    passes_instance_maps_warn(&r);
+    invalidate_maps(&r);
+    result = draw(&r, frame);
+    const environment_maps *maps = &renderer->environment.last;
+    frame->environment_parts_left = maps->part_count - maps->parts_done;
+    if (result != LOBE_OK) {
+        renderer->environment.reads_back = false;
+        lobe_frame_free(frame);
+    }
+    return result;
+}
