@@ -105,7 +105,7 @@ static void prepare(const viewer_request *request, const lobe_host *console, vie
     *v = (viewer){
         .request = request,
         .console = *console,
-        .host = {write_log, v},
+        .host = {.write = write_log, .user = v},
         .opening = request->opening,
         .look = {.exposure = request->exposure, .divider = 0.5, .error_maximum = 0.5},
         .sides = {{.filter = request->filter, .settings = request->settings},
