@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scenes/builtin/normal_map.h"
+#include "scenes/builtin/map.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
 

@@ -3,7 +3,6 @@
 #include "scenes/builtin/bump_maps.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 bottom and section 5.2: hemispherical
 // bumps with microfacet BRDFs that change quickly. Each bump is a metal of its own colour and
@@ -38,7 +37,7 @@ static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
         {.type = LOBE_LIGHT_POINT, .position = {1.8f, 1.6f, -2.6f}, .intensity = {9, 6, 3.6f}},
         {.type = LOBE_LIGHT_POINT, .position = {-2.6f, 2.2f, -6}, .intensity = {6, 11, 18}},
     };
-    scenes_look(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
+    scenes_set_camera(scene, (float[]){0, 2.2f, 1.0f}, (float[]){0, 0, -1.35f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
     return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }

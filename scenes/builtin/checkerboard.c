@@ -2,10 +2,10 @@
 
 #include <string.h>
 
+#include "scenes/builtin/map.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 top: two base BRDFs in a
 // checkerboard, one direction for both. The colours of the lobes are equal, so that what a
@@ -65,7 +65,7 @@ static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
         {.type = LOBE_LIGHT_POINT, .position = {2.6f, 1.4f, -4.2f}, .intensity = {8, 5.2f, 3.2f}},
         {.type = LOBE_LIGHT_POINT, .position = {-5, 3.5f, -13}, .intensity = {16, 26, 40}},
     };
-    scenes_look(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
+    scenes_set_camera(scene, (float[]){0, 1.5f, 0}, (float[]){0, 0, -4.2f}, 42);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.25f;
     return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }

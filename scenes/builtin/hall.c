@@ -4,7 +4,6 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 6 and section 5.2, has Crytek's Sponza
 // with floor and fabric of maps up to 2048 x 2048 texels. In its place stands a hall of our own: a
@@ -164,7 +163,7 @@ static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
         {.type = LOBE_LIGHT_POINT, .position = {0, 3.8f, -9}, .intensity = {40, 31, 21}},
         {.type = LOBE_LIGHT_POINT, .position = {0, 4.4f, -24}, .intensity = {60, 50, 38}},
     };
-    scenes_look(scene, (float[]){0.7f, 1.7f, 3.4f}, (float[]){-0.2f, 2.3f, -10}, 50);
+    scenes_set_camera(scene, (float[]){0.7f, 1.7f, 3.4f}, (float[]){-0.2f, 2.3f, -10}, 50);
     scene->background[0] = 0.42f, scene->background[1] = 0.55f, scene->background[2] = 0.75f;
     return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/builtin/random.h"
 #include "scenes/mesh/circle.h"
@@ -9,7 +10,6 @@
 #include "scenes/mesh/shape.h"
 #include "scenes/mesh/vector.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 1 and section 5.2: a pillow whose BRDF
 // varies in a diffuse colour, a specular colour and a specular coefficient map of 2048 x 1024
@@ -310,7 +310,7 @@ static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
          .intensity = {0.4f, 0.5f, 0.65f}},
         {.type = LOBE_LIGHT_POINT, .position = {0.5f, 0.9f, 0.6f}, .intensity = {0.6f, 0.5f, 0.4f}},
     };
-    scenes_look(scene, (float[]){0, 0.60f, 0.72f}, (float[]){0, 0.075f, 0.02f}, 32);
+    scenes_set_camera(scene, (float[]){0, 0.60f, 0.72f}, (float[]){0, 0.075f, 0.02f}, 32);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.3f;
     return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }

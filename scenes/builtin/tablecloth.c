@@ -2,13 +2,12 @@
 
 #include <math.h>
 
+#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
-#include "scenes/builtin/normal_map.h"
 #include "scenes/mesh/circle.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 5 top and section 5.2: a cloth of two
 // lobes with a normal map of 1024 x 1024 texels made of noise. The lobes lie at 45 degrees on
@@ -147,7 +146,7 @@ static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
          .position = {-1.3f, 1.7f, -1.2f},
          .intensity = {1.4f, 2.2f, 3.2f}},
     };
-    scenes_look(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
+    scenes_set_camera(scene, (float[]){0.1f, 1.52f, 1.0f}, (float[]){0.0f, 0.62f, 0.26f}, 40);
     scene->background[0] = scene->background[1] = scene->background[2] = 0.4f;
     return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
 }

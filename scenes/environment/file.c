@@ -9,8 +9,8 @@
 #include "scenes/environment/direction.h"
 #include "scenes/environment/environment.h"
 #include "scenes/environment/sky.h"
+#include "scenes/format/host_file.h"
 #include "scenes/format/radiance_hdr.h"
-#include "scenes/scene/file.h"
 
 // ---------------------------------------------------------------------------------------------
 // Which layout
@@ -95,7 +95,7 @@ static lobe_result read_image(const lobe_environment_open_parameters *parameters
     size_t size;
     if (parameters->data)
         return decode(name, parameters->data, parameters->size, host, image, said);
-    lobe_result result = scenes_file_read(parameters->files, name, NULL, host, &bytes, &size);
+    lobe_result result = scenes_host_file_read(parameters->files, name, NULL, host, &bytes, &size);
     if (result == LOBE_OK)
         result = decode(name, bytes, size, host, image, said);
     lobe_release(bytes);

@@ -5,7 +5,15 @@
 
 #include "third_party/library_memory.h"
 
-/// The log's allocator, as wrapped libraries ask for memory.
-library_memory scenes_library_memory(const lobe_host *host);
+static inline void *scenes_library_memory_resize(void *allocator, void *memory, size_t size) {
+    return lobe_reallocate(allocator, memory, size, 1);
+}
+
+/// The host's allocator in the form that wrapped libraries take it.
+static inline library_memory scenes_library_memory(const lobe_host *host) {
+    return (library_memory){.resize = scenes_library_memory_resize,
+                            .release = lobe_release,
+                            .user = (void *)lobe_host_allocator(host)}; // only read
+}
 
 #endif

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/format/host_file.h"
 #include "scenes/gltf/container.h"
 #include "scenes/gltf/schema.h"
-#include "scenes/scene/file.h"
 #include "scenes/scene/scene.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -31,7 +31,7 @@ static void *read_buffer(void *user, const char *path, size_t *size) {
     buffer_reader *reader = user;
     lobe_host host = {.write = keep_line, .user = reader, .allocator = reader->allocator};
     uint8_t *bytes = NULL;
-    reader->result = scenes_file_read(reader->files, path, reader->path, &host, &bytes, size);
+    reader->result = scenes_host_file_read(reader->files, path, reader->path, &host, &bytes, size);
     return bytes;
 }
 
@@ -69,8 +69,8 @@ static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, cons
                               uint8_t **bytes, size_t *size) {
     const char *path = parameters->scene;
     return parameters->data
-               ? scenes_file_copy(path, parameters->data, parameters->size, host, bytes, size)
-               : scenes_file_read(parameters->files, path, NULL, host, bytes, size);
+               ? scenes_host_file_copy(path, parameters->data, parameters->size, host, bytes, size)
+               : scenes_host_file_read(parameters->files, path, NULL, host, bytes, size);
 }
 
 static lobe_result read_document(const lobe_scene_open_parameters *parameters,

@@ -1,9 +1,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/format/host_file.h"
 #include "scenes/format/image_file.h"
 #include "scenes/gltf/gltf.h"
-#include "scenes/scene/file.h"
 #include "scenes/scene/scene.h"
 
 static int hexadecimal(char c) {
@@ -57,8 +57,8 @@ static lobe_result read_external(const gltf_import *import, const char *uri, ima
     if (!path)
         return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                               import->path);
-    lobe_result result = scenes_file_read(import->files, path, import->path, import->host,
-                                          &source->owned, &source->size);
+    lobe_result result = scenes_host_file_read(import->files, path, import->path, import->host,
+                                               &source->owned, &source->size);
     source->bytes = source->owned;
     lobe_release(path);
     return result;

@@ -8,7 +8,6 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "scenes/scene/view.h"
 
 // ---------------------------------------------------------------------------------------------
 // Cloth
@@ -60,13 +59,13 @@ static lobe_result make_mesh(const lobe_scene *scene, lobe_carrier carrier, cons
 static void look(lobe_scene *scene, lobe_carrier carrier) {
     switch (carrier) {
     case LOBE_CARRIER_SPHERE:
-        scenes_look(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
+        scenes_set_camera(scene, (float[]){0, 0.6f, 3}, (float[]){0, 0, 0}, 42);
         break;
     case LOBE_CARRIER_CLOTH:
-        scenes_look(scene, (float[]){1.15f, 0.2f, 1.3f}, (float[]){0.19f, 0.02f, 0}, 40);
+        scenes_set_camera(scene, (float[]){1.15f, 0.2f, 1.3f}, (float[]){0.19f, 0.02f, 0}, 40);
         break;
     default:
-        scenes_look(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
+        scenes_set_camera(scene, (float[]){0, 1.3f, 2.2f}, (float[]){0, -0.1f, 0.1f}, 42);
     }
 }
 

@@ -6,9 +6,8 @@
 #include <string.h>
 
 #include "scenes/format/image_file.h"
-#include "scenes/format/path_in_folder.h"
 #include "scenes/material/carrier.h"
-#include "scenes/material/file.h"
+#include "scenes/material/file_name.h"
 #include "scenes/material/height_scale.h"
 #include "scenes/material/image_channel.h"
 #include "scenes/scene/scene.h"
@@ -83,13 +82,22 @@ static lobe_result require_maps(const material_folder *folder) {
                           folder->path);
 }
 
+// "FOLDER/FILE", to lobe_release; NULL without memory.
+static char *file_path(const material_folder *folder, material_map map) {
+    const size_t size = strlen(folder->path) + strlen(folder->files[map]) + 2;
+    char *path = lobe_allocate(lobe_host_allocator(folder->host), size, 1);
+    if (path)
+        snprintf(path, size, "%s/%s", folder->path, folder->files[map]);
+    return path;
+}
+
 // Loads the file of a map; where there is none, `image` stays empty.
 static lobe_result load(const material_folder *folder, material_map map, scene_image_use use,
                         lobe_image *image) {
     *image = (lobe_image){0};
     if (!folder->files[map])
         return LOBE_OK;
-    char *path = scenes_path_in_folder(folder->path, folder->files[map], folder->host);
+    char *path = file_path(folder, map);
     if (!path)
         return out_of_memory(folder);
     lobe_result status = scenes_image_load(path, use, folder->host, image);

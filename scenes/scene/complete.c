@@ -40,6 +40,15 @@ static lobe_result set_bounds(lobe_scene *scene, const lobe_host *host) {
     return LOBE_OK;
 }
 
+lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host) {
+    scene->has_added_light = scene->light_count == 0 && !scene->environment;
+    if (!scene->has_added_light)
+        return LOBE_OK;
+    lobe_host_log(host, LOBE_LOG_NOTICE, "%s: has no light; added the environment 'sky'",
+                  scene->name);
+    return lobe_environment_open("sky", host, &scene->environment);
+}
+
 lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host) {
     lobe_result result = set_bounds(scene, host);
     if (result != LOBE_OK)

@@ -102,6 +102,30 @@ lobe_result scenes_add_light(lobe_scene *scene, const lobe_light *light, const l
     return out_of_memory(scene, host);
 }
 
+lobe_result scenes_add_lights(lobe_scene *scene, const lobe_light *lights, size_t count,
+                              const lobe_host *host) {
+    lobe_result status = LOBE_OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = scenes_add_light(scene, &lights[i], host);
+    return status;
+}
+
+void scenes_set_camera(lobe_scene *scene, const float eye[3], const float target[3],
+                       float degrees) {
+    lobe_camera camera = {.up = {0, 1, 0}, .near_plane = 0.05f};
+    memcpy(camera.eye, eye, sizeof camera.eye);
+    memcpy(camera.target, target, sizeof camera.target);
+    camera.vertical_field_of_view = degrees * 0.017453292f;
+    scene->camera = camera;
+    scene->has_camera = true;
+}
+
+void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment) {
+    lobe_environment_destroy(&scene->environment);
+    scene->environment = environment;
+    scene->has_added_light = false;
+}
+
 static void free_elements(lobe_scene *scene) {
     for (size_t i = 0; i < scene->image_count; i++) {
         lobe_release(scene->images[i].name);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/scenes/scene_list.h"
+
 option scene_option_assets(scene_options *options) {
     return (option){
         .name = "assets",
@@ -134,8 +136,7 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
     const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
     if (assets && assets[0] == '\0')
         assets = NULL;
-    lobe_result status = lobe_scene_open_with(
-        &(lobe_scene_open_parameters){.scene = scene, .assets = assets}, host, result);
+    lobe_result status = scene_list_open(scene, assets, host, result);
     if (status == LOBE_OK && !(*result)->has_camera)
         lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
     if (status == LOBE_OK)
@@ -146,10 +147,5 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
 }
 
 bool scene_options_lack_assets(const char *scene, lobe_result result) {
-    for (size_t i = 0; result == LOBE_ERROR_NOT_FOUND && i < lobe_builtin_scene_count(); ++i) {
-        const lobe_builtin_scene *builtin = lobe_builtin_scene_get(i);
-        if (strcmp(builtin->name, scene) == 0)
-            return builtin->needs_assets;
-    }
-    return false;
+    return result == LOBE_ERROR_NOT_FOUND && scene_list_needs_assets(scene);
 }

@@ -1,16 +1,15 @@
 #include <stdio.h>
 
-#include <lobe/scene.h>
-
 #include "tools/cli/options.h"
 #include "tools/cli/subcommand.h"
 #include "tools/manual/roff.h"
+#include "tools/scenes/scene_list.h"
 
 static void print_manual(FILE *stream) {
     roff_section(stream, "SCENES");
-    for (size_t i = 0; i < lobe_builtin_scene_count(); ++i) {
-        const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
-        roff_item(stream, scene->name, NULL, scene->summary);
+    for (size_t i = 0; i < scene_list_count(); i++) {
+        const listed_scene scene = scene_list_get(i);
+        roff_item(stream, scene.name, NULL, scene.summary);
     }
 }
 
@@ -26,9 +25,9 @@ static int run(int argc, char **argv) {
     int status;
     if (!options_parse(&table, argc, argv, NULL, &status))
         return status;
-    for (size_t i = 0; i < lobe_builtin_scene_count(); ++i) {
-        const lobe_builtin_scene *scene = lobe_builtin_scene_get(i);
-        printf("%-14s %s\n", scene->name, scene->summary);
+    for (size_t i = 0; i < scene_list_count(); i++) {
+        const listed_scene scene = scene_list_get(i);
+        printf("%-14s %s\n", scene.name, scene.summary);
     }
     return 0;
 }

@@ -1,10 +1,9 @@
 // Completion for bash.
 
-#include <lobe/scene.h>
-
 #include "tools/cli/subcommand.h"
 #include "tools/manual/completion.h"
 #include "tools/manual/option_form.h"
+#include "tools/scenes/scene_list.h"
 
 static void print_knob(FILE *stream, const lobe_knob *knob) {
     fprintf(stream, " %s", knob->name);
@@ -21,8 +20,8 @@ static void begin(FILE *stream) {
     for (size_t index = 0; subcommands[index]; index++)
         fprintf(stream, " %s", subcommands[index]->name);
     fputs("'\n_lobe_scenes='", stream);
-    for (size_t index = 0; index < lobe_builtin_scene_count(); index++)
-        fprintf(stream, " %s", lobe_builtin_scene_get(index)->name);
+    for (size_t index = 0; index < scene_list_count(); index++)
+        fprintf(stream, " %s", scene_list_get(index).name);
     fputs("'\n_lobe_filters='", stream);
     for (size_t index = 0; index < lobe_filter_count(); index++)
         fprintf(stream, " %s", lobe_filter_name(lobe_filter_get(index)));

@@ -1,10 +1,9 @@
 // Completion for fish.
 
-#include <lobe/scene.h>
-
 #include "tools/cli/subcommand.h"
 #include "tools/manual/completion.h"
 #include "tools/manual/option_form.h"
+#include "tools/scenes/scene_list.h"
 
 /// A line of a candidate and what it means, as fish takes them from a function's output.
 static void print_candidate(FILE *stream, const char *name, const char *meaning) {
@@ -35,9 +34,8 @@ static void begin(FILE *stream) {
     fputs("# Completion of lobe for fish, as 'lobe completion fish' prints it.\n"
           "function __lobe_scenes\n",
           stream);
-    for (size_t index = 0; index < lobe_builtin_scene_count(); index++)
-        print_candidate(stream, lobe_builtin_scene_get(index)->name,
-                        lobe_builtin_scene_get(index)->summary);
+    for (size_t index = 0; index < scene_list_count(); index++)
+        print_candidate(stream, scene_list_get(index).name, scene_list_get(index).summary);
     fputs("end\nfunction __lobe_filters\n", stream);
     for (size_t index = 0; index < lobe_filter_count(); index++)
         print_candidate(stream, lobe_filter_name(lobe_filter_get(index)),

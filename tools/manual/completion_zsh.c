@@ -1,10 +1,9 @@
 // Completion for zsh.
 
-#include <lobe/scene.h>
-
 #include "tools/cli/subcommand.h"
 #include "tools/manual/completion.h"
 #include "tools/manual/option_form.h"
+#include "tools/scenes/scene_list.h"
 
 /// One of the words that _describe takes.
 static void print_described(FILE *stream, const char *name, const char *summary) {
@@ -42,9 +41,8 @@ static void print_filters(FILE *stream) {
 
 static void print_scenes(FILE *stream) {
     fputs("_lobe_scenes() {\n    local -a scenes=(\n", stream);
-    for (size_t index = 0; index < lobe_builtin_scene_count(); index++)
-        print_described(stream, lobe_builtin_scene_get(index)->name,
-                        lobe_builtin_scene_get(index)->summary);
+    for (size_t index = 0; index < scene_list_count(); index++)
+        print_described(stream, scene_list_get(index).name, scene_list_get(index).summary);
     fputs("    )\n    _describe scene scenes\n    _files\n}\n\n", stream);
 }
 

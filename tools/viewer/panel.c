@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "third_party/imgui.h"
+#include "tools/scenes/scene_list.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"
@@ -26,9 +27,9 @@
 static void choose_scene(viewer *v) {
     const char *names[MAXIMUM_CHOICES] = {viewer_name_of(v->scene->name)};
     size_t count = 1, chosen = 0;
-    for (size_t i = 0; i < lobe_builtin_scene_count() && count < MAXIMUM_CHOICES; ++i)
-        if (strcmp(lobe_builtin_scene_get(i)->name, v->scene->name) != 0)
-            names[count++] = lobe_builtin_scene_get(i)->name;
+    for (size_t i = 0; i < scene_list_count() && count < MAXIMUM_CHOICES; i++)
+        if (strcmp(scene_list_get(i).name, v->scene->name) != 0)
+            names[count++] = scene_list_get(i).name;
     if (imgui_choice("scene", names, count, &chosen))
         viewer_drop(v, names[chosen]);
     imgui_tooltip("or drop a glTF file, or a folder of maps, onto the window");

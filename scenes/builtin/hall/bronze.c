@@ -1,9 +1,8 @@
 #include <math.h>
 
-#include "scenes/builtin/builtin.h"
 #include "scenes/builtin/hall/hall.h"
+#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
-#include "scenes/builtin/normal_map.h"
 #include "scenes/scene/scene.h"
 
 // Hammered bronze. In its hollows verdigris has grown, which is no metal.

@@ -221,8 +221,6 @@ void lobe_scene_destroy(lobe_scene **scene);
 typedef struct lobe_builtin_scene {
     const char *name;
     const char *summary; ///< one line
-    /// Its mesh is read from a folder of assets: see lobe_scene_open_parameters.
-    bool needs_assets;
 } lobe_builtin_scene;
 
 size_t lobe_builtin_scene_count(void);
@@ -234,17 +232,13 @@ typedef struct lobe_scene_open_parameters {
     /// The name of a built-in scene, the path of a .gltf or .glb file, or a folder of PBR maps,
     /// which lobe_scene_open_material then puts on a cloth.
     const char *scene;
-    /// A folder that holds models/npm_bunny.js and models/npm_dragon_vrip_res3.ply.gz, the meshes
-    /// of the built-in scenes that need assets. NULL: none; those scenes are then NOT_FOUND.
-    const char *assets;
     /// A whole .gltf or .glb file in memory, which `scene` then only names: in messages, and the
     /// files that it refers to lie in the folder of that name. Needed during the call only. NULL:
     /// none.
     const void *data;
     size_t size; ///< bytes of `data`
-    /// Where to read a .gltf or .glb file and those it refers to; not those of `assets`, and not
-    /// folders of maps, for files of a source are not listed. NULL: in the file system. Needed
-    /// during the call only.
+    /// Where to read a .gltf or .glb file and those it refers to; not folders of maps, because the
+    /// files of a source cannot be listed. NULL: in the file system. Needed during the call only.
     const lobe_file_source *files;
 } lobe_scene_open_parameters;
 
@@ -259,7 +253,7 @@ typedef struct lobe_scene_open_parameters {
 lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
                                  const lobe_host *host, lobe_scene **result);
 
-/// The same, without assets.
+/// The same, with `scene` alone.
 lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result);
 
 typedef enum lobe_carrier {

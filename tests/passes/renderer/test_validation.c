@@ -24,8 +24,6 @@ static void built_in_scenes_are_valid(void **state) {
     fixture *f = *state;
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
         lobe_scene *scene;
-        if (lobe_builtin_scene_get(i)->needs_assets)
-            continue;
         assert_int_equal(lobe_scene_open(lobe_builtin_scene_get(i)->name, NULL, &scene), LOBE_OK);
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         for (size_t j = 0; j < 2 * lobe_filter_count(); j++) {

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
+#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
-#include "scenes/builtin/normal_map.h"
 #include "scenes/material/height_scale.h"
 
 enum { WIDTH = 192, HEIGHT = 96, PERIOD = 8 };

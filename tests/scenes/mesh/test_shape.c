@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "scenes/builtin/normal_map.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/mesh/vector.h"
@@ -13,7 +12,7 @@ static void plane_faces_up_and_tiles(void **state) {
     lobe_mesh mesh;
     assert_int_equal(scenes_shape_plane(6, 10, 2, NULL, &mesh), LOBE_OK);
     scenes_mesh_compute_bounds(&mesh);
-    passes_scene_check_mesh(&mesh);
+    scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, 6);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const lobe_scene_vertex *vertex = &mesh.vertices[i];
@@ -31,7 +30,7 @@ static void sphere_is_round_and_closed(void **state) {
     lobe_mesh mesh;
     assert_int_equal(scenes_shape_sphere(ROWS, COLUMNS, 4, 2, NULL, &mesh), LOBE_OK);
     scenes_mesh_compute_bounds(&mesh);
-    passes_scene_check_mesh(&mesh);
+    scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, 6 * (ROWS - 1) * COLUMNS);
     double volume = 0;
     for (size_t i = 0; i < mesh.index_count; i += 3) {
@@ -58,7 +57,7 @@ static void box_is_closed_and_maps_each_face_upright(void **state) {
     lobe_mesh mesh;
     assert_int_equal(scenes_shape_box(size, 0.5f, NULL, &mesh), LOBE_OK);
     scenes_mesh_compute_bounds(&mesh);
-    passes_scene_check_mesh(&mesh);
+    scene_check_mesh(&mesh);
     double surface = 0, flux = 0, coordinates = 0;
     for (size_t i = 0; i < mesh.index_count; i += 3) {
         const lobe_scene_vertex *a = &mesh.vertices[mesh.indices[i]];
@@ -84,33 +83,11 @@ static void box_is_closed_and_maps_each_face_upright(void **state) {
     scenes_mesh_free(&mesh);
 }
 
-// Where an image's rows run down a plane and its columns to the right, height that grows along
-// them must tilt the normal back along the tangent and forward along the bitangent.
-static void normal_map_has_y_up(void **state) {
-    (void)state;
-    uint8_t texel[4];
-    scenes_normal_map_store_slope(texel, 0, 0);
-    assert_true(texel[0] == 128 && texel[1] == 128 && texel[2] == 255 && texel[3] == 255);
-    scenes_normal_map_store_slope(texel, 0.5, 0);
-    assert_true(texel[0] < 80 && texel[1] == 128);
-    scenes_normal_map_store_slope(texel, 0, 0.5);
-    assert_true(texel[0] == 128 && texel[1] > 176);
-    scenes_normal_map_store(texel, 3, -4, 12);
-    assert_int_equal(texel[0], (int)(127.5 + 127.5 * 3 / 13 + 0.5));
-    assert_int_equal(texel[1], (int)(127.5 - 127.5 * 4 / 13 + 0.5));
-    assert_int_equal(texel[2], (int)(127.5 + 127.5 * 12 / 13 + 0.5));
-    scenes_normal_map_store(texel, -1, 0, 0);
-    assert_true(texel[0] == 0 && texel[2] == 128);
-    scenes_normal_map_store(texel, 1e-8, 1, 0);
-    assert_int_equal(texel[1], 255);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plane_faces_up_and_tiles),
         cmocka_unit_test(sphere_is_round_and_closed),
         cmocka_unit_test(box_is_closed_and_maps_each_face_upright),
-        cmocka_unit_test(normal_map_has_y_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,7 +71,7 @@ static void check_triangle(const lobe_mesh *mesh, const uint32_t *index) {
     }
 }
 
-void passes_scene_check_mesh(const lobe_mesh *mesh) {
+void scene_check_mesh(const lobe_mesh *mesh) {
     assert_true(mesh->has_texture_coordinates[0]);
     assert_true(mesh->index_count > 0 && mesh->index_count % 3 == 0);
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -96,7 +96,7 @@ static void check_light(const lobe_light *light) {
 
 void scene_check(const lobe_scene *scene) {
     for (size_t i = 0; i < scene->mesh_count; i++)
-        passes_scene_check_mesh(&scene->meshes[i]);
+        scene_check_mesh(&scene->meshes[i]);
     assert_true(scene->instance_count > 0 && scene->light_count >= 2 && scene->has_camera);
     for (size_t i = 0; i < scene->instance_count; i++) {
         assert_true(scene->instances[i].mesh < scene->mesh_count);

@@ -10,7 +10,7 @@
 /// Finite, unit normals, orthonormal tangents, indices in range, every triangle with an area and
 /// its front on the side of its normals, texture coordinates and tangents that agree: the tangent
 /// along increasing u, the bitangent against increasing v.
-void passes_scene_check_mesh(const lobe_mesh *mesh);
+void scene_check_mesh(const lobe_mesh *mesh);
 
 /// The meshes, indices of instances, materials and images, lights, a camera, the bounds.
 void scene_check(const lobe_scene *scene);

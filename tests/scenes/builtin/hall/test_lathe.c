@@ -20,7 +20,7 @@ static lobe_mesh turn(const double (*outline)[2], size_t count) {
     lobe_mesh mesh;
     assert_int_equal(scenes_lathe_make(&shape, NULL, &mesh), LOBE_OK);
     scenes_mesh_compute_bounds(&mesh);
-    passes_scene_check_mesh(&mesh);
+    scene_check_mesh(&mesh);
     assert_int_equal(mesh.index_count, (count - 1) * CUTS * COLUMNS * 6);
     return mesh;
 }

@@ -1,0 +1,41 @@
+#include <errno.h>
+#include <stdbool.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <lobe/scene.h>
+
+#include "scenes/builtin/builtin.h"
+#include "scenes/gltf/gltf.h"
+
+static bool is_absent(const char *path) {
+    return access(path, F_OK) != 0 && errno != EACCES;
+}
+
+static bool is_folder(const char *path) {
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
+                                 const lobe_host *host, lobe_scene **result) {
+    const char *scene = parameters->scene;
+    *result = NULL;
+    if (parameters->data)
+        return scenes_gltf_open(parameters, host, result);
+    const builtin_scene *builtin = scenes_builtin_find(scene);
+    if (builtin)
+        return builtin->build(host, result);
+    if (parameters->files)
+        return scenes_gltf_open(parameters, host, result);
+    if (is_absent(scene))
+        return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
+                              "%s: neither a built-in scene nor a file or folder", scene);
+    if (is_folder(scene))
+        return lobe_scene_open_material(scene, LOBE_CARRIER_CLOTH, host, result);
+    return scenes_gltf_open(parameters, host, result);
+}
+
+lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result) {
+    return lobe_scene_open_with(&(lobe_scene_open_parameters){.scene = scene}, host, result);
+}

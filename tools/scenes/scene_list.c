@@ -1,0 +1,46 @@
+#include "tools/scenes/scene_list.h"
+
+#include <string.h>
+
+#include "tools/scenes/asset_scene.h"
+
+typedef struct own_scene {
+    listed_scene description;
+    lobe_result (*build)(const char *assets, const lobe_host *host, lobe_scene **scene);
+} own_scene;
+
+static const own_scene own_scenes[] = {
+    {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true},
+     asset_scene_bunny},
+    {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true},
+     asset_scene_dragon},
+};
+enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
+
+static const own_scene *find(const char *name) {
+    for (size_t i = 0; i < OWN_SCENES; i++)
+        if (strcmp(own_scenes[i].description.name, name) == 0)
+            return &own_scenes[i];
+    return NULL;
+}
+
+size_t scene_list_count(void) {
+    return lobe_builtin_scene_count() + OWN_SCENES;
+}
+
+listed_scene scene_list_get(size_t index) {
+    if (index >= lobe_builtin_scene_count())
+        return own_scenes[index - lobe_builtin_scene_count()].description;
+    const lobe_builtin_scene *scene = lobe_builtin_scene_get(index);
+    return (listed_scene){.name = scene->name, .summary = scene->summary};
+}
+
+bool scene_list_needs_assets(const char *name) {
+    return find(name) != NULL;
+}
+
+lobe_result scene_list_open(const char *name, const char *assets, const lobe_host *host,
+                            lobe_scene **scene) {
+    const own_scene *own = find(name);
+    return own ? own->build(assets, host, scene) : lobe_scene_open(name, host, scene);
+}
