@@ -10,6 +10,7 @@
 #include <lobe/graph.h>
 
 #include "engine/device/vulkan_check.h"
+#include "engine/device/vulkan_functions.h"
 #include "tests/engine/support/counting_allocator.h"
 #include "tests/engine/support/host_device.h"
 #include "tests/engine/support/log_recorder.h"
@@ -28,8 +29,7 @@ typedef struct work {
     lobe_graph *graph;
 } work;
 
-/// A host with Vulkan of its own, which serves many devices of lobe's. It calls Vulkan, too:
-/// nothing fails then.
+/// A host with Vulkan of its own, which serves many of lobe's devices.
 typedef struct host {
     host_device vulkan;
     host_image image;
@@ -41,7 +41,8 @@ static const float triangle[] = {-1, -1, -1, 3, 3, -1};
 
 /// `host`: whose device to use; NULL: one of lobe's own.
 static lobe_result open_device(work *w, host *host) {
-    const lobe_device_parameters parameters = {.host = &w->recorder.host};
+    const lobe_device_parameters parameters = {
+        .get_instance_proc_addr = host ? NULL : test_vulkan_loader, .host = &w->recorder.host};
     return host ? lobe_vulkan_import_device(&host->vulkan.vulkan, &parameters, &w->device)
                 : lobe_device_create(&parameters, &w->device);
 }
@@ -175,18 +176,14 @@ static lobe_result submit_frame(work *w, host *host, uint32_t extent) {
 }
 
 static lobe_result record_frame(work *w, host *host, uint32_t extent) {
-    faults.paused = true;
     VkCommandBuffer commands = host_begin(&host->vulkan);
-    faults.paused = false;
     declare_frame_for_host(w, host, extent);
     const lobe_result result =
         lobe_graph_submit(w->graph, &(lobe_vulkan_submission){.commands = commands});
-    faults.paused = true;
     if (result == LOBE_OK)
         host_finish(&host->vulkan, commands);
     else
         vkFreeCommandBuffers(host->vulkan.vulkan.device, host->vulkan.pool, 1, &commands);
-    faults.paused = false;
     return result;
 }
 
@@ -206,8 +203,10 @@ static lobe_result run_on_hosts_device(work *w, host *host) {
 static lobe_result run_with_validation(work *w, host *host) {
     (void)host;
     const char *cache = temporary_folder_file(&test_folder, "pipelines");
-    const lobe_device_parameters parameters = {
-        .host = &w->recorder.host, .validation = true, .pipeline_cache = cache};
+    const lobe_device_parameters parameters = {.validation = true,
+                                               .pipeline_cache = cache,
+                                               .get_instance_proc_addr = test_vulkan_loader,
+                                               .host = &w->recorder.host};
     const lobe_result result = lobe_device_create(&parameters, &w->device);
     return result
                ? result
@@ -316,6 +315,35 @@ static void each_call_fails_once_on_a_hosts_device(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Loaders
+
+#define NAME(function) #function,
+
+/// What only the missing function could have destroyed is left.
+static int left_without(const char *function) {
+    return strcmp(function, "vkDestroyInstance") == 0 || strcmp(function, "vkDestroyDevice") == 0;
+}
+
+static void a_function_that_the_loader_lacks_is_named(void **state) {
+    (void)state;
+    static const char *const functions[] = {ENGINE_LOADER_FUNCTIONS(NAME) ENGINE_INSTANCE_FUNCTIONS(
+        NAME) ENGINE_DEBUG_FUNCTIONS(NAME) ENGINE_DEVICE_FUNCTIONS(NAME)};
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++) {
+        work w = {0};
+        log_recorder_start(&w.recorder);
+        const int alive = faults.alive;
+        faults.absent = functions[i];
+        assert_int_equal(open_device(&w, NULL), LOBE_ERROR_NO_DEVICE);
+        faults.absent = NULL;
+        assert_null(w.device);
+        assert_int_equal(w.recorder.errors, 1);
+        if (!strstr(w.recorder.last_error, functions[i]))
+            fail_msg("%s: %s", functions[i], w.recorder.last_error);
+        assert_int_equal(faults.alive, alive + left_without(functions[i]));
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
 // Memory of the host
 
 typedef struct way {
@@ -369,6 +397,7 @@ int main(void) {
         IN_TEST_FOLDER(each_call_fails_once_with_validation),
         cmocka_unit_test(each_call_fails_once_on_a_hosts_device),
         cmocka_unit_test(each_function_failed),
+        cmocka_unit_test(a_function_that_the_loader_lacks_is_named),
         cmocka_unit_test(each_allocation_of_an_own_device_fails_once),
         cmocka_unit_test(each_allocation_fails_once_on_a_hosts_device),
     };

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+PFN_vkGetInstanceProcAddr test_vulkan_loader;
+
 #define CHECK(call) assert_int_equal(call, VK_SUCCESS)
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
@@ -55,6 +57,7 @@ static void open_instance(host_device *host, bool validated) {
         (PFN_vkCreateDebugUtilsMessengerEXT)vkGetInstanceProcAddr(host->vulkan.instance,
                                                                   "vkCreateDebugUtilsMessengerEXT");
     CHECK(create_messenger(host->vulkan.instance, &messenger, NULL, &host->messenger));
+    host->vulkan.get_instance_proc_addr = test_vulkan_loader;
     host->vulkan.debug_utils = true;
 }
 

@@ -5,6 +5,9 @@
 
 #include "tests/engine/support/log_recorder.h"
 
+/// The loader of every device that the tests open; NULL: libvulkan's. vulkan_faults.c sets its own.
+extern PFN_vkGetInstanceProcAddr test_vulkan_loader;
+
 /// A program with Vulkan of its own, under the validation layer, that lets lobe use its device.
 typedef struct host_device {
     log_recorder recorder;     ///< of lobe

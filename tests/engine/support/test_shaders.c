@@ -1,5 +1,7 @@
 #include "tests/engine/support/test_shaders.h"
 
+#include "tests/engine/support/host_device.h"
+
 lobe_result add_test_shaders(lobe_device *device) {
     return engine_shaders_add(device, engine_test_shaders, engine_test_shaders_count,
                               TEST_SHADER_FOLDER);
@@ -10,6 +12,7 @@ lobe_result open_device_with_test_shaders(const lobe_host *host, const char *pip
     const lobe_device_parameters parameters = {
         .validation = true,
         .pipeline_cache = pipeline_cache,
+        .get_instance_proc_addr = test_vulkan_loader,
         .host = host,
     };
     const lobe_result result = lobe_device_create(&parameters, device);

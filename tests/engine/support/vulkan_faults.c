@@ -1,62 +1,65 @@
 #include "tests/engine/support/vulkan_faults.h"
 
-#include <dlfcn.h>
 #include <stddef.h>
 #include <string.h>
+
+#include "tests/engine/support/host_device.h"
 
 vulkan_faults faults;
 
 // ---------------------------------------------------------------------------------------------
-// What can fail
+// Functions that stand in for the loader's
 
-typedef struct fallible {
-    const char *name;
-    bool failed; ///< once at least
-    struct fallible *next;
-} fallible;
+typedef struct stand_in {
+    const char *vulkan_name;
+    PFN_vkVoidFunction function;
+    bool fallible;
+    bool failed; ///< at least once
+    struct stand_in *next;
+} stand_in;
 
-static fallible *all_fallible;
+static stand_in *all_stand_ins;
 
-static bool fails(fallible *function) {
+static bool fails(stand_in *function) {
     if (faults.paused || ++faults.calls != faults.failing)
         return false;
-    faults.failed = function->name;
+    faults.failed = function->vulkan_name;
     function->failed = true;
     return true;
 }
 
 const char *vulkan_fault_left_out(void) {
-    for (const fallible *function = all_fallible; function; function = function->next)
-        if (!function->failed)
-            return function->name;
+    for (const stand_in *function = all_stand_ins; function; function = function->next)
+        if (function->fallible && !function->failed)
+            return function->vulkan_name;
     return NULL;
 }
 
-/// Each is listed before the program starts.
-#define LISTED(function)                                                                           \
-    static fallible fallible_##function = {.name = #function};                                     \
-    __attribute__((constructor)) static void list_##function(void) {                               \
-        fallible_##function.next = all_fallible;                                                   \
-        all_fallible = &fallible_##function;                                                       \
+/// Lists a function fault_NAME before the program starts. vulkan_calls.py looks for these names.
+#define STAND_IN(name, can_fail)                                                                   \
+    static stand_in stand_in_##name = {                                                            \
+        .vulkan_name = #name, .function = (PFN_vkVoidFunction)fault_##name, .fallible = can_fail}; \
+    __attribute__((constructor)) static void list_##name(void) {                                   \
+        stand_in_##name.next = all_stand_ins;                                                      \
+        all_stand_ins = &stand_in_##name;                                                          \
     }
 
-// ---------------------------------------------------------------------------------------------
-// Functions of Vulkan
-
-#define REAL(name) ((PFN_##name)dlsym(RTLD_NEXT, #name))
+/// Begins the definition of a stand-in.
+#define FUNCTION(type, name, parameters, can_fail)                                                 \
+    static VKAPI_ATTR type VKAPI_CALL fault_##name parameters;                                     \
+    STAND_IN(name, can_fail)                                                                       \
+    static VKAPI_ATTR type VKAPI_CALL fault_##name parameters
 
 #define FALLIBLE(name, parameters, arguments)                                                      \
-    LISTED(name)                                                                                   \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        return fails(&fallible_##name) ? faults.fault : REAL(name) arguments;                      \
+    FUNCTION(VkResult, name, parameters, true) {                                                   \
+        return fails(&stand_in_##name) ? faults.fault : name arguments;                            \
     }
 
 #define MAKES(name, parameters, arguments)                                                         \
-    LISTED(name)                                                                                   \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        if (fails(&fallible_##name))                                                               \
+    FUNCTION(VkResult, name, parameters, true) {                                                   \
+        if (fails(&stand_in_##name))                                                               \
             return faults.fault;                                                                   \
-        VkResult result = REAL(name) arguments;                                                    \
+        VkResult result = name arguments;                                                          \
         faults.alive += result == VK_SUCCESS;                                                      \
         faults.made += result == VK_SUCCESS;                                                       \
         return result;                                                                             \
@@ -64,20 +67,19 @@ const char *vulkan_fault_left_out(void) {
 
 /// What is taken from a pool goes with it.
 #define TAKES(name, parameters, arguments)                                                         \
-    LISTED(name)                                                                                   \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        if (fails(&fallible_##name))                                                               \
+    FUNCTION(VkResult, name, parameters, true) {                                                   \
+        if (fails(&stand_in_##name))                                                               \
             return faults.fault;                                                                   \
-        VkResult result = REAL(name) arguments;                                                    \
+        VkResult result = name arguments;                                                          \
         faults.made += result == VK_SUCCESS;                                                       \
         return result;                                                                             \
     }
 
 #define DESTROYS(name, handle)                                                                     \
-    VKAPI_ATTR void VKAPI_CALL name(VkDevice device, handle gone,                                  \
-                                    const VkAllocationCallbacks *callbacks) {                      \
+    FUNCTION(void, name, (VkDevice device, handle gone, const VkAllocationCallbacks *callbacks),   \
+             false) {                                                                              \
         faults.alive -= gone != VK_NULL_HANDLE;                                                    \
-        REAL(name)(device, gone, callbacks);                                                       \
+        name(device, gone, callbacks);                                                             \
     }
 
 /// What a device makes by a structure that describes it.
@@ -102,15 +104,15 @@ OBJECT(Semaphore)
 OBJECT(ShaderModule)
 
 #define PIPELINES(kind)                                                                            \
-    LISTED(vkCreate##kind##Pipelines)                                                              \
-    VKAPI_ATTR VkResult VKAPI_CALL vkCreate##kind##Pipelines(                                      \
-        VkDevice device, VkPipelineCache cache, uint32_t count,                                    \
-        const Vk##kind##PipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,        \
-        VkPipeline *made) {                                                                        \
-        if (fails(&fallible_vkCreate##kind##Pipelines))                                            \
+    FUNCTION(VkResult, vkCreate##kind##Pipelines,                                                  \
+             (VkDevice device, VkPipelineCache cache, uint32_t count,                              \
+              const Vk##kind##PipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,  \
+              VkPipeline *made),                                                                   \
+             true) {                                                                               \
+        if (fails(&stand_in_vkCreate##kind##Pipelines))                                            \
             return faults.fault;                                                                   \
         VkResult result =                                                                          \
-            REAL(vkCreate##kind##Pipelines)(device, cache, count, create, callbacks, made);        \
+            vkCreate##kind##Pipelines(device, cache, count, create, callbacks, made);              \
         if (result == VK_SUCCESS) {                                                                \
             faults.alive++;                                                                        \
             faults.made++;                                                                         \
@@ -137,15 +139,15 @@ MAKES(vkCreateDevice,
        const VkAllocationCallbacks *callbacks, VkDevice *made),
       (physical, create, callbacks, made))
 
-VKAPI_ATTR void VKAPI_CALL vkDestroyInstance(VkInstance gone,
-                                             const VkAllocationCallbacks *callbacks) {
+FUNCTION(void, vkDestroyInstance, (VkInstance gone, const VkAllocationCallbacks *callbacks),
+         false) {
     faults.alive -= gone != VK_NULL_HANDLE;
-    REAL(vkDestroyInstance)(gone, callbacks);
+    vkDestroyInstance(gone, callbacks);
 }
 
-VKAPI_ATTR void VKAPI_CALL vkDestroyDevice(VkDevice gone, const VkAllocationCallbacks *callbacks) {
+FUNCTION(void, vkDestroyDevice, (VkDevice gone, const VkAllocationCallbacks *callbacks), false) {
     faults.alive -= gone != VK_NULL_HANDLE;
-    REAL(vkDestroyDevice)(gone, callbacks);
+    vkDestroyDevice(gone, callbacks);
 }
 
 TAKES(vkAllocateCommandBuffers,
@@ -201,10 +203,9 @@ FALLIBLE(vkGetPipelineCacheData, (VkDevice device, VkPipelineCache cache, size_t
 
 /// What is waited for is done all the same: a device that is lost runs nothing any more.
 #define WAITS(name, parameters, arguments)                                                         \
-    LISTED(name)                                                                                   \
-    VKAPI_ATTR VkResult VKAPI_CALL name parameters {                                               \
-        VkResult result = REAL(name) arguments;                                                    \
-        return fails(&fallible_##name) ? faults.fault : result;                                    \
+    FUNCTION(VkResult, name, parameters, true) {                                                   \
+        VkResult result = name arguments;                                                          \
+        return fails(&stand_in_##name) ? faults.fault : result;                                    \
     }
 
 WAITS(vkWaitSemaphores, (VkDevice device, const VkSemaphoreWaitInfo *wait, uint64_t timeout),
@@ -213,38 +214,54 @@ WAITS(vkDeviceWaitIdle, (VkDevice device), (device))
 WAITS(vkQueueWaitIdle, (VkQueue queue), (queue))
 
 // ---------------------------------------------------------------------------------------------
-// Functions of extensions, which are asked for by name
+// Functions of extensions, which libvulkan does not export
 
 static PFN_vkCreateDebugUtilsMessengerEXT real_create_messenger;
 static PFN_vkSetDebugUtilsObjectNameEXT real_set_name;
 
-LISTED(vkCreateDebugUtilsMessengerEXT)
-VKAPI_ATTR VkResult VKAPI_CALL vkCreateDebugUtilsMessengerEXT(
-    VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *create,
-    const VkAllocationCallbacks *callbacks, VkDebugUtilsMessengerEXT *made) {
-    return fails(&fallible_vkCreateDebugUtilsMessengerEXT)
+FUNCTION(VkResult, vkCreateDebugUtilsMessengerEXT,
+         (VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *create,
+          const VkAllocationCallbacks *callbacks, VkDebugUtilsMessengerEXT *made),
+         true) {
+    return fails(&stand_in_vkCreateDebugUtilsMessengerEXT)
                ? faults.fault
                : real_create_messenger(instance, create, callbacks, made);
 }
 
-LISTED(vkSetDebugUtilsObjectNameEXT)
-VKAPI_ATTR VkResult VKAPI_CALL
-vkSetDebugUtilsObjectNameEXT(VkDevice device, const VkDebugUtilsObjectNameInfoEXT *name) {
-    return faults.names && fails(&fallible_vkSetDebugUtilsObjectNameEXT)
+FUNCTION(VkResult, vkSetDebugUtilsObjectNameEXT,
+         (VkDevice device, const VkDebugUtilsObjectNameInfoEXT *name), true) {
+    return faults.names && fails(&stand_in_vkSetDebugUtilsObjectNameEXT)
                ? faults.fault
                : real_set_name(device, name);
 }
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance,
-                                                               const char *name) {
-    const PFN_vkVoidFunction real = REAL(vkGetInstanceProcAddr)(instance, name);
-    if (real && strcmp(name, "vkCreateDebugUtilsMessengerEXT") == 0) {
-        real_create_messenger = (PFN_vkCreateDebugUtilsMessengerEXT)real;
-        return (PFN_vkVoidFunction)vkCreateDebugUtilsMessengerEXT;
-    }
-    if (real && strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0) {
-        real_set_name = (PFN_vkSetDebugUtilsObjectNameEXT)real;
-        return (PFN_vkVoidFunction)vkSetDebugUtilsObjectNameEXT;
-    }
+// ---------------------------------------------------------------------------------------------
+// The loader
+
+/// The stand-in for a function that the loader has, or that function.
+static PFN_vkVoidFunction replace(PFN_vkVoidFunction real, const char *name) {
+    if (faults.absent && strcmp(name, faults.absent) == 0)
+        return NULL;
+    for (const stand_in *function = all_stand_ins; real && function; function = function->next)
+        if (strcmp(name, function->vulkan_name) == 0)
+            return function->function;
     return real;
+}
+
+FUNCTION(PFN_vkVoidFunction, vkGetDeviceProcAddr, (VkDevice device, const char *name), false) {
+    return replace(vkGetDeviceProcAddr(device, name), name);
+}
+
+static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_instance_proc_addr(VkInstance instance,
+                                                                       const char *name) {
+    const PFN_vkVoidFunction real = vkGetInstanceProcAddr(instance, name);
+    if (real && strcmp(name, "vkCreateDebugUtilsMessengerEXT") == 0)
+        real_create_messenger = (PFN_vkCreateDebugUtilsMessengerEXT)real;
+    if (real && strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0)
+        real_set_name = (PFN_vkSetDebugUtilsObjectNameEXT)real;
+    return replace(real, name);
+}
+
+__attribute__((constructor)) static void stand_in_for_the_loader(void) {
+    test_vulkan_loader = get_instance_proc_addr;
 }

@@ -5,15 +5,16 @@
 
 #include <vulkan/vulkan.h>
 
-/// Functions of Vulkan that stand before those of the loader in a program that is linked to them:
-/// each that can fail does so when it is told to, and what is made and destroyed is counted. A test
-/// (vulkan_calls.py) sees to it that all are here that lobe calls.
+/// A Vulkan loader for the devices of a test program, whose functions count what is made and
+/// destroyed and fail when they are to. vulkan_calls.py checks that each function that lobe calls
+/// and that can fail is among them. Calls by the test itself go to libvulkan and do not count.
 typedef struct vulkan_faults {
     int calls;          ///< so far, of those that can fail; set to 0 to count anew
-    int failing;        ///< the one that fails; 0: none
+    int failing;        ///< which call fails; 0: none
     VkResult fault;     ///< with this
     const char *failed; ///< its name, once it has
-    bool paused;        ///< while the host calls: nothing fails, and no call counts
+    const char *absent; ///< name of a function that the loader lacks; NULL: none
+    bool paused;        ///< nothing fails, and no call counts
     bool names;         ///< calls that name objects, of which there are many, can fail too
     // Counted in whatever thread.
     _Atomic int alive;     ///< objects made and not destroyed

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/engine/support/host_device.h"
+
 static void record(void *user, lobe_log_level level, const char *message) {
     fixture *f = user;
     if (level == LOBE_LOG_WARNING)
@@ -17,6 +19,7 @@ static void record(void *user, lobe_log_level level, const char *message) {
 lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters) {
     lobe_device *device = NULL;
     parameters.host = &f->host;
+    parameters.get_instance_proc_addr = test_vulkan_loader;
     if (lobe_device_create(&parameters, &device) != LOBE_OK)
         fail_msg("no device: %s", f->error);
     return device;
@@ -28,7 +31,8 @@ static int create(void **state, bool validation) {
         return -1;
     *state = f;
     f->host = (lobe_host){.write = record, .user = f};
-    lobe_device_parameters parameters = {.validation = validation, .host = &f->host};
+    const lobe_device_parameters parameters = {
+        .validation = validation, .get_instance_proc_addr = test_vulkan_loader, .host = &f->host};
     lobe_result result = lobe_device_create(&parameters, &f->device);
     if (result == LOBE_OK)
         result = lobe_graph_create(f->device, &f->graph);

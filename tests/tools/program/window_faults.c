@@ -165,6 +165,37 @@ VKAPI_ATTR void VKAPI_CALL vkDestroySurfaceKHR(VkInstance instance, VkSurfaceKHR
 }
 
 // ---------------------------------------------------------------------------------------------
+// For the engine, which asks for functions by name
+
+static const struct {
+    const char *name;
+    PFN_vkVoidFunction function;
+} engine_functions[] = {
+    {"vkDestroyDevice", (PFN_vkVoidFunction)vkDestroyDevice},
+    {"vkDeviceWaitIdle", (PFN_vkVoidFunction)vkDeviceWaitIdle},
+    {"vkGetDeviceProcAddr", (PFN_vkVoidFunction)vkGetDeviceProcAddr},
+    {"vkQueueSubmit2", (PFN_vkVoidFunction)vkQueueSubmit2},
+    {"vkQueueWaitIdle", (PFN_vkVoidFunction)vkQueueWaitIdle},
+    {"vkWaitSemaphores", (PFN_vkVoidFunction)vkWaitSemaphores},
+};
+
+static PFN_vkVoidFunction replace(PFN_vkVoidFunction real, const char *name) {
+    for (size_t i = 0; real && i < sizeof engine_functions / sizeof *engine_functions; i++)
+        if (strcmp(name, engine_functions[i].name) == 0)
+            return engine_functions[i].function;
+    return real;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetInstanceProcAddr(VkInstance instance,
+                                                               const char *name) {
+    return replace(REAL(vkGetInstanceProcAddr)(instance, name), name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL vkGetDeviceProcAddr(VkDevice device, const char *name) {
+    return replace(REAL(vkGetDeviceProcAddr)(device, name), name);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Monitors
 
 static void look_at_monitors(void) {
