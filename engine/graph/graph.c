@@ -1,55 +1,10 @@
-#include "engine/graph/graph.h"
+#include <lobe/graph.h>
+#include <lobe/vulkan.h>
 
-#include <stdarg.h>
-#include <stdio.h>
-
-#include "engine/base/host_clock.h"
-#include "engine/device/vulkan_check.h"
-#include "engine/graph/declare/binding.h"
-#include "engine/graph/declare/host.h"
-#include "engine/graph/declare/raster.h"
-#include "engine/graph/declare/signature.h"
-#include "engine/graph/record/flight.h"
+#include "engine/graph/declare/declare.h"
 #include "engine/graph/record/record.h"
 #include "engine/graph/report.h"
-#include "engine/graph/store/memory.h"
-#include "engine/graph/store/retain.h"
-#include "engine/graph/traffic.h"
-
-#define LINE_SIZE 1024
-
-// ---------------------------------------------------------------------------------------------
-// Failures
-
-lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
-    if (graph->result != LOBE_OK)
-        return graph->result;
-    char line[LINE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    graph->result = lobe_host_fail(&graph->device->host, result, "%s", line);
-    return result;
-}
-
-lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result) {
-    if (graph->result == LOBE_OK)
-        graph->result = result;
-    return graph->result;
-}
-
-lobe_result engine_graph_fail_memory(lobe_graph *graph) {
-    return lobe_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
-}
-
-lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
-    char line[LINE_SIZE];
-    if (graph->dependencies.fault.kind == ENGINE_FAULT_MEMORY)
-        return engine_graph_fail_memory(graph);
-    engine_dependency_explain(&graph->dependencies, line, sizeof line);
-    return lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "%s", line);
-}
+#include "engine/graph/store/store.h"
 
 // ---------------------------------------------------------------------------------------------
 // Life
@@ -62,8 +17,8 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "render graph: no host memory");
     created->device = device;
-    created->arena.allocator = created->dependencies.scratch.allocator = allocator;
-    created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
+    created->frame.arena.allocator = created->frame.dependencies.scratch.allocator = allocator;
+    created->frame.nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = engine_graph_create_flights(created);
     if (result != LOBE_OK)
         lobe_graph_destroy(&created);
@@ -71,13 +26,13 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     return result;
 }
 
-static void forget_frame(lobe_graph *graph) {
-    engine_graph_forget_imports(graph);
-    engine_dependency_graph_reset(&graph->dependencies);
-    engine_arena_reset(&graph->arena);
-    graph->report = (lobe_graph_report){0};
-    graph->result = LOBE_OK;
-    graph->phase = ENGINE_GRAPH_DECLARING;
+static void reset_frame(lobe_graph *graph) {
+    engine_graph_release_imports(graph);
+    engine_dependency_graph_reset(&graph->frame.dependencies);
+    engine_arena_reset(&graph->frame.arena);
+    graph->frame.report = (lobe_graph_report){0};
+    graph->frame.result = LOBE_OK;
+    graph->frame.phase = ENGINE_GRAPH_DECLARING;
 }
 
 void lobe_graph_destroy(lobe_graph **graph) {
@@ -86,21 +41,21 @@ void lobe_graph_destroy(lobe_graph **graph) {
         return;
     // A device that is lost has finished, too.
     (void)engine_graph_finish_flights(gone);
-    forget_frame(gone);
+    reset_frame(gone);
     engine_graph_free_retained(gone);
-    engine_graph_free_memory(gone);
+    engine_graph_free_transients(gone);
     engine_graph_free_flights(gone);
-    engine_dependency_graph_free(&gone->dependencies);
-    engine_arena_free(&gone->arena);
-    lobe_release(gone->resources);
-    lobe_release(gone->passes);
-    lobe_release(gone->pass_reports);
+    engine_dependency_graph_free(&gone->frame.dependencies);
+    engine_arena_free(&gone->frame.arena);
+    lobe_release(gone->frame.resources);
+    lobe_release(gone->frame.passes);
+    lobe_release(gone->frame.pass_reports);
     lobe_release(gone);
     *graph = NULL;
 }
 
 void lobe_graph_begin(lobe_graph *graph) {
-    forget_frame(graph);
+    reset_frame(graph);
     engine_graph_begin_retained(graph);
     engine_graph_propagate(graph, engine_graph_begin_flight(graph));
 }
@@ -109,17 +64,18 @@ void lobe_graph_begin(lobe_graph *graph) {
 // Compilation
 
 static lobe_result analyse(lobe_graph *graph) {
-    engine_dependency_graph *dependencies = &graph->dependencies;
+    engine_dependency_graph *dependencies = &graph->frame.dependencies;
     if (!engine_dependency_link(dependencies) || !engine_dependency_order(dependencies) ||
         !engine_dependency_cull(dependencies))
         return engine_graph_fail_dependency(graph);
-    engine_dependency_lifetimes(dependencies);
+    engine_dependency_find_lifetimes(dependencies);
     return LOBE_OK;
 }
 
 static lobe_result derive_barriers(lobe_graph *graph) {
-    return engine_dependency_barriers(&graph->dependencies) ? LOBE_OK
-                                                            : engine_graph_fail_dependency(graph);
+    return engine_dependency_derive_barriers(&graph->frame.dependencies)
+               ? LOBE_OK
+               : engine_graph_fail_dependency(graph);
 }
 
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
@@ -139,21 +95,21 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
 };
 
 lobe_result lobe_graph_compile(lobe_graph *graph) {
-    if (graph->phase != ENGINE_GRAPH_DECLARING || graph->result != LOBE_OK)
-        return graph->result;
+    if (graph->frame.phase != ENGINE_GRAPH_DECLARING || graph->frame.result != LOBE_OK)
+        return graph->frame.result;
     const double start = engine_host_milliseconds();
     for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
         lobe_result result = compile_steps[n](graph);
         if (result != LOBE_OK)
             return engine_graph_propagate(graph, result);
     }
-    graph->report.host_milliseconds = engine_host_milliseconds() - start;
-    graph->phase = ENGINE_GRAPH_COMPILED;
+    graph->frame.report.host_milliseconds = engine_host_milliseconds() - start;
+    graph->frame.phase = ENGINE_GRAPH_COMPILED;
     return LOBE_OK;
 }
 
 static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
-    if (graph->phase == ENGINE_GRAPH_SUBMITTED || graph->phase == ENGINE_GRAPH_EXECUTED)
+    if (graph->frame.phase == ENGINE_GRAPH_SUBMITTED || graph->frame.phase == ENGINE_GRAPH_EXECUTED)
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                                "render graph: executed twice; begin a new frame in between");
     lobe_result result = lobe_graph_compile(graph);
@@ -189,7 +145,7 @@ lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *s
 }
 
 lobe_result lobe_graph_wait(lobe_graph *graph) {
-    if (graph->phase != ENGINE_GRAPH_SUBMITTED)
-        return graph->result;
+    if (graph->frame.phase != ENGINE_GRAPH_SUBMITTED)
+        return graph->frame.result;
     return engine_graph_propagate(graph, engine_graph_finish(graph));
 }

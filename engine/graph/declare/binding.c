@@ -1,8 +1,7 @@
-#include "engine/graph/declare/binding.h"
+#include "engine/graph/declare/declare.h"
 
 #include <string.h>
 
-#include "engine/graph/declare/raster.h"
 #include "engine/shader/shader.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -179,8 +178,9 @@ static engine_graph_binding *find(const engine_graph_binding_list *list, const c
     return NULL;
 }
 
-engine_graph_binding *engine_graph_bound(const lobe_pass *pass, const engine_graph_command *command,
-                                         const char *name) {
+engine_graph_binding *engine_graph_find_binding(const lobe_pass *pass,
+                                                const engine_graph_command *command,
+                                                const char *name) {
     engine_graph_binding *own = find(&command->bindings, name);
     return own ? own : find(&pass->bindings, name);
 }
@@ -188,7 +188,7 @@ engine_graph_binding *engine_graph_bound(const lobe_pass *pass, const engine_gra
 static bool resolve_variable(lobe_pass *pass, engine_graph_command *command,
                              const engine_shader *shader, const engine_shader_binding *variable) {
     lobe_graph *graph = pass->graph;
-    engine_graph_binding *binding = engine_graph_bound(pass, command, variable->name);
+    engine_graph_binding *binding = engine_graph_find_binding(pass, command, variable->name);
     if (!binding && !variable->used)
         return true;
     if (!binding) {
@@ -196,13 +196,13 @@ static bool resolve_variable(lobe_pass *pass, engine_graph_command *command,
                         pass->name, shader->name, variable->name);
         return false;
     }
-    engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
+    engine_dependency_access *access = &graph->frame.dependencies.accesses[binding->access];
     binding_site site = {.pass = pass,
                          .shader = shader,
                          .variable = variable,
                          .binding = binding,
                          .access = access,
-                         .resource = &graph->resources[access->resource]};
+                         .resource = &graph->frame.resources[access->resource]};
     if (!check_fit(&site))
         return false;
     record_use(&site);
@@ -243,7 +243,8 @@ static bool check_names(lobe_pass *pass, const engine_graph_binding_list *list,
                 "pass '%s' binds resource '%s' to '%s', which shader '%s' does not "
                 "have",
                 pass->name,
-                pass->graph->resources[pass->graph->dependencies.accesses[binding->access].resource]
+                pass->graph->frame
+                    .resources[pass->graph->frame.dependencies.accesses[binding->access].resource]
                     .name,
                 binding->name, shader);
             return false;
@@ -296,9 +297,9 @@ static bool resolve_pass(lobe_pass *pass) {
 }
 
 lobe_result engine_graph_resolve_bindings(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++)
-        if (!resolve_pass(graph->passes[n]))
-            return graph->result;
+    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++)
+        if (!resolve_pass(graph->frame.passes[n]))
+            return graph->frame.result;
     return LOBE_OK;
 }
 
@@ -337,8 +338,8 @@ static lobe_result find_pipeline(lobe_pass *pass, engine_graph_command *command)
 }
 
 lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.running_count; n++) {
-        lobe_pass *pass = graph->passes[graph->dependencies.running[n]];
+    for (uint32_t n = 0; n < graph->frame.dependencies.running_count; n++) {
+        lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[n]];
         for (engine_graph_command *command = pass->first_command; command;
              command = command->next) {
             lobe_result result = find_pipeline(pass, command);

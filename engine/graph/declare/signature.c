@@ -1,4 +1,4 @@
-#include "engine/graph/declare/signature.h"
+#include "engine/graph/declare/declare.h"
 
 static engine_stamp sign_sampler(engine_stamp stamp, const lobe_sampler *sampler) {
     const uint32_t modes[] = {sampler->texels, sampler->levels, sampler->wrap_u, sampler->wrap_v};
@@ -82,7 +82,7 @@ static engine_stamp sign_pass(const lobe_pass *pass) {
 }
 
 lobe_result engine_graph_sign_passes(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++)
-        graph->dependencies.passes[n].signature = sign_pass(graph->passes[n]);
+    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++)
+        graph->frame.dependencies.passes[n].signature = sign_pass(graph->frame.passes[n]);
     return LOBE_OK;
 }

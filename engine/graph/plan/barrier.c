@@ -420,7 +420,7 @@ static bool builder_create(barrier_builder *builder) {
                                 sizeof *graph->end_layouts);
 }
 
-bool engine_dependency_barriers(engine_dependency_graph *graph) {
+bool engine_dependency_derive_barriers(engine_dependency_graph *graph) {
     barrier_builder builder = {.graph = graph};
     graph->barrier_count = 0;
     bool fine = builder_create(&builder);

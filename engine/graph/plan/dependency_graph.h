@@ -20,8 +20,8 @@
 ///     engine_dependency_link       sources of content, hazards between passes   (graph_validate.c)
 ///     engine_dependency_order      topological order                            (graph_order.c)
 ///     engine_dependency_cull       which passes run, are culled, are skipped    (graph_cull.c)
-///     engine_dependency_lifetimes  first and last use of each resource          (graph_lifetime.c)
-///     engine_dependency_barriers   transitions and memory dependencies          (graph_barrier.c)
+///     engine_dependency_find_lifetimes  first and last use of each resource (graph_lifetime.c)
+///     engine_dependency_derive_barriers   transitions and memory dependencies (graph_barrier.c)
 ///
 /// Each returns false on failure and leaves the reason in `fault`.
 
@@ -150,7 +150,7 @@ typedef struct engine_dependency_graph {
     uint32_t *running;                   ///< those of `order` that run
     uint32_t *cycle;                     ///< passes of the cycle found
     engine_dependency_barrier *barriers; ///< sorted by position
-    engine_layout *end_layouts;          ///< by subresource, after engine_dependency_barriers
+    engine_layout *end_layouts; ///< by subresource, after engine_dependency_derive_barriers
 
     uint32_t resource_count, resource_capacity;
     uint32_t pass_count, pass_capacity;
@@ -193,9 +193,9 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
 bool engine_dependency_link(engine_dependency_graph *graph);
 bool engine_dependency_order(engine_dependency_graph *graph);
 bool engine_dependency_cull(engine_dependency_graph *graph);
-void engine_dependency_lifetimes(engine_dependency_graph *graph);
+void engine_dependency_find_lifetimes(engine_dependency_graph *graph);
 /// Gives every access of one pass that reads one subresource one layout, then derives barriers.
-bool engine_dependency_barriers(engine_dependency_graph *graph);
+bool engine_dependency_derive_barriers(engine_dependency_graph *graph);
 
 /// Index of a subresource within its resource.
 static inline uint32_t engine_subresource_index(const engine_dependency_resource *resource,

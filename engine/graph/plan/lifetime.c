@@ -14,7 +14,7 @@ static void extend_output(engine_dependency_graph *graph, const engine_dependenc
         extend(resource, graph->running_count);
 }
 
-void engine_dependency_lifetimes(engine_dependency_graph *graph) {
+void engine_dependency_find_lifetimes(engine_dependency_graph *graph) {
     for (uint32_t n = 0; n < graph->resource_count; n++) {
         graph->resources[n].first_position = ENGINE_DEPENDENCY_NONE;
         graph->resources[n].last_position = ENGINE_DEPENDENCY_NONE;

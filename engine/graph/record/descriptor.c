@@ -1,9 +1,9 @@
-#include "engine/graph/record/descriptor.h"
+#include "engine/graph/record/record.h"
 
 #include "engine/base/growing_array.h"
 #include "engine/device/vulkan_check.h"
-#include "engine/graph/declare/binding.h"
-#include "engine/graph/store/object.h"
+#include "engine/graph/declare/declare.h"
+#include "engine/graph/store/store.h"
 
 static const VkDescriptorType types[] = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
@@ -12,25 +12,6 @@ static const VkDescriptorType types[] = {
     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
 };
 #define TYPE_COUNT (sizeof types / sizeof *types)
-
-VkImageLayout engine_graph_vulkan_layout(engine_layout layout) {
-    switch (layout) {
-    case ENGINE_LAYOUT_GENERAL:
-        return VK_IMAGE_LAYOUT_GENERAL;
-    case ENGINE_LAYOUT_SAMPLED:
-        return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    case ENGINE_LAYOUT_COLOUR:
-        return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    case ENGINE_LAYOUT_DEPTH:
-        return VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    case ENGINE_LAYOUT_COPY_SOURCE:
-        return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    case ENGINE_LAYOUT_COPY_TARGET:
-        return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    default:
-        return VK_IMAGE_LAYOUT_UNDEFINED;
-    }
-}
 
 // ---------------------------------------------------------------------------------------------
 // Which commands need a set
@@ -57,9 +38,9 @@ static bool next_command(const lobe_graph *graph, command_walk *walk) {
             command = command->next;
             continue;
         }
-        if (walk->position == graph->dependencies.running_count)
+        if (walk->position == graph->frame.dependencies.running_count)
             return false;
-        walk->pass = graph->passes[graph->dependencies.running[walk->position++]];
+        walk->pass = graph->frame.passes[graph->frame.dependencies.running[walk->position++]];
         command = walk->pass->first_command;
         before = NULL;
     }
@@ -100,26 +81,26 @@ static lobe_result create_pool(lobe_graph *graph) {
     VkDescriptorPoolSize sizes[TYPE_COUNT];
     uint32_t used = 0;
     for (size_t n = 0; n < TYPE_COUNT; n++)
-        if (graph->flight->descriptor_capacity[1 + n] > 0)
+        if (graph->frame.flight->descriptor_capacity[1 + n] > 0)
             sizes[used++] =
-                (VkDescriptorPoolSize){types[n], graph->flight->descriptor_capacity[1 + n]};
+                (VkDescriptorPoolSize){types[n], graph->frame.flight->descriptor_capacity[1 + n]};
     const VkDescriptorPoolCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = graph->flight->descriptor_capacity[0],
+        .maxSets = graph->frame.flight->descriptor_capacity[0],
         .poolSizeCount = used,
         .pPoolSizes = sizes,
     };
     return VULKAN_CHECK(&device->host,
                         device->api.vkCreateDescriptorPool(device->vulkan, &create,
                                                            device->callbacks,
-                                                           &graph->flight->descriptors),
+                                                           &graph->frame.flight->descriptors),
                         "render graph");
 }
 
 /// Empties the pool; makes a larger one where it is too small for this frame.
 static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
     lobe_device *device = graph->device;
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     bool large_enough = flight->descriptors != VK_NULL_HANDLE;
     for (size_t n = 0; n < 1 + TYPE_COUNT; n++)
         if (needs->counts[n] > flight->descriptor_capacity[n]) {
@@ -140,9 +121,10 @@ static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
 // Sets
 
 static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     uint32_t filled = 0;
-    VkDescriptorSetLayout *layouts = engine_arena_allocate(&graph->arena, count * sizeof *layouts);
+    VkDescriptorSetLayout *layouts =
+        engine_arena_allocate(&graph->frame.arena, count * sizeof *layouts);
     if (!layouts || !engine_array_reserve(graph->device->host.allocator, (void **)&flight->sets,
                                           &flight->set_capacity, count, sizeof *flight->sets))
         return engine_graph_fail_memory(graph);
@@ -163,14 +145,14 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
 
 /// The sets of the flight's last frame serve where this one needs the very same.
 static lobe_result prepare_sets(lobe_graph *graph, const set_needs *needs) {
-    if (graph->flight->set_plan == needs->plan || needs->counts[0] == 0)
+    if (graph->frame.flight->set_plan == needs->plan || needs->counts[0] == 0)
         return LOBE_OK;
-    graph->flight->set_plan = ENGINE_STAMP_NONE;
+    graph->frame.flight->set_plan = ENGINE_STAMP_NONE;
     lobe_result result = prepare_pool(graph, needs);
     if (result == LOBE_OK)
         result = allocate_sets(graph, needs->counts[0]);
     if (result == LOBE_OK)
-        graph->flight->set_plan = needs->plan;
+        graph->frame.flight->set_plan = needs->plan;
     return result;
 }
 
@@ -178,7 +160,7 @@ static void assign_sets(const lobe_graph *graph) {
     uint32_t next = 0;
     for (command_walk walk = {0}; next_command(graph, &walk);) {
         next += !walk.shares_set;
-        walk.command->set = graph->flight->sets[next - 1];
+        walk.command->set = graph->frame.flight->sets[next - 1];
     }
 }
 
@@ -213,10 +195,10 @@ static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource
                                   const engine_graph_binding *binding,
                                   const engine_shader_binding *variable,
                                   VkDescriptorImageInfo *image) {
-    const engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
+    const engine_dependency_access *access = &graph->frame.dependencies.accesses[binding->access];
     image->imageLayout = engine_graph_vulkan_layout(access->state.layout);
-    lobe_result result = engine_graph_view_of(graph->device, resource, variable->view,
-                                              &access->range, &image->imageView);
+    lobe_result result = engine_graph_get_view(graph->device, resource, variable->view,
+                                               &access->range, &image->imageView);
     if (result == LOBE_OK && variable->type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
         result = engine_sampler(graph->device, &binding->sampler, &image->sampler);
     return result;
@@ -225,11 +207,11 @@ static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource
 static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
                                 const engine_shader_binding *variable, write_batch *batch) {
     const engine_graph_binding *binding =
-        engine_graph_bound(walk->pass, walk->command, variable->name);
+        engine_graph_find_binding(walk->pass, walk->command, variable->name);
     if (!binding)
         return LOBE_OK; // no code of the shader refers to it
     const engine_graph_resource *resource =
-        &graph->resources[graph->dependencies.accesses[binding->access].resource];
+        &graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource];
     uint32_t n = batch->count++;
     batch->writes[n] = (VkWriteDescriptorSet){
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -249,7 +231,7 @@ static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
 static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {
     write_batch batch;
     lobe_result result = LOBE_OK;
-    if (!create_batch(&graph->arena, variables, &batch))
+    if (!create_batch(&graph->frame.arena, variables, &batch))
         return engine_graph_fail_memory(graph);
     for (command_walk walk = {0}; next_command(graph, &walk);)
         for (size_t n = 0; !walk.shares_set && n < walk.command->pipeline->binding_count; n++) {

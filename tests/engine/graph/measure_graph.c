@@ -6,7 +6,7 @@
 
 #include <lobe/vulkan.h>
 
-#include "engine/base/host_clock.h"
+#include "engine/graph/report.h"
 #include "tests/engine/graph/graph_frame.h"
 #include "tests/engine/support/test_shaders.h"
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "engine/graph/graph.h"
+#include "engine/graph/state.h"
 #include "tests/engine/graph/graph_support.h"
 
 static const float *read_floats(graph_fixture *fixture, lobe_resource resource, size_t count) {
@@ -450,15 +450,15 @@ static void a_still_frame_allocates_nothing(void **state) {
     timed_frame(fixture, 1 << 16);
     // Whoever plans memory anew loses the mark.
     const uint32_t mark = 12345;
-    fixture->graph->transients.requests[0].first = mark;
-    const VkDescriptorPool pool = fixture->graph->flight->descriptors;
-    const VkQueryPool timestamps = fixture->graph->flight->timestamps;
+    fixture->graph->kept.transients.requests[0].first = mark;
+    const VkDescriptorPool pool = fixture->graph->frame.flight->descriptors;
+    const VkQueryPool timestamps = fixture->graph->frame.flight->timestamps;
     timed_frame(fixture, 1 << 16);
-    assert_int_equal(fixture->graph->transients.requests[0].first, mark);
-    assert_ptr_equal(fixture->graph->flight->descriptors, pool);
-    assert_ptr_equal(fixture->graph->flight->timestamps, timestamps);
+    assert_int_equal(fixture->graph->kept.transients.requests[0].first, mark);
+    assert_ptr_equal(fixture->graph->frame.flight->descriptors, pool);
+    assert_ptr_equal(fixture->graph->frame.flight->timestamps, timestamps);
     timed_frame(fixture, 1 << 17);
-    assert_int_not_equal(fixture->graph->transients.requests[0].first, mark);
+    assert_int_not_equal(fixture->graph->kept.transients.requests[0].first, mark);
 }
 
 static void compiling_runs_nothing(void **state) {

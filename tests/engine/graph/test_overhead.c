@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "engine/base/host_clock.h"
+#include "engine/graph/report.h"
 #include "tests/engine/graph/graph_frame.h"
 #include "tests/engine/support/counting_allocator.h"
 #include "tests/engine/support/host_device.h"

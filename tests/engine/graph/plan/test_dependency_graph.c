@@ -85,8 +85,8 @@ static void compile(void) {
     assert_true(engine_dependency_link(&graph));
     assert_true(engine_dependency_order(&graph));
     assert_true(engine_dependency_cull(&graph));
-    engine_dependency_lifetimes(&graph);
-    assert_true(engine_dependency_barriers(&graph));
+    engine_dependency_find_lifetimes(&graph);
+    assert_true(engine_dependency_derive_barriers(&graph));
 }
 
 /// The hazards between two passes, as bits.

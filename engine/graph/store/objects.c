@@ -1,4 +1,4 @@
-#include "engine/graph/store/object.h"
+#include "engine/graph/store/store.h"
 
 #include <string.h>
 
@@ -104,8 +104,9 @@ static VkImageView given_view(const engine_graph_resource *resource, VkImageView
     return VK_NULL_HANDLE;
 }
 
-lobe_result engine_graph_view_of(lobe_device *device, const engine_graph_resource *resource,
-                                 VkImageViewType type, const lobe_range *range, VkImageView *view) {
+lobe_result engine_graph_get_view(lobe_device *device, const engine_graph_resource *resource,
+                                  VkImageViewType type, const lobe_range *range,
+                                  VkImageView *view) {
     *view = given_view(resource, type, range);
     if (*view)
         return LOBE_OK;

@@ -1,26 +1,21 @@
-#include "engine/graph/store/memory.h"
+#include "engine/graph/store/store.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "engine/graph/plan/alias.h"
-#include "engine/graph/record/flight.h"
-#include "engine/graph/store/object.h"
-
-#include <lobe/vulkan.h>
 
 // ---------------------------------------------------------------------------------------------
 // Which transients, and whether they are those of the last frame
 
 static bool is_placed(const lobe_graph *graph, uint32_t index) {
-    return graph->resources[index].origin == ENGINE_GRAPH_TRANSIENT &&
-           graph->dependencies.resources[index].first_position != ENGINE_DEPENDENCY_NONE;
+    return graph->frame.resources[index].origin == ENGINE_GRAPH_TRANSIENT &&
+           graph->frame.dependencies.resources[index].first_position != ENGINE_DEPENDENCY_NONE;
 }
 
 /// Which of the transients before this one are alive at some time when it is: all that the places
 /// of both depend on.
 static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, uint32_t index) {
-    const engine_dependency_resource *resources = graph->dependencies.resources;
+    const engine_dependency_resource *resources = graph->frame.dependencies.resources;
     uint32_t rank = 0;
     for (uint32_t n = 0; n < index; n++) {
         if (!is_placed(graph, n))
@@ -35,9 +30,9 @@ static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, 
 
 static engine_stamp plan_stamp(const lobe_graph *graph) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, 0);
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        const engine_graph_resource *resource = &graph->resources[n];
-        const engine_dependency_resource *dependency = &graph->dependencies.resources[n];
+    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
+        const engine_graph_resource *resource = &graph->frame.resources[n];
+        const engine_dependency_resource *dependency = &graph->frame.dependencies.resources[n];
         if (!is_placed(graph, n))
             continue;
         stamp = engine_stamp_text(stamp, resource->name);
@@ -49,8 +44,8 @@ static engine_stamp plan_stamp(const lobe_graph *graph) {
     return stamp;
 }
 
-static void free_transients(lobe_graph *graph) {
-    engine_graph_transients *transients = &graph->transients;
+void engine_graph_free_transients(lobe_graph *graph) {
+    engine_graph_transients *transients = &graph->kept.transients;
     for (uint32_t n = 0; n < transients->count; n++)
         engine_graph_free_object(graph->device, &transients->objects[n]);
     for (uint32_t n = 0; n < transients->block_count; n++)
@@ -63,9 +58,9 @@ static void free_transients(lobe_graph *graph) {
 }
 
 static lobe_result allocate_tables(lobe_graph *graph) {
-    engine_graph_transients *transients = &graph->transients;
+    engine_graph_transients *transients = &graph->kept.transients;
     uint32_t count = 0;
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
+    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
         count += is_placed(graph, n);
     transients->objects =
         lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->objects);
@@ -115,10 +110,10 @@ static void join_block(block_plan *block, const char *name,
 }
 
 static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
-    engine_graph_transients *transients = &graph->transients;
+    engine_graph_transients *transients = &graph->kept.transients;
     uint32_t made = 0;
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
+    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
+        engine_graph_resource *resource = &graph->frame.resources[n];
         if (!is_placed(graph, n))
             continue;
         VkMemoryRequirements requirements = {0};
@@ -129,8 +124,8 @@ static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
         transients->requests[made] =
             (engine_alias_request){.size = requirements.size,
                                    .alignment = requirements.alignment,
-                                   .first = graph->dependencies.resources[n].first_position,
-                                   .last = graph->dependencies.resources[n].last_position};
+                                   .first = graph->frame.dependencies.resources[n].first_position,
+                                   .last = graph->frame.dependencies.resources[n].last_position};
         uint32_t block = find_block(blocks, &transients->block_count, requirements.memoryTypeBits,
                                     !resource->is_image);
         join_block(&blocks[block], resource->name, &requirements);
@@ -142,7 +137,7 @@ static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
 /// Plans one block; requests of others are left alone.
 static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
                        engine_alias_request *scratch) {
-    engine_graph_transients *transients = &graph->transients;
+    engine_graph_transients *transients = &graph->kept.transients;
     uint32_t count = 0;
     uint64_t shared = 0, separate = 0;
     for (uint32_t n = 0; n < transients->count; n++)
@@ -175,11 +170,11 @@ static lobe_result allocate_block(lobe_graph *graph, uint32_t block, const block
         .linear = plan->linear,
     };
     return engine_memory_allocate(graph->device->memory, &request,
-                                  &graph->transients.memory[block]);
+                                  &graph->kept.transients.memory[block]);
 }
 
 static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
-    engine_graph_transients *transients = &graph->transients;
+    engine_graph_transients *transients = &graph->kept.transients;
     engine_alias_request *scratch =
         lobe_allocate(graph->device->host.allocator, transients->count + 1, sizeof *scratch);
     lobe_result result = scratch ? LOBE_OK : engine_graph_fail_memory(graph);
@@ -194,12 +189,12 @@ static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
 }
 
 static lobe_result bind_objects(lobe_graph *graph) {
-    engine_graph_transients *transients = &graph->transients;
-    for (uint32_t n = 0, made = 0; n < graph->dependencies.resource_count; n++) {
+    engine_graph_transients *transients = &graph->kept.transients;
+    for (uint32_t n = 0, made = 0; n < graph->frame.dependencies.resource_count; n++) {
         if (!is_placed(graph, n))
             continue;
         lobe_result result = engine_graph_bind_object(
-            graph->device, graph->resources[n].name, &transients->objects[made],
+            graph->device, graph->frame.resources[n].name, &transients->objects[made],
             &transients->memory[transients->blocks[made]], transients->requests[made].offset);
         if (result != LOBE_OK)
             return result;
@@ -210,8 +205,8 @@ static lobe_result bind_objects(lobe_graph *graph) {
 
 static lobe_result make_transients(lobe_graph *graph) {
     lobe_result result = allocate_tables(graph);
-    block_plan *blocks =
-        lobe_allocate(graph->device->host.allocator, graph->transients.count + 1, sizeof *blocks);
+    block_plan *blocks = lobe_allocate(graph->device->host.allocator,
+                                       graph->kept.transients.count + 1, sizeof *blocks);
     if (result == LOBE_OK && !blocks)
         result = engine_graph_fail_memory(graph);
     if (result == LOBE_OK)
@@ -225,122 +220,37 @@ static lobe_result make_transients(lobe_graph *graph) {
 }
 
 static void publish_transients(lobe_graph *graph) {
-    engine_graph_transients *transients = &graph->transients;
-    for (uint32_t n = 0, made = 0; n < graph->dependencies.resource_count; n++) {
+    engine_graph_transients *transients = &graph->kept.transients;
+    for (uint32_t n = 0, made = 0; n < graph->frame.dependencies.resource_count; n++) {
         if (!is_placed(graph, n))
             continue;
-        engine_dependency_resource *dependency = &graph->dependencies.resources[n];
+        engine_dependency_resource *dependency = &graph->frame.dependencies.resources[n];
         dependency->placed = true;
         dependency->block = transients->blocks[made];
         dependency->offset = transients->requests[made].offset;
         dependency->size = transients->requests[made].size;
-        graph->resources[n].object = &transients->objects[made];
-        graph->resources[n].bytes = transients->requests[made].size;
+        graph->frame.resources[n].object = &transients->objects[made];
+        graph->frame.resources[n].bytes = transients->requests[made].size;
         made++;
     }
 }
 
 lobe_result engine_graph_place_transients(lobe_graph *graph) {
     engine_stamp plan = plan_stamp(graph);
-    if (graph->transients.plan != plan) {
+    if (graph->kept.transients.plan != plan) {
         lobe_result result = LOBE_OK;
-        if (graph->transients.count > 0)
+        if (graph->kept.transients.count > 0)
             result = engine_graph_finish_flights(graph);
         if (result != LOBE_OK)
             return result;
-        free_transients(graph);
+        engine_graph_free_transients(graph);
         result = make_transients(graph);
         if (result != LOBE_OK) {
-            free_transients(graph);
+            engine_graph_free_transients(graph);
             return result;
         }
-        graph->transients.plan = plan;
+        graph->kept.transients.plan = plan;
     }
     publish_transients(graph);
     return LOBE_OK;
-}
-
-// ---------------------------------------------------------------------------------------------
-// What comes from the host
-
-static lobe_result reserve_uploads(lobe_graph *graph, uint64_t size) {
-    if (size <= graph->flight->upload_size)
-        return LOBE_OK;
-    engine_buffer_destroy_placed(graph->device, &graph->flight->uploads.buffer,
-                                 &graph->flight->upload_memory);
-    graph->flight->upload_size = 0;
-    VkFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
-    lobe_result result = engine_buffer_create_placed(
-        graph->device, "uploads of the frame", size, usage, ENGINE_MEMORY_UPLOAD,
-        &graph->flight->uploads.buffer, &graph->flight->upload_memory);
-    if (result == LOBE_OK)
-        graph->flight->upload_size = size;
-    return result;
-}
-
-static uint64_t upload_alignment(const lobe_graph *graph) {
-    const VkPhysicalDeviceLimits *limits = &graph->device->limits;
-    uint64_t alignment = 16;
-    if (limits->minUniformBufferOffsetAlignment > alignment)
-        alignment = limits->minUniformBufferOffsetAlignment;
-    if (limits->minStorageBufferOffsetAlignment > alignment)
-        alignment = limits->minStorageBufferOffsetAlignment;
-    return alignment;
-}
-
-static lobe_result place_uploads(lobe_graph *graph) {
-    uint64_t alignment = upload_alignment(graph), size = 0;
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
-        if (resource->origin != ENGINE_GRAPH_UPLOAD)
-            continue;
-        resource->offset = size;
-        size += (resource->size + alignment - 1) / alignment * alignment;
-    }
-    lobe_result result = reserve_uploads(graph, size);
-    for (uint32_t n = 0; result == LOBE_OK && n < graph->dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
-        if (resource->origin != ENGINE_GRAPH_UPLOAD)
-            continue;
-        resource->object = &graph->flight->uploads;
-        memcpy((char *)graph->flight->upload_memory.mapped + resource->offset, resource->upload,
-               resource->size);
-    }
-    return result;
-}
-
-lobe_result engine_graph_place_imports(lobe_graph *graph) {
-    uint32_t count = graph->dependencies.resource_count;
-    graph->imported = engine_arena_allocate(&graph->arena, count * sizeof *graph->imported);
-    if (!graph->imported)
-        return engine_graph_fail_memory(graph);
-    for (uint32_t n = 0; n < count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
-        if (resource->texture)
-            graph->imported[n].image = resource->texture->image;
-        else if (resource->buffer)
-            graph->imported[n].buffer = resource->buffer->buffer;
-        else if (resource->host)
-            graph->imported[n].image = resource->host->image;
-        else
-            continue;
-        resource->object = &graph->imported[n];
-    }
-    return place_uploads(graph);
-}
-
-void engine_graph_forget_imports(lobe_graph *graph) {
-    for (uint32_t n = 0; graph->imported && n < graph->dependencies.resource_count; n++)
-        while (graph->imported[n].views) {
-            engine_graph_view *view = graph->imported[n].views;
-            graph->imported[n].views = view->next;
-            view->next = graph->flight->views;
-            graph->flight->views = view;
-        }
-    graph->imported = NULL;
-}
-
-void engine_graph_free_memory(lobe_graph *graph) {
-    free_transients(graph);
 }

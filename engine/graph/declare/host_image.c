@@ -1,9 +1,7 @@
-#include "engine/graph/declare/host.h"
+#include "engine/graph/declare/declare.h"
 
 #include <lobe/vulkan.h>
 
-#include "engine/graph/declare/declare.h"
-#include "engine/graph/record/descriptor.h"
 #include "engine/resource/format.h"
 
 lobe_format lobe_vulkan_format(VkFormat format) {
@@ -17,8 +15,8 @@ lobe_format lobe_vulkan_format(VkFormat format) {
 // Declaration
 
 static bool is_imported(const lobe_graph *graph, VkImage image) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
-        if (graph->resources[n].host && graph->resources[n].host->image == image)
+    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
+        if (graph->frame.resources[n].host && graph->frame.resources[n].host->image == image)
             return true;
     return false;
 }
@@ -34,7 +32,7 @@ static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const
     else if (is_imported(graph, image->image))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
                         name);
-    return graph->result == LOBE_OK;
+    return graph->frame.result == LOBE_OK;
 }
 
 /// Without a better word of the host's, whatever it does comes after all of lobe's work.
@@ -49,10 +47,10 @@ static engine_access_state state_after(const lobe_vulkan_image *image) {
 
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {
     const char *name = image->name ? image->name : "host image";
-    if (!engine_graph_may_declare(graph, name) || !check_image(graph, image, name))
+    if (!engine_graph_can_declare(graph, name) || !check_image(graph, image, name))
         return (lobe_resource){0};
-    lobe_vulkan_image *kept = engine_arena_copy(&graph->arena, image, sizeof *image);
-    name = engine_arena_copy_text(&graph->arena, name);
+    lobe_vulkan_image *kept = engine_arena_copy(&graph->frame.arena, image, sizeof *image);
+    name = engine_arena_copy_text(&graph->frame.arena, name);
     if (!kept || !name) {
         engine_graph_fail_memory(graph);
         return (lobe_resource){0};
@@ -98,8 +96,8 @@ static const char *missing_usage(VkImageUsageFlags missing) {
 }
 
 lobe_result engine_graph_check_host_images(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        const engine_graph_resource *resource = &graph->resources[n];
+    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
+        const engine_graph_resource *resource = &graph->frame.resources[n];
         VkFlags missing = resource->host ? resource->usage & ~resource->host->usage : 0;
         if (missing)
             return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
@@ -107,12 +105,4 @@ lobe_result engine_graph_check_host_images(lobe_graph *graph) {
                                    resource->name, missing_usage(missing));
     }
     return LOBE_OK;
-}
-
-VkImageLayout engine_graph_layout_of(const engine_graph_resource *resource, engine_layout layout) {
-    if (layout == ENGINE_LAYOUT_LENT)
-        return resource->host->layout;
-    if (layout != ENGINE_LAYOUT_RETURNED)
-        return engine_graph_vulkan_layout(layout);
-    return resource->host->final_layout ? resource->host->final_layout : VK_IMAGE_LAYOUT_GENERAL;
 }
