@@ -5,10 +5,10 @@
 #include <stdint.h>
 
 static inline void engine_sort_swap(unsigned char *first, unsigned char *second, size_t size) {
-    for (size_t n = 0; n < size; n++) {
-        unsigned char held = first[n];
-        first[n] = second[n];
-        second[n] = held;
+    for (size_t i = 0; i < size; i++) {
+        unsigned char held = first[i];
+        first[i] = second[i];
+        second[i] = held;
     }
 }
 
@@ -23,10 +23,10 @@ static inline void engine_sort(void *items, uint32_t count, size_t size,
     while (gap < count / 3)
         gap = 3 * gap + 1;
     for (; gap > 0; gap /= 3)
-        for (size_t n = gap; n < count; n++)
-            for (size_t m = n; m >= gap && compare(bytes + (m - gap) * size, bytes + m * size) > 0;
-                 m -= gap)
-                engine_sort_swap(bytes + (m - gap) * size, bytes + m * size, size);
+        for (size_t i = gap; i < count; i++)
+            for (size_t j = i; j >= gap && compare(bytes + (j - gap) * size, bytes + j * size) > 0;
+                 j -= gap)
+                engine_sort_swap(bytes + (j - gap) * size, bytes + j * size, size);
 }
 
 #endif

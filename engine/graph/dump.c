@@ -111,9 +111,9 @@ static void text_accesses(engine_text_builder *out, const lobe_graph *graph, uin
         [ENGINE_ACCESS_MODIFY] = "modifies",
     };
     const engine_dependency_graph *dependencies = &graph->frame.dependencies;
-    for (uint32_t n = dependencies->passes[pass].first_access; n != ENGINE_DEPENDENCY_NONE;
-         n = dependencies->accesses[n].next) {
-        const engine_dependency_access *access = &dependencies->accesses[n];
+    for (uint32_t i = dependencies->passes[pass].first_access; i != ENGINE_DEPENDENCY_NONE;
+         i = dependencies->accesses[i].next) {
+        const engine_dependency_access *access = &dependencies->accesses[i];
         engine_text_add(out, "      %s ", words[access->kind]);
         text_name(out, graph->frame.resources[access->resource].name);
         print_range(out, &graph->frame.resources[access->resource], &access->range);
@@ -138,9 +138,9 @@ static void text_barrier(engine_text_builder *out, const lobe_graph *graph,
 }
 
 static void text_barriers(engine_text_builder *out, const lobe_graph *graph, uint32_t position) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.barrier_count; n++)
-        if (graph->frame.dependencies.barriers[n].position == position)
-            text_barrier(out, graph, &graph->frame.dependencies.barriers[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.barrier_count; i++)
+        if (graph->frame.dependencies.barriers[i].position == position)
+            text_barrier(out, graph, &graph->frame.dependencies.barriers[i]);
 }
 
 static void text_pass(engine_text_builder *out, const lobe_graph *graph, uint32_t index) {
@@ -159,11 +159,11 @@ static void text_pass(engine_text_builder *out, const lobe_graph *graph, uint32_
 static void text_passes(engine_text_builder *out, const lobe_graph *graph) {
     const engine_dependency_graph *dependencies = &graph->frame.dependencies;
     engine_text_add(out, "passes, in order of execution\n");
-    for (uint32_t n = 0; n < dependencies->running_count; n++)
-        text_pass(out, graph, dependencies->running[n]);
-    for (uint32_t n = 0; n < dependencies->order_count; n++)
-        if (dependencies->passes[dependencies->order[n]].state != LOBE_PASS_RUN)
-            text_pass(out, graph, dependencies->order[n]);
+    for (uint32_t i = 0; i < dependencies->running_count; i++)
+        text_pass(out, graph, dependencies->running[i]);
+    for (uint32_t i = 0; i < dependencies->order_count; i++)
+        if (dependencies->passes[dependencies->order[i]].state != LOBE_PASS_RUN)
+            text_pass(out, graph, dependencies->order[i]);
 }
 
 static void text_resource(engine_text_builder *out, const lobe_graph *graph, uint32_t index) {
@@ -188,8 +188,8 @@ char *lobe_graph_dump_text(const lobe_graph *graph) {
     text_summary(out, graph);
     text_passes(out, graph);
     engine_text_add(out, "resources\n");
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
-        text_resource(out, graph, n);
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        text_resource(out, graph, i);
     return engine_text_finish(out);
 }
 
@@ -218,9 +218,9 @@ static const char *pass_style(lobe_pass_state state) {
 
 static uint32_t barriers_before(const lobe_graph *graph, uint32_t position) {
     uint32_t count = 0;
-    for (uint32_t n = 0; n < graph->frame.dependencies.barrier_count; n++)
-        count += graph->frame.dependencies.barriers[n].position == position &&
-                 graph->frame.dependencies.barriers[n].resource != ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < graph->frame.dependencies.barrier_count; i++)
+        count += graph->frame.dependencies.barriers[i].position == position &&
+                 graph->frame.dependencies.barriers[i].resource != ENGINE_DEPENDENCY_NONE;
     return count;
 }
 
@@ -278,8 +278,8 @@ static void graphviz_start(engine_text_builder *out, const lobe_graph *graph, ui
 }
 
 static bool starts_with_content(const engine_dependency_graph *dependencies, uint32_t resource) {
-    for (uint32_t n = 0; n < dependencies->access_count; n++) {
-        const engine_dependency_access *access = &dependencies->accesses[n];
+    for (uint32_t i = 0; i < dependencies->access_count; i++) {
+        const engine_dependency_access *access = &dependencies->accesses[i];
         if (access->resource != resource || access->kind == ENGINE_ACCESS_WRITE)
             continue;
         for (uint32_t s = 0; s < engine_access_size(access); s++)
@@ -295,10 +295,10 @@ static void graphviz_reads(engine_text_builder *out, const lobe_graph *graph, ui
     const engine_dependency_access *access = &dependencies->accesses[index];
     if (access->kind == ENGINE_ACCESS_WRITE)
         return;
-    for (uint32_t n = 0; n < engine_access_size(access); n++) {
-        uint32_t source = engine_access_source(dependencies, access, n);
+    for (uint32_t i = 0; i < engine_access_size(access); i++) {
+        uint32_t source = engine_access_source(dependencies, access, i);
         bool known = false;
-        for (uint32_t before = 0; before < n && !known; before++)
+        for (uint32_t before = 0; before < i && !known; before++)
             known = engine_access_source(dependencies, access, before) == source;
         if (known)
             continue;
@@ -325,8 +325,8 @@ static void graphviz_legend(engine_text_builder *out, const lobe_graph *graph) {
 }
 
 static bool has_output(const engine_dependency_graph *dependencies) {
-    for (uint32_t n = 0; n < dependencies->access_count; n++)
-        if (dependencies->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
+    for (uint32_t i = 0; i < dependencies->access_count; i++)
+        if (dependencies->accesses[i].pass == ENGINE_DEPENDENCY_NONE)
             return true;
     return false;
 }
@@ -334,16 +334,16 @@ static bool has_output(const engine_dependency_graph *dependencies) {
 static void graphviz_graph(engine_text_builder *out, const lobe_graph *graph) {
     const engine_dependency_graph *dependencies = &graph->frame.dependencies;
     graphviz_legend(out, graph);
-    for (uint32_t n = 0; n < dependencies->order_count; n++)
-        graphviz_pass(out, graph, dependencies->order[n]);
-    for (uint32_t n = 0; n < dependencies->resource_count; n++)
-        if (starts_with_content(dependencies, n))
-            graphviz_start(out, graph, n);
+    for (uint32_t i = 0; i < dependencies->order_count; i++)
+        graphviz_pass(out, graph, dependencies->order[i]);
+    for (uint32_t i = 0; i < dependencies->resource_count; i++)
+        if (starts_with_content(dependencies, i))
+            graphviz_start(out, graph, i);
     if (has_output(dependencies))
         engine_text_add(out, "  output [shape=doublecircle];\n");
-    for (uint32_t n = 0; n < dependencies->access_count; n++) {
-        graphviz_content(out, graph, n);
-        graphviz_reads(out, graph, n);
+    for (uint32_t i = 0; i < dependencies->access_count; i++) {
+        graphviz_content(out, graph, i);
+        graphviz_reads(out, graph, i);
     }
 }
 

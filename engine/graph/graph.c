@@ -98,8 +98,8 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
     if (graph->frame.phase != ENGINE_GRAPH_DECLARING || graph->frame.result != LOBE_OK)
         return graph->frame.result;
     const double start = engine_host_milliseconds();
-    for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
-        lobe_result result = compile_steps[n](graph);
+    for (size_t i = 0; i < sizeof compile_steps / sizeof *compile_steps; i++) {
+        lobe_result result = compile_steps[i](graph);
         if (result != LOBE_OK)
             return engine_graph_propagate(graph, result);
     }

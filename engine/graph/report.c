@@ -23,8 +23,8 @@ static void count_access(lobe_pass *pass, const engine_dependency_access *access
                                     ? COUNTED_WRITTEN
                                     : COUNTED_READ | COUNTED_WRITTEN;
     const uint64_t mine = ((uint64_t)pass->index + 1) << 2;
-    for (uint32_t n = 0; n < engine_access_size(access); n++) {
-        const uint32_t index = engine_access_subresource(&graph->frame.dependencies, access, n);
+    for (uint32_t i = 0; i < engine_access_size(access); i++) {
+        const uint32_t index = engine_access_subresource(&graph->frame.dependencies, access, i);
         const uint32_t layers = graph->frame.dependencies.resources[access->resource].layers;
         const uint64_t bytes = engine_graph_range_bytes(
             resource,
@@ -45,10 +45,10 @@ lobe_result engine_graph_count_traffic(lobe_graph *graph) {
     if (!counted)
         return engine_graph_fail_memory(graph);
     memset(counted, 0, count * sizeof *counted);
-    for (uint32_t n = 0; n < dependencies->pass_count; n++) {
-        uint32_t index = dependencies->passes[n].first_access;
+    for (uint32_t i = 0; i < dependencies->pass_count; i++) {
+        uint32_t index = dependencies->passes[i].first_access;
         for (; index != ENGINE_DEPENDENCY_NONE; index = dependencies->accesses[index].next)
-            count_access(graph->frame.passes[n], &dependencies->accesses[index], counted);
+            count_access(graph->frame.passes[i], &dependencies->accesses[index], counted);
     }
     return LOBE_OK;
 }
@@ -122,9 +122,9 @@ lobe_result engine_graph_read_timestamps(lobe_graph *graph) {
                      "render graph");
     if (result != LOBE_OK)
         return result;
-    for (uint32_t n = 0; n < count; n++)
-        graph->frame.passes[graph->frame.dependencies.running[n]]->milliseconds =
-            milliseconds_between(graph, ticks[2 * n], ticks[2 * n + 1]);
+    for (uint32_t i = 0; i < count; i++)
+        graph->frame.passes[graph->frame.dependencies.running[i]]->milliseconds =
+            milliseconds_between(graph, ticks[2 * i], ticks[2 * i + 1]);
     graph->frame.report.milliseconds = milliseconds_between(graph, ticks[0], ticks[2 * count - 1]);
     return LOBE_OK;
 }
@@ -153,18 +153,18 @@ static lobe_result list_passes(lobe_graph *graph) {
         return engine_graph_fail_memory(graph);
     graph->frame.report.passes = graph->frame.pass_reports;
     graph->frame.report.pass_count = 0;
-    for (uint32_t n = 0; n < dependencies->running_count; n++)
-        add_pass(graph, dependencies->running[n]);
-    for (uint32_t n = 0; n < dependencies->order_count; n++)
-        if (dependencies->passes[dependencies->order[n]].state != LOBE_PASS_RUN)
-            add_pass(graph, dependencies->order[n]);
+    for (uint32_t i = 0; i < dependencies->running_count; i++)
+        add_pass(graph, dependencies->running[i]);
+    for (uint32_t i = 0; i < dependencies->order_count; i++)
+        if (dependencies->passes[dependencies->order[i]].state != LOBE_PASS_RUN)
+            add_pass(graph, dependencies->order[i]);
     return LOBE_OK;
 }
 
 static uint32_t count_barriers(const engine_dependency_graph *dependencies) {
     uint32_t count = 0;
-    for (uint32_t n = 0; n < dependencies->barrier_count; n++)
-        count += dependencies->barriers[n].resource != ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < dependencies->barrier_count; i++)
+        count += dependencies->barriers[i].resource != ENGINE_DEPENDENCY_NONE;
     return count;
 }
 

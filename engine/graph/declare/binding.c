@@ -220,8 +220,8 @@ static bool resolve_shader(lobe_pass *pass, engine_graph_command *command, const
     if (shader->push_constant_size > *push_constant_size)
         *push_constant_size = shader->push_constant_size;
     command->shader_stamp = engine_stamp_mix(command->shader_stamp, shader->version);
-    for (size_t n = 0; n < shader->binding_count; n++)
-        if (!resolve_variable(pass, command, shader, &shader->bindings[n]))
+    for (size_t i = 0; i < shader->binding_count; i++)
+        if (!resolve_variable(pass, command, shader, &shader->bindings[i]))
             return false;
     return true;
 }
@@ -297,8 +297,8 @@ static bool resolve_pass(lobe_pass *pass) {
 }
 
 lobe_result engine_graph_resolve_bindings(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++)
-        if (!resolve_pass(graph->frame.passes[n]))
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
+        if (!resolve_pass(graph->frame.passes[i]))
             return graph->frame.result;
     return LOBE_OK;
 }
@@ -308,15 +308,15 @@ lobe_result engine_graph_resolve_bindings(lobe_graph *graph) {
 
 static lobe_result count_groups(lobe_pass *pass, engine_graph_command *command) {
     const VkPhysicalDeviceLimits *limits = &pass->graph->device->limits;
-    for (uint32_t n = 0; n < 3; n++) {
-        uint32_t threads = command->dispatch.threads[n] ? command->dispatch.threads[n] : 1;
-        uint32_t local = command->pipeline->local_size[n];
-        command->group_count[n] = threads / local + (threads % local != 0);
-        if (command->group_count[n] > limits->maxComputeWorkGroupCount[n])
+    for (uint32_t i = 0; i < 3; i++) {
+        uint32_t threads = command->dispatch.threads[i] ? command->dispatch.threads[i] : 1;
+        uint32_t local = command->pipeline->local_size[i];
+        command->group_count[i] = threads / local + (threads % local != 0);
+        if (command->group_count[i] > limits->maxComputeWorkGroupCount[i])
             return lobe_graph_fail(pass->graph, LOBE_ERROR_LIMIT,
                                    "pass '%s', shader '%s': %u groups, the device allows %u",
-                                   pass->name, command->dispatch.shader, command->group_count[n],
-                                   limits->maxComputeWorkGroupCount[n]);
+                                   pass->name, command->dispatch.shader, command->group_count[i],
+                                   limits->maxComputeWorkGroupCount[i]);
     }
     return LOBE_OK;
 }
@@ -338,8 +338,8 @@ static lobe_result find_pipeline(lobe_pass *pass, engine_graph_command *command)
 }
 
 lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.running_count; n++) {
-        lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[n]];
+    for (uint32_t i = 0; i < graph->frame.dependencies.running_count; i++) {
+        lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[i]];
         for (engine_graph_command *command = pass->first_command; command;
              command = command->next) {
             lobe_result result = find_pipeline(pass, command);

@@ -5,9 +5,9 @@
 #include "engine/resource/format.h"
 
 lobe_format lobe_vulkan_format(VkFormat format) {
-    for (int n = LOBE_FORMAT_NONE + 1; n < LOBE_FORMAT_COUNT; n++)
-        if (engine_format_vulkan((lobe_format)n) == format)
-            return (lobe_format)n;
+    for (int i = LOBE_FORMAT_NONE + 1; i < LOBE_FORMAT_COUNT; i++)
+        if (engine_format_vulkan((lobe_format)i) == format)
+            return (lobe_format)i;
     return LOBE_FORMAT_NONE;
 }
 
@@ -15,8 +15,8 @@ lobe_format lobe_vulkan_format(VkFormat format) {
 // Declaration
 
 static bool is_imported(const lobe_graph *graph, VkImage image) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
-        if (graph->frame.resources[n].host && graph->frame.resources[n].host->image == image)
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if (graph->frame.resources[i].host && graph->frame.resources[i].host->image == image)
             return true;
     return false;
 }
@@ -96,8 +96,8 @@ static const char *missing_usage(VkImageUsageFlags missing) {
 }
 
 lobe_result engine_graph_check_host_images(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        const engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        const engine_graph_resource *resource = &graph->frame.resources[i];
         VkFlags missing = resource->host ? resource->usage & ~resource->host->usage : 0;
         if (missing)
             return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,

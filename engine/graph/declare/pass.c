@@ -26,8 +26,8 @@ lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const c
         return NULL;
     }
     *pass = (lobe_pass){.graph = graph, .index = index, .kind = kind, .name = kept};
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        pass->colour[n].access = pass->resolve[n].access = ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        pass->colour[i].access = pass->resolve[i].access = ENGINE_DEPENDENCY_NONE;
     pass->depth.access = ENGINE_DEPENDENCY_NONE;
     graph->frame.passes[index] = pass;
     return pass;
@@ -195,8 +195,8 @@ static bool check_constants(lobe_pass *pass, const char *shader, const void *con
 
 static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
                             const lobe_binding *bindings, size_t count) {
-    for (size_t n = 0; n < count; n++)
-        engine_graph_add_binding(pass, &command->bindings, &bindings[n], ENGINE_ACCESS_READ);
+    for (size_t i = 0; i < count; i++)
+        engine_graph_add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
 }
 
 static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lobe_dispatch *copy) {

@@ -153,13 +153,13 @@ static bool check_resolve(lobe_pass *pass, uint32_t location) {
 
 static bool check_raster(lobe_pass *pass) {
     pass->samples = 0;
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (!check_attachment(pass, &pass->colour[n]))
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (!check_attachment(pass, &pass->colour[i]))
             return false;
     if (!check_attachment(pass, &pass->depth))
         return false;
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (!check_resolve(pass, n))
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (!check_resolve(pass, i))
             return false;
     if (pass->samples == 0)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "raster pass '%s' has no attachments",
@@ -168,9 +168,9 @@ static bool check_raster(lobe_pass *pass) {
 }
 
 lobe_result engine_graph_check_rasters(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++)
-        if (graph->frame.passes[n]->kind == LOBE_PASS_RASTER &&
-            !check_raster(graph->frame.passes[n]))
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
+        if (graph->frame.passes[i]->kind == LOBE_PASS_RASTER &&
+            !check_raster(graph->frame.passes[i]))
             return graph->frame.result;
     return LOBE_OK;
 }
@@ -189,9 +189,9 @@ engine_raster_parameters engine_graph_raster_parameters(const lobe_pass *pass,
         .blend = draw->blend,
         .samples = pass->samples,
     };
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (pass->colour[n].access != ENGINE_DEPENDENCY_NONE)
-            parameters.colour[n] = attached(graph, &pass->colour[n])->format;
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (pass->colour[i].access != ENGINE_DEPENDENCY_NONE)
+            parameters.colour[i] = attached(graph, &pass->colour[i])->format;
     if (pass->depth.access != ENGINE_DEPENDENCY_NONE)
         parameters.depth = attached(graph, &pass->depth)->format;
     return parameters;

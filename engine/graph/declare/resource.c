@@ -40,9 +40,9 @@ uint64_t engine_graph_range_bytes(const engine_graph_resource *resource, const l
     if (!resource->is_image)
         return resource->size;
     uint64_t texels = 0;
-    for (uint32_t n = 0; n < range->level_count; n++)
-        texels += (uint64_t)engine_graph_level_extent(resource->width, range->first_level + n) *
-                  engine_graph_level_extent(resource->height, range->first_level + n);
+    for (uint32_t i = 0; i < range->level_count; i++)
+        texels += (uint64_t)engine_graph_level_extent(resource->width, range->first_level + i) *
+                  engine_graph_level_extent(resource->height, range->first_level + i);
     return texels * range->layer_count * lobe_format_size(resource->format) *
            (resource->samples > 1 ? resource->samples : 1);
 }
@@ -121,9 +121,9 @@ static engine_stamp identity_of(const engine_graph_resource *resource) {
 /// Finds what former frames kept under this name; false where this frame already declared it.
 static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
                            engine_dependency_resource *dependency) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
-        if (graph->frame.resources[n].origin == ENGINE_GRAPH_RETAINED &&
-            strcmp(graph->frame.resources[n].name, resource->name) == 0) {
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if (graph->frame.resources[i].origin == ENGINE_GRAPH_RETAINED &&
+            strcmp(graph->frame.resources[i].name, resource->name) == 0) {
             lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                             "retained resource '%s' is declared twice in one frame",
                             resource->name);
@@ -194,12 +194,12 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 // What comes from the host
 
 static uint32_t find_import(const lobe_graph *graph, const void *object) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
-        if ((graph->frame.resources[n].origin == ENGINE_GRAPH_TEXTURE &&
-             graph->frame.resources[n].texture == object) ||
-            (graph->frame.resources[n].origin == ENGINE_GRAPH_BUFFER &&
-             graph->frame.resources[n].buffer == object))
-            return n;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if ((graph->frame.resources[i].origin == ENGINE_GRAPH_TEXTURE &&
+             graph->frame.resources[i].texture == object) ||
+            (graph->frame.resources[i].origin == ENGINE_GRAPH_BUFFER &&
+             graph->frame.resources[i].buffer == object))
+            return i;
     return ENGINE_DEPENDENCY_NONE;
 }
 

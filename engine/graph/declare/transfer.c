@@ -42,11 +42,11 @@ static bool same_shape(const lobe_graph *graph, const engine_dependency_access *
                 lobe_format_size(source->format) == lobe_format_size(target->format) &&
                 from->range.level_count == to->range.level_count &&
                 from->range.layer_count == to->range.layer_count;
-    for (uint32_t n = 0; same && n < from->range.level_count; n++)
-        same = engine_graph_level_extent(source->width, from->range.first_level + n) ==
-                   engine_graph_level_extent(target->width, to->range.first_level + n) &&
-               engine_graph_level_extent(source->height, from->range.first_level + n) ==
-                   engine_graph_level_extent(target->height, to->range.first_level + n);
+    for (uint32_t i = 0; same && i < from->range.level_count; i++)
+        same = engine_graph_level_extent(source->width, from->range.first_level + i) ==
+                   engine_graph_level_extent(target->width, to->range.first_level + i) &&
+               engine_graph_level_extent(source->height, from->range.first_level + i) ==
+                   engine_graph_level_extent(target->height, to->range.first_level + i);
     return same;
 }
 

@@ -68,21 +68,21 @@ static void add_use(barrier_builder *builder, uint32_t position, uint32_t first,
 
 static void add_uses_of_access(barrier_builder *builder, uint32_t position, uint32_t first,
                                const engine_dependency_access *access) {
-    for (uint32_t n = 0; n < engine_access_size(access); n++)
+    for (uint32_t i = 0; i < engine_access_size(access); i++)
         add_use(builder, position, first, access,
-                engine_access_subresource(builder->graph, access, n));
+                engine_access_subresource(builder->graph, access, i));
 }
 
 /// Gives the reads of resources that were marked so the general layout.
 static void unite_layouts(barrier_builder *builder, uint32_t position, uint32_t first) {
     engine_dependency_graph *graph = builder->graph;
     const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
-    for (uint32_t n = first; n < builder->use_count; n++)
-        if (!builder->uses[n].writes && builder->general[builder->uses[n].resource] == position + 1)
-            builder->uses[n].state.layout = ENGINE_LAYOUT_GENERAL;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
-         n = graph->accesses[n].next) {
-        engine_dependency_access *access = &graph->accesses[n];
+    for (uint32_t i = first; i < builder->use_count; i++)
+        if (!builder->uses[i].writes && builder->general[builder->uses[i].resource] == position + 1)
+            builder->uses[i].state.layout = ENGINE_LAYOUT_GENERAL;
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE;
+         i = graph->accesses[i].next) {
+        engine_dependency_access *access = &graph->accesses[i];
         if (access->kind == ENGINE_ACCESS_READ &&
             builder->general[access->resource] == position + 1)
             access->state.layout = ENGINE_LAYOUT_GENERAL;
@@ -101,9 +101,9 @@ static void list_uses(barrier_builder *builder) {
     for (uint32_t position = 0; position < graph->running_count; position++) {
         const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
         uint32_t first = builder->use_count;
-        for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
-             n = graph->accesses[n].next)
-            add_uses_of_access(builder, position, first, &graph->accesses[n]);
+        for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE;
+             i = graph->accesses[i].next)
+            add_uses_of_access(builder, position, first, &graph->accesses[i]);
         unite_layouts(builder, position, first);
         // Neighbours come to stand together, to share a barrier.
         engine_sort(builder->uses + first, builder->use_count - first, sizeof *builder->uses,
@@ -118,8 +118,8 @@ static bool group_reads(barrier_builder *builder) {
         engine_arena_allocate(&builder->graph->scratch, graph->subresource_count * sizeof *next);
     if (!next)
         return false;
-    for (uint32_t n = builder->use_count; n-- > 0;) {
-        subresource_use *use = &builder->uses[n];
+    for (uint32_t i = builder->use_count; i-- > 0;) {
+        subresource_use *use = &builder->uses[i];
         const subresource_use **after =
             &next[graph->resources[use->resource].first_subresource + use->subresource];
         use->group = use->state;
@@ -147,9 +147,9 @@ static engine_access_state former_tenants(const barrier_builder *builder, uint32
     const engine_dependency_graph *graph = builder->graph;
     const engine_dependency_resource *resource = &graph->resources[index];
     engine_access_state former = {0};
-    for (uint32_t n = 0; n < graph->resource_count; n++) {
-        const engine_dependency_resource *other = &graph->resources[n];
-        if (n == index || !shared_memory(resource, other) ||
+    for (uint32_t i = 0; i < graph->resource_count; i++) {
+        const engine_dependency_resource *other = &graph->resources[i];
+        if (i == index || !shared_memory(resource, other) ||
             other->last_position >= resource->first_position)
             continue;
         for (uint32_t s = 0; s < other->levels * other->layers; s++) {
@@ -214,8 +214,8 @@ static bool extend_layers(engine_dependency_barrier *last, const engine_dependen
 /// Levels come in order: unite the last barrier with one of the level before.
 static void extend_levels(engine_dependency_graph *graph) {
     uint32_t kept = 0;
-    for (uint32_t n = 0; n < graph->barrier_count; n++) {
-        engine_dependency_barrier *barrier = &graph->barriers[n];
+    for (uint32_t i = 0; i < graph->barrier_count; i++) {
+        engine_dependency_barrier *barrier = &graph->barriers[i];
         engine_dependency_barrier *last = kept ? &graph->barriers[kept - 1] : NULL;
         if (last && last->resource != ENGINE_DEPENDENCY_NONE && same_transition(last, barrier) &&
             last->range.first_layer == barrier->range.first_layer &&
@@ -250,9 +250,9 @@ static bool emit_memory(barrier_builder *builder, uint32_t first_barrier,
                         const subresource_use *use, const subresource_tracker *tracker) {
     engine_dependency_graph *graph = builder->graph;
     engine_dependency_barrier *memory = NULL;
-    for (uint32_t n = first_barrier; n < graph->barrier_count; n++)
-        if (graph->barriers[n].resource == ENGINE_DEPENDENCY_NONE)
-            memory = &graph->barriers[n];
+    for (uint32_t i = first_barrier; i < graph->barrier_count; i++)
+        if (graph->barriers[i].resource == ENGINE_DEPENDENCY_NONE)
+            memory = &graph->barriers[i];
     if (!memory) {
         engine_dependency_barrier added = {.position = use->position,
                                            .resource = ENGINE_DEPENDENCY_NONE};
@@ -331,9 +331,9 @@ static bool track_use(barrier_builder *builder, uint32_t first_barrier,
 
 static bool derive(barrier_builder *builder) {
     uint32_t first_barrier = 0;
-    for (uint32_t n = 0; n < builder->use_count; n++) {
-        const subresource_use *use = &builder->uses[n];
-        if (n > 0 && use->position != use[-1].position)
+    for (uint32_t i = 0; i < builder->use_count; i++) {
+        const subresource_use *use = &builder->uses[i];
+        if (i > 0 && use->position != use[-1].position)
             first_barrier = builder->graph->barrier_count;
         if (!builder->started[use->resource])
             start_resource(builder, use->resource);

@@ -15,8 +15,8 @@ static bool reads(const engine_dependency_access *access) {
 
 /// In topological order, so that the stamps of what a pass reads are known.
 static void stamp_passes(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->order_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+    for (uint32_t i = 0; i < graph->order_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[i]];
         engine_stamp stamp = pass->signature;
         for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
              a = graph->accesses[a].next) {
@@ -77,17 +77,17 @@ static bool demand_content(engine_dependency_graph *graph, uint32_t writer, uint
 static bool demand_read(engine_dependency_graph *graph, const engine_dependency_access *access,
                         bool use_retained) {
     bool news = false;
-    for (uint32_t n = 0; n < engine_access_size(access); n++)
-        news |= demand_content(graph, engine_access_source(graph, access, n),
-                               engine_access_subresource(graph, access, n), use_retained);
+    for (uint32_t i = 0; i < engine_access_size(access); i++)
+        news |= demand_content(graph, engine_access_source(graph, access, i),
+                               engine_access_subresource(graph, access, i), use_retained);
     return news;
 }
 
 static bool demand_written(engine_dependency_graph *graph, uint32_t access, bool use_retained) {
     bool news = false;
-    for (uint32_t n = 0; n < engine_access_size(&graph->accesses[access]); n++)
+    for (uint32_t i = 0; i < engine_access_size(&graph->accesses[access]); i++)
         news |= demand_content(graph, access,
-                               engine_access_subresource(graph, &graph->accesses[access], n),
+                               engine_access_subresource(graph, &graph->accesses[access], i),
                                use_retained);
     return news;
 }
@@ -96,10 +96,10 @@ static bool demand_written(engine_dependency_graph *graph, uint32_t access, bool
 static bool demand_kept(engine_dependency_graph *graph, engine_dependency_pass *pass,
                         bool use_retained) {
     bool news = false, written = false;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (writes(&graph->accesses[n])) {
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (writes(&graph->accesses[i])) {
             written = true;
-            news |= demand_written(graph, n, use_retained);
+            news |= demand_written(graph, i, use_retained);
         }
     if (!written && pass->state != LOBE_PASS_RUN) {
         pass->state = LOBE_PASS_RUN;
@@ -113,49 +113,49 @@ static bool demand_of_pass(engine_dependency_graph *graph, engine_dependency_pas
     bool news = pass->keep && demand_kept(graph, pass, use_retained);
     if (pass->state != LOBE_PASS_RUN)
         return news;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (reads(&graph->accesses[n]))
-            news |= demand_read(graph, &graph->accesses[n], use_retained);
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (reads(&graph->accesses[i]))
+            news |= demand_read(graph, &graph->accesses[i], use_retained);
     return news;
 }
 
 static bool demand_outputs(engine_dependency_graph *graph, bool use_retained) {
     bool news = false;
-    for (uint32_t n = 0; n < graph->access_count; n++)
-        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
-            news |= demand_read(graph, &graph->accesses[n], use_retained);
+    for (uint32_t i = 0; i < graph->access_count; i++)
+        if (graph->accesses[i].pass == ENGINE_DEPENDENCY_NONE)
+            news |= demand_read(graph, &graph->accesses[i], use_retained);
     return news;
 }
 
 /// A pass that runs may destroy retained content that counted as valid: repeat until all is quiet.
 /// Running passes only become more, so it ends.
 static void propagate_demand(engine_dependency_graph *graph, bool use_retained) {
-    for (uint32_t n = 0; n < graph->pass_count; n++)
-        graph->passes[n].state = LOBE_PASS_CULLED;
+    for (uint32_t i = 0; i < graph->pass_count; i++)
+        graph->passes[i].state = LOBE_PASS_CULLED;
     for (bool news = true; news;) {
         news = demand_outputs(graph, use_retained);
-        for (uint32_t n = graph->order_count; n-- > 0;)
-            news |= demand_of_pass(graph, &graph->passes[graph->order[n]], use_retained);
+        for (uint32_t i = graph->order_count; i-- > 0;)
+            news |= demand_of_pass(graph, &graph->passes[graph->order[i]], use_retained);
     }
 }
 
 static bool writes_retained(const engine_dependency_graph *graph,
                             const engine_dependency_pass *pass) {
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (writes(&graph->accesses[n]) && graph->resources[graph->accesses[n].resource].retained)
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (writes(&graph->accesses[i]) && graph->resources[graph->accesses[i].resource].retained)
             return true;
     return false;
 }
 
 static void mark_live(engine_dependency_graph *graph) {
     propagate_demand(graph, false);
-    for (uint32_t n = 0; n < graph->pass_count; n++)
-        graph->passes[n].live = graph->passes[n].state == LOBE_PASS_RUN;
+    for (uint32_t i = 0; i < graph->pass_count; i++)
+        graph->passes[i].live = graph->passes[i].state == LOBE_PASS_RUN;
 }
 
 static void mark_skipped(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->pass_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[n];
+    for (uint32_t i = 0; i < graph->pass_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[i];
         if (pass->live && pass->state != LOBE_PASS_RUN && writes_retained(graph, pass))
             pass->state = LOBE_PASS_SKIPPED;
     }
@@ -163,13 +163,13 @@ static void mark_skipped(engine_dependency_graph *graph) {
 
 static void list_running(engine_dependency_graph *graph) {
     graph->running_count = 0;
-    for (uint32_t n = 0; n < graph->order_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+    for (uint32_t i = 0; i < graph->order_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[i]];
         pass->position = ENGINE_DEPENDENCY_NONE;
         if (pass->state != LOBE_PASS_RUN)
             continue;
         pass->position = graph->running_count;
-        graph->running[graph->running_count++] = graph->order[n];
+        graph->running[graph->running_count++] = graph->order[i];
     }
 }
 

@@ -257,9 +257,9 @@ static const char *pass_name(const engine_dependency_graph *graph, uint32_t pass
 
 static void explain_cycle(const engine_dependency_graph *graph, char *text, size_t size) {
     int length = snprintf(text, size, "passes depend on each other in a circle:");
-    for (uint32_t n = 0; n <= graph->cycle_count && length >= 0 && (size_t)length < size; n++) {
-        uint32_t pass = graph->cycle[n % graph->cycle_count];
-        length += snprintf(text + length, size - (size_t)length, "%s '%s'", n ? " before" : "",
+    for (uint32_t i = 0; i <= graph->cycle_count && length >= 0 && (size_t)length < size; i++) {
+        uint32_t pass = graph->cycle[i % graph->cycle_count];
+        length += snprintf(text + length, size - (size_t)length, "%s '%s'", i ? " before" : "",
                            pass_name(graph, pass));
     }
     size_t used = strlen(text);

@@ -15,17 +15,17 @@ static void extend_output(engine_dependency_graph *graph, const engine_dependenc
 }
 
 void engine_dependency_find_lifetimes(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->resource_count; n++) {
-        graph->resources[n].first_position = ENGINE_DEPENDENCY_NONE;
-        graph->resources[n].last_position = ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < graph->resource_count; i++) {
+        graph->resources[i].first_position = ENGINE_DEPENDENCY_NONE;
+        graph->resources[i].last_position = ENGINE_DEPENDENCY_NONE;
     }
-    for (uint32_t n = 0; n < graph->access_count; n++) {
-        const engine_dependency_access *access = &graph->accesses[n];
+    for (uint32_t i = 0; i < graph->access_count; i++) {
+        const engine_dependency_access *access = &graph->accesses[i];
         if (access->pass != ENGINE_DEPENDENCY_NONE &&
             graph->passes[access->pass].position != ENGINE_DEPENDENCY_NONE)
             extend(&graph->resources[access->resource], graph->passes[access->pass].position);
     }
-    for (uint32_t n = 0; n < graph->access_count; n++)
-        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
-            extend_output(graph, &graph->accesses[n]);
+    for (uint32_t i = 0; i < graph->access_count; i++)
+        if (graph->accesses[i].pass == ENGINE_DEPENDENCY_NONE)
+            extend_output(graph, &graph->accesses[i]);
 }

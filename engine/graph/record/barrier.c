@@ -169,8 +169,8 @@ lobe_result engine_graph_record_barriers(lobe_graph *graph, uint32_t position, u
         .buffers = engine_arena_allocate(&graph->frame.arena, count * sizeof *batch.buffers)};
     if (!batch.images || !batch.buffers)
         return engine_graph_fail_memory(graph);
-    for (uint32_t n = first; n < *next; n++)
-        add_barrier(graph, &dependencies->barriers[n], &batch);
+    for (uint32_t i = first; i < *next; i++)
+        add_barrier(graph, &dependencies->barriers[i], &batch);
     record_batch(graph, &batch);
     return LOBE_OK;
 }

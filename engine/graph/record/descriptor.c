@@ -65,10 +65,10 @@ static set_needs count_needs(const lobe_graph *graph) {
         needs.counts[0]++;
         needs.variables += (uint32_t)pipeline->binding_count;
         needs.plan = engine_stamp_mix(needs.plan, (uint64_t)pipeline->set_layout);
-        for (size_t n = 0; n < pipeline->binding_count; n++)
+        for (size_t i = 0; i < pipeline->binding_count; i++)
             for (size_t type = 0; type < TYPE_COUNT; type++)
-                if (pipeline->bindings[n].type == types[type])
-                    needs.counts[1 + type] += pipeline->bindings[n].count;
+                if (pipeline->bindings[i].type == types[type])
+                    needs.counts[1 + type] += pipeline->bindings[i].count;
     }
     return needs;
 }
@@ -80,10 +80,10 @@ static lobe_result create_pool(lobe_graph *graph) {
     lobe_device *device = graph->device;
     VkDescriptorPoolSize sizes[TYPE_COUNT];
     uint32_t used = 0;
-    for (size_t n = 0; n < TYPE_COUNT; n++)
-        if (graph->frame.flight->descriptor_capacity[1 + n] > 0)
+    for (size_t i = 0; i < TYPE_COUNT; i++)
+        if (graph->frame.flight->descriptor_capacity[1 + i] > 0)
             sizes[used++] =
-                (VkDescriptorPoolSize){types[n], graph->frame.flight->descriptor_capacity[1 + n]};
+                (VkDescriptorPoolSize){types[i], graph->frame.flight->descriptor_capacity[1 + i]};
     const VkDescriptorPoolCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
         .maxSets = graph->frame.flight->descriptor_capacity[0],
@@ -102,9 +102,9 @@ static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
     lobe_device *device = graph->device;
     engine_graph_flight *flight = graph->frame.flight;
     bool large_enough = flight->descriptors != VK_NULL_HANDLE;
-    for (size_t n = 0; n < 1 + TYPE_COUNT; n++)
-        if (needs->counts[n] > flight->descriptor_capacity[n]) {
-            flight->descriptor_capacity[n] = needs->counts[n];
+    for (size_t i = 0; i < 1 + TYPE_COUNT; i++)
+        if (needs->counts[i] > flight->descriptor_capacity[i]) {
+            flight->descriptor_capacity[i] = needs->counts[i];
             large_enough = false;
         }
     if (large_enough)
@@ -234,8 +234,8 @@ static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {
     if (!create_batch(&graph->frame.arena, variables, &batch))
         return engine_graph_fail_memory(graph);
     for (command_walk walk = {0}; next_command(graph, &walk);)
-        for (size_t n = 0; !walk.shares_set && n < walk.command->pipeline->binding_count; n++) {
-            result = add_variable(graph, &walk, &walk.command->pipeline->bindings[n], &batch);
+        for (size_t i = 0; !walk.shares_set && i < walk.command->pipeline->binding_count; i++) {
+            result = add_variable(graph, &walk, &walk.command->pipeline->bindings[i], &batch);
             if (result != LOBE_OK)
                 return result;
         }

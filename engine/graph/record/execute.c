@@ -20,8 +20,8 @@ static engine_graph_command *read_back_of(const lobe_pass *pass) {
 
 static lobe_result place_read_backs(lobe_graph *graph) {
     uint64_t size = 0;
-    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++) {
-        engine_graph_command *command = read_back_of(graph->frame.passes[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        engine_graph_command *command = read_back_of(graph->frame.passes[i]);
         if (!command)
             continue;
         command->read_back_offset = size;
@@ -38,8 +38,8 @@ static lobe_result place_read_backs(lobe_graph *graph) {
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size) {
     if (graph->frame.phase != ENGINE_GRAPH_EXECUTED || graph->frame.result != LOBE_OK)
         return NULL;
-    for (uint32_t n = 0; n < graph->frame.dependencies.pass_count; n++) {
-        const engine_graph_command *command = read_back_of(graph->frame.passes[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        const engine_graph_command *command = read_back_of(graph->frame.passes[i]);
         if (!command || command->read_back.index != resource.index ||
             command->read_back.version != resource.version)
             continue;
@@ -75,13 +75,13 @@ static lobe_result record_passes(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
     engine_graph_reset_timestamps(graph);
     engine_graph_record_first_barrier(graph);
-    for (uint32_t n = 0; result == LOBE_OK && n < count; n++) {
-        engine_graph_write_timestamp(graph, n, false);
-        result = engine_graph_record_barriers(graph, n, &next_barrier);
+    for (uint32_t i = 0; result == LOBE_OK && i < count; i++) {
+        engine_graph_write_timestamp(graph, i, false);
+        result = engine_graph_record_barriers(graph, i, &next_barrier);
         if (result == LOBE_OK)
             result = engine_graph_record_pass(
-                graph, graph->frame.passes[graph->frame.dependencies.running[n]]);
-        engine_graph_write_timestamp(graph, n, true);
+                graph, graph->frame.passes[graph->frame.dependencies.running[i]]);
+        engine_graph_write_timestamp(graph, i, true);
     }
     if (result == LOBE_OK)
         result = engine_graph_record_barriers(graph, count, &next_barrier);

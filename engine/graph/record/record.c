@@ -124,10 +124,10 @@ static uint32_t colour_count(const lobe_pass *pass) {
 static lobe_result begin_rendering(lobe_graph *graph, const lobe_pass *pass) {
     VkRenderingAttachmentInfo colours[ENGINE_MAXIMUM_COLOUR_ATTACHMENTS], depth;
     lobe_result result = describe_attachment(graph, pass, &pass->depth, &depth);
-    for (uint32_t n = 0; result == LOBE_OK && n < colour_count(pass); n++) {
-        result = describe_attachment(graph, pass, &pass->colour[n], &colours[n]);
+    for (uint32_t i = 0; result == LOBE_OK && i < colour_count(pass); i++) {
+        result = describe_attachment(graph, pass, &pass->colour[i], &colours[i]);
         if (result == LOBE_OK)
-            result = describe_resolve(graph, &pass->resolve[n], &colours[n]);
+            result = describe_resolve(graph, &pass->resolve[i], &colours[i]);
     }
     if (result != LOBE_OK)
         return result;
@@ -178,10 +178,10 @@ static void copy_images(lobe_graph *graph, const engine_graph_command *command) 
     const engine_graph_resource *target = resource_at(graph, command->target_access);
     const engine_dependency_access *from = access_at(graph, command->source_access);
     const engine_dependency_access *to = access_at(graph, command->target_access);
-    for (uint32_t n = 0; n < from->range.level_count; n++) {
-        const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, n),
-                                  .dstSubresource = layers_of(target, &to->range, n),
-                                  .extent = level_extent(source, from->range.first_level + n)};
+    for (uint32_t i = 0; i < from->range.level_count; i++) {
+        const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, i),
+                                  .dstSubresource = layers_of(target, &to->range, i),
+                                  .extent = level_extent(source, from->range.first_level + i)};
         graph->device->api.vkCmdCopyImage(graph->frame.commands, source->object->image,
                                           engine_graph_vulkan_layout(from->state.layout),
                                           target->object->image,
@@ -237,10 +237,10 @@ static void read_back_image(lobe_graph *graph, const engine_graph_command *comma
     const engine_graph_resource *source = resource_at(graph, command->source_access);
     const engine_dependency_access *access = access_at(graph, command->source_access);
     VkDeviceSize offset = command->read_back_offset;
-    for (uint32_t n = 0; n < access->range.level_count; n++) {
-        VkExtent3D extent = level_extent(source, access->range.first_level + n);
+    for (uint32_t i = 0; i < access->range.level_count; i++) {
+        VkExtent3D extent = level_extent(source, access->range.first_level + i);
         const VkBufferImageCopy copy = {.bufferOffset = offset,
-                                        .imageSubresource = layers_of(source, &access->range, n),
+                                        .imageSubresource = layers_of(source, &access->range, i),
                                         .imageExtent = extent};
         graph->device->api.vkCmdCopyImageToBuffer(graph->frame.commands, source->object->image,
                                                   engine_graph_vulkan_layout(access->state.layout),

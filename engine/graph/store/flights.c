@@ -63,11 +63,11 @@ lobe_result engine_graph_begin_flight(lobe_graph *graph) {
 
 lobe_result engine_graph_finish_flights(lobe_graph *graph) {
     bool busy = false;
-    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        busy = busy || graph->kept.flights[n].busy;
+    for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        busy = busy || graph->kept.flights[i].busy;
     const lobe_result result = busy ? engine_device_wait_queue(graph->device) : LOBE_OK;
-    for (uint32_t n = 0; busy && result == LOBE_OK && n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        engine_graph_retire_flight(graph, &graph->kept.flights[n]);
+    for (uint32_t i = 0; busy && result == LOBE_OK && i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        engine_graph_retire_flight(graph, &graph->kept.flights[i]);
     return result;
 }
 
@@ -93,6 +93,6 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
 }
 
 void engine_graph_free_flights(lobe_graph *graph) {
-    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        free_flight(graph, &graph->kept.flights[n]);
+    for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        free_flight(graph, &graph->kept.flights[i]);
 }

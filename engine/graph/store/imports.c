@@ -32,16 +32,16 @@ static uint64_t upload_alignment(const lobe_graph *graph) {
 
 static lobe_result place_uploads(lobe_graph *graph) {
     uint64_t alignment = upload_alignment(graph), size = 0;
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         if (resource->origin != ENGINE_GRAPH_UPLOAD)
             continue;
         resource->offset = size;
         size += (resource->size + alignment - 1) / alignment * alignment;
     }
     lobe_result result = reserve_uploads(graph, size);
-    for (uint32_t n = 0; result == LOBE_OK && n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; result == LOBE_OK && i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         if (resource->origin != ENGINE_GRAPH_UPLOAD)
             continue;
         resource->object = &graph->frame.flight->uploads;
@@ -57,26 +57,26 @@ lobe_result engine_graph_place_imports(lobe_graph *graph) {
         engine_arena_allocate(&graph->frame.arena, count * sizeof *graph->frame.imported);
     if (!graph->frame.imported)
         return engine_graph_fail_memory(graph);
-    for (uint32_t n = 0; n < count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; i < count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         if (resource->texture)
-            graph->frame.imported[n].image = resource->texture->image;
+            graph->frame.imported[i].image = resource->texture->image;
         else if (resource->buffer)
-            graph->frame.imported[n].buffer = resource->buffer->buffer;
+            graph->frame.imported[i].buffer = resource->buffer->buffer;
         else if (resource->host)
-            graph->frame.imported[n].image = resource->host->image;
+            graph->frame.imported[i].image = resource->host->image;
         else
             continue;
-        resource->object = &graph->frame.imported[n];
+        resource->object = &graph->frame.imported[i];
     }
     return place_uploads(graph);
 }
 
 void engine_graph_release_imports(lobe_graph *graph) {
-    for (uint32_t n = 0; graph->frame.imported && n < graph->frame.dependencies.resource_count; n++)
-        while (graph->frame.imported[n].views) {
-            engine_graph_view *view = graph->frame.imported[n].views;
-            graph->frame.imported[n].views = view->next;
+    for (uint32_t i = 0; graph->frame.imported && i < graph->frame.dependencies.resource_count; i++)
+        while (graph->frame.imported[i].views) {
+            engine_graph_view *view = graph->frame.imported[i].views;
+            graph->frame.imported[i].views = view->next;
             view->next = graph->frame.flight->views;
             graph->frame.flight->views = view;
         }

@@ -64,15 +64,15 @@ static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resourc
 }
 
 static void clear_content(engine_graph_retained *kept) {
-    for (uint32_t n = 0; n < kept->subresource_count; n++) {
-        kept->stamps[n] = ENGINE_STAMP_NONE;
-        kept->layouts[n] = ENGINE_LAYOUT_UNDEFINED;
+    for (uint32_t i = 0; i < kept->subresource_count; i++) {
+        kept->stamps[i] = ENGINE_STAMP_NONE;
+        kept->layouts[i] = ENGINE_LAYOUT_UNDEFINED;
     }
 }
 
 lobe_result engine_graph_check_retained(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         engine_graph_retained *kept = resource->retained;
         if (resource->origin != ENGINE_GRAPH_RETAINED)
             continue;
@@ -96,9 +96,9 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
 
 /// The content is still there to be read; only no longer what any pass would write.
 static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
-    for (uint32_t n = 0; n < kept->subresource_count; n++)
-        if (kept->stamps[n] != ENGINE_STAMP_NONE)
-            kept->stamps[n] = engine_stamp_mix(kept->stamps[n], engine_device_stamp(graph->device));
+    for (uint32_t i = 0; i < kept->subresource_count; i++)
+        if (kept->stamps[i] != ENGINE_STAMP_NONE)
+            kept->stamps[i] = engine_stamp_mix(kept->stamps[i], engine_device_stamp(graph->device));
 }
 
 void lobe_graph_invalidate(lobe_graph *graph) {
@@ -171,15 +171,15 @@ static lobe_result make_object(lobe_graph *graph, const engine_graph_resource *r
 }
 
 lobe_result engine_graph_place_retained(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         if (resource->origin != ENGINE_GRAPH_RETAINED)
             continue;
         bool needed =
-            graph->frame.dependencies.resources[n].first_position != ENGINE_DEPENDENCY_NONE;
+            graph->frame.dependencies.resources[i].first_position != ENGINE_DEPENDENCY_NONE;
         lobe_result result = LOBE_OK;
         if (!resource->retained && needed)
-            result = add_retained(graph, n);
+            result = add_retained(graph, i);
         engine_graph_retained *kept = resource->retained;
         if (result == LOBE_OK && needed && !kept->object.image && !kept->object.buffer)
             result = make_object(graph, resource);
@@ -199,8 +199,8 @@ typedef void (*visit_written)(lobe_graph *graph, uint32_t access, uint32_t subre
 /// Every retained subresource that running passes write, in order of execution.
 static void for_each_written(lobe_graph *graph, visit_written visit) {
     const engine_dependency_graph *dependencies = &graph->frame.dependencies;
-    for (uint32_t n = 0; n < dependencies->running_count; n++)
-        for (uint32_t a = dependencies->passes[dependencies->running[n]].first_access;
+    for (uint32_t i = 0; i < dependencies->running_count; i++)
+        for (uint32_t a = dependencies->passes[dependencies->running[i]].first_access;
              a != ENGINE_DEPENDENCY_NONE; a = dependencies->accesses[a].next) {
             const engine_dependency_access *access = &dependencies->accesses[a];
             if (access->kind == ENGINE_ACCESS_READ ||
@@ -228,10 +228,10 @@ static void set_stamp(lobe_graph *graph, uint32_t access, uint32_t subresource) 
 
 void engine_graph_stamp_retained(lobe_graph *graph) {
     for_each_written(graph, set_stamp);
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_retained *kept = graph->frame.resources[n].retained;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_retained *kept = graph->frame.resources[i].retained;
         const engine_layout *layouts = graph->frame.dependencies.end_layouts +
-                                       graph->frame.dependencies.resources[n].first_subresource;
+                                       graph->frame.dependencies.resources[i].first_subresource;
         if (kept)
             memcpy(kept->layouts, layouts, kept->subresource_count * sizeof *layouts);
     }

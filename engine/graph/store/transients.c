@@ -17,12 +17,12 @@ static bool is_placed(const lobe_graph *graph, uint32_t index) {
 static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, uint32_t index) {
     const engine_dependency_resource *resources = graph->frame.dependencies.resources;
     uint32_t rank = 0;
-    for (uint32_t n = 0; n < index; n++) {
-        if (!is_placed(graph, n))
+    for (uint32_t i = 0; i < index; i++) {
+        if (!is_placed(graph, i))
             continue;
         rank++;
-        if (resources[n].first_position <= resources[index].last_position &&
-            resources[index].first_position <= resources[n].last_position)
+        if (resources[i].first_position <= resources[index].last_position &&
+            resources[index].first_position <= resources[i].last_position)
             stamp = engine_stamp_mix(stamp, rank);
     }
     return stamp;
@@ -30,26 +30,26 @@ static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, 
 
 static engine_stamp plan_stamp(const lobe_graph *graph) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, 0);
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        const engine_graph_resource *resource = &graph->frame.resources[n];
-        const engine_dependency_resource *dependency = &graph->frame.dependencies.resources[n];
-        if (!is_placed(graph, n))
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        const engine_graph_resource *resource = &graph->frame.resources[i];
+        const engine_dependency_resource *dependency = &graph->frame.dependencies.resources[i];
+        if (!is_placed(graph, i))
             continue;
         stamp = engine_stamp_text(stamp, resource->name);
         stamp = engine_stamp_mix(stamp, dependency->identity);
         stamp = engine_stamp_mix(stamp, resource->usage);
         stamp = engine_stamp_mix(stamp, resource->cube);
-        stamp = mix_neighbours(stamp, graph, n);
+        stamp = mix_neighbours(stamp, graph, i);
     }
     return stamp;
 }
 
 void engine_graph_free_transients(lobe_graph *graph) {
     engine_graph_transients *transients = &graph->kept.transients;
-    for (uint32_t n = 0; n < transients->count; n++)
-        engine_graph_free_object(graph->device, &transients->objects[n]);
-    for (uint32_t n = 0; n < transients->block_count; n++)
-        engine_memory_free(graph->device->memory, &transients->memory[n]);
+    for (uint32_t i = 0; i < transients->count; i++)
+        engine_graph_free_object(graph->device, &transients->objects[i]);
+    for (uint32_t i = 0; i < transients->block_count; i++)
+        engine_memory_free(graph->device->memory, &transients->memory[i]);
     lobe_release(transients->objects);
     lobe_release(transients->requests);
     lobe_release(transients->blocks);
@@ -60,8 +60,8 @@ void engine_graph_free_transients(lobe_graph *graph) {
 static lobe_result allocate_tables(lobe_graph *graph) {
     engine_graph_transients *transients = &graph->kept.transients;
     uint32_t count = 0;
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++)
-        count += is_placed(graph, n);
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        count += is_placed(graph, i);
     transients->objects =
         lobe_allocate(graph->device->host.allocator, count + 1, sizeof *transients->objects);
     transients->requests =
@@ -90,9 +90,9 @@ typedef struct block_plan {
 
 static uint32_t find_block(block_plan *blocks, uint32_t *block_count, uint32_t memory_types,
                            bool linear) {
-    for (uint32_t n = 0; n < *block_count; n++)
-        if (blocks[n].memory_types == memory_types && blocks[n].linear == linear)
-            return n;
+    for (uint32_t i = 0; i < *block_count; i++)
+        if (blocks[i].memory_types == memory_types && blocks[i].linear == linear)
+            return i;
     blocks[*block_count] =
         (block_plan){.memory_types = memory_types, .linear = linear, .alignment = 1};
     return (*block_count)++;
@@ -112,9 +112,9 @@ static void join_block(block_plan *block, const char *name,
 static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
     engine_graph_transients *transients = &graph->kept.transients;
     uint32_t made = 0;
-    for (uint32_t n = 0; n < graph->frame.dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->frame.resources[n];
-        if (!is_placed(graph, n))
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
+        if (!is_placed(graph, i))
             continue;
         VkMemoryRequirements requirements = {0};
         lobe_result result = engine_graph_create_object(graph->device, resource,
@@ -124,8 +124,8 @@ static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
         transients->requests[made] =
             (engine_alias_request){.size = requirements.size,
                                    .alignment = requirements.alignment,
-                                   .first = graph->frame.dependencies.resources[n].first_position,
-                                   .last = graph->frame.dependencies.resources[n].last_position};
+                                   .first = graph->frame.dependencies.resources[i].first_position,
+                                   .last = graph->frame.dependencies.resources[i].last_position};
         uint32_t block = find_block(blocks, &transients->block_count, requirements.memoryTypeBits,
                                     !resource->is_image);
         join_block(&blocks[block], resource->name, &requirements);
@@ -140,14 +140,14 @@ static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
     engine_graph_transients *transients = &graph->kept.transients;
     uint32_t count = 0;
     uint64_t shared = 0, separate = 0;
-    for (uint32_t n = 0; n < transients->count; n++)
-        if (transients->blocks[n] == block)
-            scratch[count++] = transients->requests[n];
+    for (uint32_t i = 0; i < transients->count; i++)
+        if (transients->blocks[i] == block)
+            scratch[count++] = transients->requests[i];
     if (!engine_alias_plan(graph->device->host.allocator, scratch, count, &shared, &separate))
         return false;
-    for (uint32_t n = 0, m = 0; n < transients->count; n++)
-        if (transients->blocks[n] == block)
-            transients->requests[n] = scratch[m++];
+    for (uint32_t i = 0, j = 0; i < transients->count; i++)
+        if (transients->blocks[i] == block)
+            transients->requests[i] = scratch[j++];
     plan->size = shared;
     transients->shared_bytes += shared;
     transients->separate_bytes += separate;
@@ -178,11 +178,11 @@ static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
     engine_alias_request *scratch =
         lobe_allocate(graph->device->host.allocator, transients->count + 1, sizeof *scratch);
     lobe_result result = scratch ? LOBE_OK : engine_graph_fail_memory(graph);
-    for (uint32_t n = 0; result == LOBE_OK && n < transients->block_count; n++) {
-        if (!plan_block(graph, n, &blocks[n], scratch))
+    for (uint32_t i = 0; result == LOBE_OK && i < transients->block_count; i++) {
+        if (!plan_block(graph, i, &blocks[i], scratch))
             result = engine_graph_fail_memory(graph);
         else
-            result = allocate_block(graph, n, &blocks[n]);
+            result = allocate_block(graph, i, &blocks[i]);
     }
     lobe_release(scratch);
     return result;
@@ -190,11 +190,11 @@ static lobe_result allocate_blocks(lobe_graph *graph, block_plan *blocks) {
 
 static lobe_result bind_objects(lobe_graph *graph) {
     engine_graph_transients *transients = &graph->kept.transients;
-    for (uint32_t n = 0, made = 0; n < graph->frame.dependencies.resource_count; n++) {
-        if (!is_placed(graph, n))
+    for (uint32_t i = 0, made = 0; i < graph->frame.dependencies.resource_count; i++) {
+        if (!is_placed(graph, i))
             continue;
         lobe_result result = engine_graph_bind_object(
-            graph->device, graph->frame.resources[n].name, &transients->objects[made],
+            graph->device, graph->frame.resources[i].name, &transients->objects[made],
             &transients->memory[transients->blocks[made]], transients->requests[made].offset);
         if (result != LOBE_OK)
             return result;
@@ -221,16 +221,16 @@ static lobe_result make_transients(lobe_graph *graph) {
 
 static void publish_transients(lobe_graph *graph) {
     engine_graph_transients *transients = &graph->kept.transients;
-    for (uint32_t n = 0, made = 0; n < graph->frame.dependencies.resource_count; n++) {
-        if (!is_placed(graph, n))
+    for (uint32_t i = 0, made = 0; i < graph->frame.dependencies.resource_count; i++) {
+        if (!is_placed(graph, i))
             continue;
-        engine_dependency_resource *dependency = &graph->frame.dependencies.resources[n];
+        engine_dependency_resource *dependency = &graph->frame.dependencies.resources[i];
         dependency->placed = true;
         dependency->block = transients->blocks[made];
         dependency->offset = transients->requests[made].offset;
         dependency->size = transients->requests[made].size;
-        graph->frame.resources[n].object = &transients->objects[made];
-        graph->frame.resources[n].bytes = transients->requests[made].size;
+        graph->frame.resources[i].object = &transients->objects[made];
+        graph->frame.resources[i].bytes = transients->requests[made].size;
         made++;
     }
 }

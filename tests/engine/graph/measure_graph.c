@@ -40,12 +40,12 @@ static lobe_result measure_frame(graph_frame *frame, double times[PARTS]) {
 static lobe_result measure(graph_frame *frame) {
     static double times[PARTS][FRAMES];
     lobe_result result = LOBE_OK;
-    for (int n = -SETTLING; result == LOBE_OK && n < FRAMES; n++) {
+    for (int i = -SETTLING; result == LOBE_OK && i < FRAMES; i++) {
         double parts[PARTS];
-        frame->time = (float)n;
+        frame->time = (float)i;
         result = measure_frame(frame, parts);
-        for (int part = 0; n >= 0 && part < PARTS; part++)
-            times[part][n] = parts[part];
+        for (int part = 0; i >= 0 && part < PARTS; part++)
+            times[part][i] = parts[part];
     }
     printf("%d passes, median of %d frames:", GRAPH_FRAME_PASSES, FRAMES);
     for (int part = 0; part < PARTS; part++) {

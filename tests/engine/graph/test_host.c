@@ -139,9 +139,9 @@ static void a_frame_reads_the_hosts_image(void **state) {
     VkCommandBuffer commands = host_begin(&f->host);
     fill_green(&image, commands);
     host_finish(&f->host, commands);
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         lobe_graph_begin(f->graph);
-        lobe_vulkan_image lent = lend(&image, n ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+        lobe_vulkan_image lent = lend(&image, i ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
                                                 : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         lobe_resource source = lobe_graph_import_image(f->graph, &lent);
         lobe_resource copy =
@@ -368,17 +368,17 @@ static void frames_in_flight_keep_apart(void **state) {
     host_image images[FRAMES];
     for (uint32_t count = 1; count <= 3; count++) {
         lobe_graph_set_frames_in_flight(f->graph, count);
-        for (uint32_t n = 0; n < FRAMES; n++) {
-            images[n] = picture(f);
-            declare_frame(f, &images[n], n);
+        for (uint32_t i = 0; i < FRAMES; i++) {
+            images[i] = picture(f);
+            declare_frame(f, &images[i], i);
             check(f, lobe_graph_submit(f->graph, &(lobe_vulkan_submission){0}));
         }
         check(f, lobe_graph_wait(f->graph));
-        for (uint32_t n = 0; n < FRAMES; n++) {
+        for (uint32_t i = 0; i < FRAMES; i++) {
             float texels[SIZE][SIZE][4];
-            host_read(&f->host, &images[n], texels, sizeof texels);
-            assert_float_equal(texels[SIZE - 2][1][0], (float)n, 0);
-            host_image_destroy(&f->host, &images[n]);
+            host_read(&f->host, &images[i], texels, sizeof texels);
+            assert_float_equal(texels[SIZE - 2][1][0], (float)i, 0);
+            host_image_destroy(&f->host, &images[i]);
         }
     }
 }
@@ -416,9 +416,9 @@ static void a_second_frame_is_submitted_while_the_first_waits(void **state) {
 // Shaders
 
 static const engine_shader_code *test_shader(const char *name) {
-    for (size_t n = 0; n < engine_test_shaders_count; n++)
-        if (!strcmp(engine_test_shaders[n].name, name))
-            return &engine_test_shaders[n];
+    for (size_t i = 0; i < engine_test_shaders_count; i++)
+        if (!strcmp(engine_test_shaders[i].name, name))
+            return &engine_test_shaders[i];
     fail_msg("no shader '%s'", name);
     return NULL;
 }

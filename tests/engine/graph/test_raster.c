@@ -68,8 +68,8 @@ static bool survives(graph_fixture *fixture, lobe_cull cull, bool mirrored) {
     float vertices[6];
     memcpy(vertices, half_picture, sizeof vertices);
     if (mirrored)
-        for (int n = 0; n < 3; n++)
-            vertices[2 * n] = -vertices[2 * n];
+        for (int i = 0; i < 3; i++)
+            vertices[2 * i] = -vertices[2 * i];
     lobe_graph_begin(fixture->graph);
     lobe_resource colour = picture(fixture, "colour", 0);
     lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "triangle");
@@ -264,12 +264,12 @@ static void content_is_kept_between_passes(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource colour = picture(fixture, "colour", 0);
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "add");
         colour = lobe_pass_colour(
             pass, 0,
-            &(lobe_attachment){.resource = colour, .load = n ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
-        if (n < 2)
+            &(lobe_attachment){.resource = colour, .load = i ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+        if (i < 2)
             draw(fixture, pass, "graph_triangle.frag", whole_picture,
                  &(triangle_constants){{1, 2, 3, 4}, 0}, (lobe_draw){.blend = LOBE_BLEND_ADD});
     }

@@ -6,9 +6,9 @@
 
 static const lobe_pass_report *report_of(const graph_fixture *fixture, const char *name) {
     const lobe_graph_report *report = lobe_graph_describe(fixture->graph);
-    for (size_t n = 0; n < report->pass_count; n++)
-        if (strcmp(report->passes[n].name, name) == 0)
-            return &report->passes[n];
+    for (size_t i = 0; i < report->pass_count; i++)
+        if (strcmp(report->passes[i].name, name) == 0)
+            return &report->passes[i];
     fail_msg("no pass '%s'", name);
     return NULL;
 }

@@ -91,17 +91,17 @@ static void compile(void) {
 
 /// The hazards between two passes, as bits.
 static uint32_t hazards(uint32_t from, uint32_t to) {
-    for (uint32_t n = 0; n < graph.edge_count; n++)
-        if (graph.edges[n].from == from && graph.edges[n].to == to)
-            return graph.edges[n].hazards;
+    for (uint32_t i = 0; i < graph.edge_count; i++)
+        if (graph.edges[i].from == from && graph.edges[i].to == to)
+            return graph.edges[i].hazards;
     return 0;
 }
 
 static void assert_running(const char *expected) {
     char names[256] = "";
-    for (uint32_t n = 0; n < graph.running_count; n++) {
-        strcat(names, n ? " " : "");
-        strcat(names, graph.passes[graph.running[n]].name);
+    for (uint32_t i = 0; i < graph.running_count; i++) {
+        strcat(names, i ? " " : "");
+        strcat(names, graph.passes[graph.running[i]].name);
     }
     assert_string_equal(names, expected);
 }
@@ -210,10 +210,10 @@ static void a_range_has_several_sources(void **state) {
 static void order_is_that_of_declaration_where_it_can_be(void **state) {
     (void)state;
     char names[8][8];
-    for (int n = 0; n < 8; n++) {
-        snprintf(names[n], sizeof names[n], "%d", n);
-        lobe_resource x = transient(names[n], 1);
-        wants(writes(pass_of(names[n]), x));
+    for (int i = 0; i < 8; i++) {
+        snprintf(names[i], sizeof names[i], "%d", i);
+        lobe_resource x = transient(names[i], 1);
+        wants(writes(pass_of(names[i]), x));
     }
     compile();
     assert_running("0 1 2 3 4 5 6 7");
@@ -273,20 +273,20 @@ static void every_edge_is_respected(void **state) {
         engine_dependency_graph_reset(&graph);
         lobe_resource resources[6];
         uint32_t passes[12];
-        for (int n = 0; n < 6; n++)
-            resources[n] = transient("r", 3);
-        for (int n = 0; n < 12; n++)
-            passes[n] = pass_of("p");
-        for (int n = 0; n < 6; n++)
-            resources[n] = writes(passes[n], resources[n]);
-        for (int n = 6; n < 12; n++)
-            for (int m = 0; m < 4; m++) {
+        for (int i = 0; i < 6; i++)
+            resources[i] = transient("r", 3);
+        for (int i = 0; i < 12; i++)
+            passes[i] = pass_of("p");
+        for (int i = 0; i < 6; i++)
+            resources[i] = writes(passes[i], resources[i]);
+        for (int i = 6; i < 12; i++)
+            for (int j = 0; j < 4; j++) {
                 seed = seed * 1664525u + 1013904223u;
                 uint32_t which = (seed >> 8) % 6, level = (seed >> 16) % 3;
                 if (seed >> 31)
-                    resources[which] = writes_level(passes[n], resources[which], level);
+                    resources[which] = writes_level(passes[i], resources[which], level);
                 else
-                    reads_level(passes[n], resources[which], level);
+                    reads_level(passes[i], resources[which], level);
             }
         if (!engine_dependency_link(&graph)) {
             assert_true(graph.fault.kind == ENGINE_FAULT_CONFLICT ||
@@ -295,10 +295,10 @@ static void every_edge_is_respected(void **state) {
         }
         assert_true(engine_dependency_order(&graph));
         uint32_t place[12];
-        for (uint32_t n = 0; n < 12; n++)
-            place[graph.order[n]] = n;
-        for (uint32_t n = 0; n < graph.edge_count; n++)
-            assert_true(place[graph.edges[n].from] < place[graph.edges[n].to]);
+        for (uint32_t i = 0; i < 12; i++)
+            place[graph.order[i]] = i;
+        for (uint32_t i = 0; i < graph.edge_count; i++)
+            assert_true(place[graph.edges[i].from] < place[graph.edges[i].to]);
     }
 }
 
@@ -323,11 +323,11 @@ static void versions_of_the_future_are_refused(void **state) {
     lobe_resource future = {x.index, 7}, foreign = {99, 1}, none = {0};
     uint32_t a = pass_of("a");
     lobe_resource wrong[] = {future, foreign, none};
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         graph.fault = (engine_dependency_fault){0};
-        assert_int_equal(access_of(a, &wrong[n], (lobe_range){0}, ENGINE_ACCESS_READ, read_in_b),
+        assert_int_equal(access_of(a, &wrong[i], (lobe_range){0}, ENGINE_ACCESS_READ, read_in_b),
                          ENGINE_DEPENDENCY_NONE);
-        assert_fault(ENGINE_FAULT_UNKNOWN_RESOURCE, "'a'", n == 0 ? "x" : "");
+        assert_fault(ENGINE_FAULT_UNKNOWN_RESOURCE, "'a'", i == 0 ? "x" : "");
     }
 }
 
@@ -356,9 +356,9 @@ static void ranges_are_checked(void **state) {
     lobe_resource x =
         resource_of((engine_dependency_resource){.name = "x", .levels = 2, .layers = 3});
     uint32_t a = pass_of("a");
-    for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         graph.fault = (engine_dependency_fault){0};
-        assert_int_equal(access_of(a, &x, wrong[n], ENGINE_ACCESS_WRITE, written_in_a),
+        assert_int_equal(access_of(a, &x, wrong[i], ENGINE_ACCESS_WRITE, written_in_a),
                          ENGINE_DEPENDENCY_NONE);
         assert_fault(ENGINE_FAULT_RANGE, "'a'", "'x'");
     }
@@ -489,8 +489,8 @@ static void kept_passes_run(void **state) {
 
 /// What retained resources hold after the passes of the graph have run.
 static void record(uint32_t resource, engine_stamp *stamps) {
-    for (uint32_t n = 0; n < graph.running_count; n++)
-        for (uint32_t a = graph.passes[graph.running[n]].first_access; a != ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < graph.running_count; i++)
+        for (uint32_t a = graph.passes[graph.running[i]].first_access; a != ENGINE_DEPENDENCY_NONE;
              a = graph.accesses[a].next)
             for (uint32_t s = 0; s < engine_access_size(&graph.accesses[a]); s++)
                 if (graph.accesses[a].resource == resource &&
@@ -545,21 +545,21 @@ static void valid_content_stops_demand(void **state) {
 static void ranges_kinds_and_shapes_are_part_of_the_stamp(void **state) {
     (void)state;
     engine_stamp stamps[6];
-    for (int n = 0; n < 6; n++) {
+    for (int i = 0; i < 6; i++) {
         engine_dependency_graph_reset(&graph);
         lobe_resource given = resource_of((engine_dependency_resource){
-            .name = "given", .levels = 2, .imported = true, .identity = n == 1 ? 8 : 7});
+            .name = "given", .levels = 2, .imported = true, .identity = i == 1 ? 8 : 7});
         lobe_resource x = resource_of(
-            (engine_dependency_resource){.name = "x", .levels = 2, .identity = n == 2 ? 1 : 2});
+            (engine_dependency_resource){.name = "x", .levels = 2, .identity = i == 2 ? 1 : 2});
         uint32_t a = pass_of("a");
-        graph.passes[a].signature = n == 3 ? 5 : 6;
-        reads_level(a, given, n == 4 ? 1 : 0);
-        x = writes_level(a, x, n == 5 ? 1 : 0);
+        graph.passes[a].signature = i == 3 ? 5 : 6;
+        reads_level(a, given, i == 4 ? 1 : 0);
+        x = writes_level(a, x, i == 5 ? 1 : 0);
         wants(x);
         compile();
-        stamps[n] = graph.passes[a].stamp;
-        for (int m = 0; m < n; m++)
-            assert_true(stamps[m] != stamps[n]);
+        stamps[i] = graph.passes[a].stamp;
+        for (int j = 0; j < i; j++)
+            assert_true(stamps[j] != stamps[i]);
     }
 }
 
@@ -592,10 +592,10 @@ static void lifetimes_span_first_to_last_use(void **state) {
 
 static const engine_dependency_barrier *only_barrier(uint32_t position, uint32_t resource) {
     const engine_dependency_barrier *found = NULL;
-    for (uint32_t n = 0; n < graph.barrier_count; n++)
-        if (graph.barriers[n].position == position && graph.barriers[n].resource == resource) {
+    for (uint32_t i = 0; i < graph.barrier_count; i++)
+        if (graph.barriers[i].position == position && graph.barriers[i].resource == resource) {
             assert_null(found);
-            found = &graph.barriers[n];
+            found = &graph.barriers[i];
         }
     return found;
 }
@@ -620,10 +620,10 @@ static void readers_share_one_barrier(void **state) {
     lobe_resource x = transient("x", 1);
     uint32_t a = pass_of("a");
     x = writes(a, x);
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         lobe_resource y = transient("y", 1);
         uint32_t reader = pass_of("reader");
-        access_of(reader, &x, (lobe_range){0}, ENGINE_ACCESS_READ, n == 1 ? read_in_c : read_in_b);
+        access_of(reader, &x, (lobe_range){0}, ENGINE_ACCESS_READ, i == 1 ? read_in_c : read_in_b);
         wants(writes(reader, y));
     }
     compile();
@@ -744,10 +744,10 @@ static void shared_memory_is_waited_for(void **state) {
     wants(z);
     // z lies where x lay, y elsewhere.
     const uint64_t offsets[] = {0, 64, 32};
-    for (int n = 0; n < 3; n++) {
-        graph.resources[n].placed = true;
-        graph.resources[n].offset = offsets[n];
-        graph.resources[n].size = n == 1 ? 64 : 48;
+    for (int i = 0; i < 3; i++) {
+        graph.resources[i].placed = true;
+        graph.resources[i].offset = offsets[i];
+        graph.resources[i].size = i == 1 ? 64 : 48;
     }
     graph.resources[1].block = 1;
     compile();
