@@ -15,7 +15,7 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     lobe_graph *created = lobe_allocate(allocator, 1, sizeof *created);
     if (!created)
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "render graph: no host memory");
+                              "render graph: out of memory");
     created->device = device;
     created->frame.arena.allocator = created->frame.dependencies.scratch.allocator = allocator;
     created->frame.nothing = (lobe_pass){.graph = created, .name = "(none)"};
@@ -39,7 +39,7 @@ void lobe_graph_destroy(lobe_graph **graph) {
     lobe_graph *gone = *graph;
     if (!gone)
         return;
-    // A device that is lost has finished, too.
+    // A failure is a lost device, which has finished too.
     (void)engine_graph_finish_flights(gone);
     reset_frame(gone);
     engine_graph_free_retained(gone);
@@ -78,20 +78,22 @@ static lobe_result derive_barriers(lobe_graph *graph) {
                : engine_graph_fail_dependency(graph);
 }
 
+/// From the declaration (declare/) to a frame that can be recorded (record/). Nothing is recorded
+/// here: lobe_graph_execute and lobe_graph_submit do that after compiling.
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
-    engine_graph_check_rasters,     // attachments fit each other
-    engine_graph_resolve_bindings,  // names meet shaders: how each resource is used
-    engine_graph_check_host_images, // they allow these uses
-    engine_graph_check_retained,    // kept objects fit these uses
-    engine_graph_sign_passes,       // what would make a pass compute something else
-    analyse,                        // sources, order, what runs, lifetimes
-    engine_graph_release_retained,  // what this frame does not know any more
-    engine_graph_find_pipelines,    // of what runs
-    engine_graph_place_retained,    // memory of their own
-    engine_graph_place_transients,  // memory shared between those not alive together
-    derive_barriers,                // transitions, and waits for former tenants of the memory
-    engine_graph_count_traffic,     // what each pass must read and write
-    engine_graph_report_compiled,
+    engine_graph_check_rasters,     // declare/raster.c      attachments fit each other
+    engine_graph_resolve_bindings,  // declare/binding.c     names meet shaders: uses of resources
+    engine_graph_check_host_images, // declare/host_image.c  host images allow these uses
+    engine_graph_check_retained,    // store/retained.c      retained objects allow these uses
+    engine_graph_sign_passes,       // declare/signature.c   digest of what each pass does
+    analyse,                        // plan/                 sources, order, what runs, lifetimes
+    engine_graph_release_retained,  // store/retained.c      frees what this frame did not declare
+    engine_graph_find_pipelines,    // declare/binding.c     of the passes that run
+    engine_graph_place_retained,    // store/retained.c      objects with memory of their own
+    engine_graph_place_transients,  // store/transients.c    objects that share memory
+    derive_barriers,                // plan/barrier.c        transitions, waits for shared memory
+    engine_graph_count_traffic,     // report.c              bytes that each pass reads and writes
+    engine_graph_report_compiled,   // report.c
 };
 
 lobe_result lobe_graph_compile(lobe_graph *graph) {
@@ -111,7 +113,7 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
 static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     if (graph->frame.phase == ENGINE_GRAPH_SUBMITTED || graph->frame.phase == ENGINE_GRAPH_EXECUTED)
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                               "render graph: executed twice; begin a new frame in between");
+                               "render graph: the frame was already executed; begin a new one");
     lobe_result result = lobe_graph_compile(graph);
     return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
 }
@@ -127,8 +129,8 @@ static lobe_result check_submission(lobe_graph *graph, const lobe_vulkan_submiss
     uint32_t waits = submission->wait_count, signals = submission->signal_count;
     if (submission->commands && (waits || signals))
         return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
-                               "render graph: semaphores are for whoever submits the host's "
-                               "command buffer");
+                               "render graph: a submission with the host's command buffer "
+                               "takes no semaphores");
     if (waits > LOBE_VULKAN_MAXIMUM_SEMAPHORES || signals > LOBE_VULKAN_MAXIMUM_SEMAPHORES)
         return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
                                "render graph: %u semaphores to wait for and %u to signal, more "

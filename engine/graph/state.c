@@ -24,7 +24,7 @@ lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result) {
 }
 
 lobe_result engine_graph_fail_memory(lobe_graph *graph) {
-    return lobe_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
+    return lobe_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: out of memory");
 }
 
 lobe_result engine_graph_fail_dependency(lobe_graph *graph) {

@@ -24,18 +24,18 @@ static bool is_imported(const lobe_graph *graph, VkImage image) {
 static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const char *name) {
     if (!image->image || image->width == 0 || image->height == 0)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "host image '%s': a handle and an extent are needed (%ux%u)", name,
+                        "host image '%s': needs a handle and an extent above 0 (%ux%u)", name,
                         image->width, image->height);
     else if (lobe_vulkan_format(image->format) == LOBE_FORMAT_NONE)
-        lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED, "host image '%s': VkFormat %d is unknown",
-                        name, (int)image->format);
+        lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED,
+                        "host image '%s': VkFormat %d is not supported", name, (int)image->format);
     else if (is_imported(graph, image->image))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
                         name);
     return graph->frame.result == LOBE_OK;
 }
 
-/// Without a better word of the host's, whatever it does comes after all of lobe's work.
+/// If the host does not say how it uses the image next, assumes any use.
 static engine_access_state state_after(const lobe_vulkan_image *image) {
     bool all = image->final_stages == 0;
     return (engine_access_state){
@@ -71,7 +71,7 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
         .levels = resource.levels,
         .layers = resource.layers,
         .borrowed = true,
-        // What it holds now nobody knows.
+        // A new stamp in every frame: its content is unknown.
         .identity = engine_device_stamp(graph->device),
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
@@ -85,14 +85,14 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
 
 static const char *missing_usage(VkImageUsageFlags missing) {
     if (missing & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)
-        return "drawing colour into it";
+        return "colour attachment";
     if (missing & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)
-        return "drawing depth into it";
+        return "depth attachment";
     if (missing & VK_IMAGE_USAGE_SAMPLED_BIT)
-        return "sampling it";
+        return "sampled";
     if (missing & VK_IMAGE_USAGE_STORAGE_BIT)
         return "storage";
-    return missing & VK_IMAGE_USAGE_TRANSFER_SRC_BIT ? "copying from it" : "copying to it";
+    return missing & VK_IMAGE_USAGE_TRANSFER_SRC_BIT ? "transfer source" : "transfer destination";
 }
 
 lobe_result engine_graph_check_host_images(lobe_graph *graph) {
@@ -101,7 +101,7 @@ lobe_result engine_graph_check_host_images(lobe_graph *graph) {
         VkFlags missing = resource->host ? resource->usage & ~resource->host->usage : 0;
         if (missing)
             return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                                   "host image '%s' was not created with a usage for %s",
+                                   "host image '%s' was not created with the usage '%s'",
                                    resource->name, missing_usage(missing));
     }
     return LOBE_OK;

@@ -51,7 +51,7 @@ bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const ch
         return false;
     if (pass->kind != kind)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                        "pass '%s': %s is for %s passes, this is a %s pass", pass->name, call,
+                        "pass '%s': %s needs a %s pass, this is a %s pass", pass->name, call,
                         kind_names[kind], kind_names[pass->kind]);
     return pass->kind == kind;
 }
@@ -64,7 +64,7 @@ engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource
     if (handle.version != 0 && handle.index < graph->frame.dependencies.resource_count)
         return &graph->frame.resources[handle.index];
     lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                    "pass '%s' uses a resource handle that this frame never gave out", pass->name);
+                    "pass '%s' uses a resource handle that is not of this frame", pass->name);
     return NULL;
 }
 
@@ -94,7 +94,7 @@ static bool is_bound(const engine_graph_binding_list *list, const char *name) {
 static bool check_binding_name(lobe_pass *pass, const engine_graph_binding_list *list,
                                const char *name) {
     if (!name)
-        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding without a name",
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding has no name",
                         pass->name);
     else if (is_bound(list, name))
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' binds '%s' twice", pass->name,
@@ -120,7 +120,7 @@ lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_lis
         return resource;
     lobe_range range =
         graph->frame.resources[resource.index].is_image ? binding->range : (lobe_range){0};
-    // How it is used is known when the shaders are.
+    // The shaders decide how it is used: see engine_graph_resolve_bindings.
     uint32_t access =
         engine_graph_add_access(pass, &resource, range, kind, (engine_access_state){0});
     engine_graph_binding *added = engine_arena_allocate(&graph->frame.arena, sizeof *added);

@@ -103,7 +103,7 @@ static VkExtent2D extent_of(const lobe_graph *graph, const engine_graph_attachme
                         engine_graph_level_extent(image->height, level)};
 }
 
-/// The first attachment sets the pass's extent and sample count, the others must agree.
+/// The first attachment sets the pass's extent and sample count; the others must have the same.
 static bool check_attachment(lobe_pass *pass, const engine_graph_attachment *attachment) {
     lobe_graph *graph = pass->graph;
     if (attachment->access == ENGINE_DEPENDENCY_NONE)

@@ -14,7 +14,7 @@ bool engine_graph_can_declare(lobe_graph *graph, const char *what) {
     if (graph->frame.phase == ENGINE_GRAPH_DECLARING)
         return true;
     lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                    "'%s' was declared after the frame was compiled; begin a new one first", what);
+                    "'%s' is declared after the frame was compiled; begin a new frame first", what);
     return false;
 }
 
@@ -62,16 +62,14 @@ static bool check_extent(lobe_graph *graph, const lobe_image_description *image)
     if (limit > LOBE_IMAGE_MAXIMUM_EXTENT)
         limit = LOBE_IMAGE_MAXIMUM_EXTENT;
     if (image->width == 0 || image->height == 0)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': an extent of %ux%u texels",
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': the extent is %ux%u texels",
                         image->name, image->width, image->height);
     else if (image->width > limit || image->height > limit)
-        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "image '%s': %ux%u texels, the device allows %u at most", image->name,
-                        image->width, image->height, limit);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT, "image '%s': %ux%u texels, the limit is %u",
+                        image->name, image->width, image->height, limit);
     else if (image->layers > graph->device->limits.maxImageArrayLayers)
-        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "image '%s': %u layers, the device allows %u at most", image->name,
-                        image->layers, graph->device->limits.maxImageArrayLayers);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT, "image '%s': %u layers, the device's limit is %u",
+                        image->name, image->layers, graph->device->limits.maxImageArrayLayers);
     return graph->frame.result == LOBE_OK;
 }
 
@@ -86,17 +84,17 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     uint32_t levels = possible_levels(image->width, image->height);
     uint32_t samples = at_least_one(image->samples);
     if (image->format <= LOBE_FORMAT_NONE || image->format >= LOBE_FORMAT_COUNT)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': no format", image->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': has no format", image->name);
     else if (image->levels > levels)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "image '%s': %u levels, but %ux%u texels have %u at most", image->name,
+                        "image '%s': %u levels, but %ux%u texels have at most %u", image->name,
                         image->levels, image->width, image->height, levels);
     else if (samples != 1 && samples != 2 && samples != 4)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': %u samples, not 1, 2 or 4",
                         image->name, samples);
     else if (samples > 1 && (image->levels > 1 || image->layers > 1))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "image '%s': multisampled images have one level and one layer",
+                        "image '%s': a multisampled image must have one level and one layer",
                         image->name);
     return graph->frame.result == LOBE_OK;
 }
@@ -118,7 +116,7 @@ static engine_stamp identity_of(const engine_graph_resource *resource) {
     return engine_stamp_bytes(stamp, numbers, sizeof numbers);
 }
 
-/// Finds what former frames kept under this name; false where this frame already declared it.
+/// Finds what earlier frames kept under this name; false if this frame has declared it already.
 static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
                            engine_dependency_resource *dependency) {
     for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
@@ -178,10 +176,10 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
     const char *name = copy_name(graph, given, given);
     uint64_t limit = graph->device->limits.maxStorageBufferRange;
     if (name && description->size == 0)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': a size of 0", name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': the size is 0", name);
     else if (name && description->size > limit)
         lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "buffer '%s': %zu bytes, the device allows %llu at most", name,
+                        "buffer '%s': %zu bytes, the device's limit is %llu", name,
                         description->size, (unsigned long long)limit);
     if (graph->frame.result != LOBE_OK)
         return (lobe_resource){0};
@@ -260,7 +258,7 @@ lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void 
         return (lobe_resource){0};
     if (size == 0 || size > ENGINE_MAXIMUM_UPLOAD) {
         lobe_graph_fail(graph, size ? LOBE_ERROR_LIMIT : LOBE_ERROR_GRAPH,
-                        "upload '%s': %zu bytes, not in [1, %zu]", given, size,
+                        "upload '%s': %zu bytes is not in [1, %zu]", given, size,
                         ENGINE_MAXIMUM_UPLOAD);
         return (lobe_resource){0};
     }

@@ -94,7 +94,7 @@ void lobe_graph_output(lobe_graph *graph, lobe_resource resource) {
         engine_graph_fail_dependency(graph);
 }
 
-/// A pass of the graph's own, so that dependencies and barriers need no special case.
+/// Adds an internal pass, so that dependencies and barriers need no special case.
 void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range) {
     if (!engine_graph_can_declare(graph, "a read back"))
         return;
@@ -115,6 +115,6 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
         source, &graph->frame.dependencies.accesses[command->source_access].range);
     if (source->is_image && source->samples > 1)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "resource '%s' is multisampled: resolve it before it is read back",
+                        "resource '%s' is multisampled: resolve it before reading it back",
                         source->name);
 }

@@ -6,7 +6,7 @@ static uint64_t align_up(uint64_t value, uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/// Larger first; among equals the earlier declared, so that the plan is deterministic.
+/// Larger first; equal sizes in order of declaration, so that the plan is deterministic.
 static int compare_requests(const void *a, const void *b) {
     const engine_alias_request *first = *(engine_alias_request *const *)a;
     const engine_alias_request *second = *(engine_alias_request *const *)b;
@@ -25,7 +25,7 @@ static bool alive_together(const engine_alias_request *a, const engine_alias_req
     return a->first <= b->last && b->first <= a->last;
 }
 
-/// `placed` holds the requests that have their place and are alive with this one.
+/// `placed`: the requests that are placed already and alive together with this one.
 static void place(engine_alias_request *request, engine_alias_request **placed, size_t count) {
     qsort(placed, count, sizeof *placed, compare_offsets);
     uint64_t offset = 0;

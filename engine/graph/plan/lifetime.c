@@ -7,7 +7,7 @@ static void extend(engine_dependency_resource *resource, uint32_t position) {
         resource->last_position = position;
 }
 
-/// An output lives on after the last pass, but only if something that runs makes it.
+/// An output lives until after the last pass, if a running pass uses it at all.
 static void extend_output(engine_dependency_graph *graph, const engine_dependency_access *access) {
     engine_dependency_resource *resource = &graph->resources[access->resource];
     if (resource->first_position != ENGINE_DEPENDENCY_NONE)

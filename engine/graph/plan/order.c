@@ -13,7 +13,7 @@ static bool reserve(engine_dependency_graph *graph) {
                                 sizeof *graph->cycle);
 }
 
-/// The first pass in order of declaration that waits for nothing; NONE where all wait.
+/// The first pass in order of declaration that waits for nothing; NONE if all wait.
 static uint32_t next_ready(const engine_dependency_graph *graph, const uint32_t *waiting) {
     for (uint32_t pass = 0; pass < graph->pass_count; pass++)
         if (waiting[pass] == 0)
@@ -43,8 +43,8 @@ static bool is_on_walk(const uint32_t *walk, uint32_t length, uint32_t pass) {
     return false;
 }
 
-/// Every pass still waiting has a predecessor still waiting: going back along those must come
-/// round to a pass met before, and from there on the walk is the cycle, backwards.
+/// Every pass that still waits has a predecessor that still waits. Following those must return to a
+/// pass already visited; from there on, the walk is the cycle in reverse.
 static void find_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
     uint32_t *walk = graph->cycle, length = 0, pass = 0;
     while (waiting[pass] == ENGINE_DEPENDENCY_NONE)
@@ -66,8 +66,8 @@ static void reverse(uint32_t *items, uint32_t count) {
     }
 }
 
-/// In order of execution, from the pass that was declared first. (Reversing all, then both parts
-/// apart, rotates.)
+/// Puts the cycle in order of execution, starting with the pass declared first. Reversing both
+/// parts and then everything is a rotation.
 static void arrange_cycle(engine_dependency_graph *graph) {
     uint32_t *cycle = graph->cycle, count = graph->cycle_count, first = 0;
     reverse(cycle, count);
@@ -79,7 +79,7 @@ static void arrange_cycle(engine_dependency_graph *graph) {
     reverse(cycle, count);
 }
 
-/// A resource that two neighbours of the cycle share, for the message.
+/// A resource that two neighbours in the cycle share, for the message.
 static uint32_t cycle_resource(const engine_dependency_graph *graph) {
     uint32_t first = graph->cycle[0], second = graph->cycle[1 % graph->cycle_count];
     for (uint32_t i = graph->passes[first].first_access; i != ENGINE_DEPENDENCY_NONE;
@@ -105,20 +105,20 @@ static bool fail_cycle(engine_dependency_graph *graph, const uint32_t *waiting) 
 
 bool engine_dependency_order(engine_dependency_graph *graph) {
     uint32_t *waiting = engine_arena_allocate(&graph->scratch, graph->pass_count * sizeof *waiting);
-    bool fine = waiting && reserve(graph);
-    if (!fine)
+    bool ok = waiting && reserve(graph);
+    if (!ok)
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
-    for (uint32_t i = 0; fine && i < graph->edge_count; i++)
+    for (uint32_t i = 0; ok && i < graph->edge_count; i++)
         waiting[graph->edges[i].to]++;
     graph->order_count = 0;
-    while (fine && graph->order_count < graph->pass_count) {
+    while (ok && graph->order_count < graph->pass_count) {
         uint32_t pass = next_ready(graph, waiting);
-        fine = pass != ENGINE_DEPENDENCY_NONE || fail_cycle(graph, waiting);
-        if (!fine)
+        ok = pass != ENGINE_DEPENDENCY_NONE || fail_cycle(graph, waiting);
+        if (!ok)
             break;
         waiting[pass] = ENGINE_DEPENDENCY_NONE; // placed
         graph->order[graph->order_count++] = pass;
         release_successors(graph, pass, waiting);
     }
-    return fine;
+    return ok;
 }

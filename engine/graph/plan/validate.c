@@ -2,11 +2,11 @@
 
 #include "engine/base/sort.h"
 
-/// What is known of one subresource while the accesses are walked in order of declaration.
+/// State of one subresource while walking the accesses in order of declaration.
 typedef struct subresource_history {
     uint32_t writer;       ///< newest access that wrote it, or NONE
-    uint32_t first_reader; ///< of `reader_list`: passes that read since then, or NONE
-    bool wanted;           ///< an output names what it holds
+    uint32_t first_reader; ///< list in `readers`: passes that have read it since, or NONE
+    bool is_output;        ///< its present content is an output
 } subresource_history;
 
 typedef struct reader_entry {
@@ -53,7 +53,7 @@ static bool pass_reads(const history *past, const subresource_history *subresour
     return false;
 }
 
-/// From the host, or from the frame before.
+/// Content from the host, or from an earlier frame.
 static bool has_content_at_start(const engine_dependency_resource *resource, uint32_t subresource) {
     return resource->imported ||
            (resource->borrowed && resource->before.layout != ENGINE_LAYOUT_UNDEFINED) ||
@@ -75,8 +75,8 @@ static bool link_read(engine_dependency_graph *graph, history *past,
                                       ENGINE_HAZARD_READ_AFTER_WRITE);
 }
 
-static void remember_reader(history *past, subresource_history *now, uint32_t pass) {
-    // The draws of a pass may all read the same.
+static void add_reader(history *past, subresource_history *now, uint32_t pass) {
+    // All draws of a pass may read the same resource: list the pass once.
     if (now->first_reader != ENGINE_DEPENDENCY_NONE &&
         past->readers[now->first_reader].pass == pass)
         return;
@@ -88,7 +88,7 @@ static bool link_write(engine_dependency_graph *graph, history *past,
                        const engine_dependency_access *access, uint32_t subresource) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
     subresource_history *now = &past->subresources[resource->first_subresource + subresource];
-    if (now->wanted)
+    if (now->is_output)
         return fail(graph, ENGINE_FAULT_OVERWRITTEN, access, subresource);
     if (pass_reads(past, now, access->pass))
         return fail(graph, ENGINE_FAULT_CONFLICT, access, subresource);
@@ -119,14 +119,14 @@ static bool link_access(engine_dependency_graph *graph, history *past,
         if (access->kind != ENGINE_ACCESS_WRITE && !link_read(graph, past, access, subresource))
             return false;
         if (access->kind == ENGINE_ACCESS_READ)
-            remember_reader(past, now, access->pass);
+            add_reader(past, now, access->pass);
         else if (!link_write(graph, past, access, subresource))
             return false;
     }
     return true;
 }
 
-/// An output is whatever the resource holds; something, though, it must hold.
+/// An output is all content that the resource has; it must have some.
 static bool link_output(engine_dependency_graph *graph, history *past,
                         const engine_dependency_access *access) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
@@ -135,8 +135,8 @@ static bool link_output(engine_dependency_graph *graph, history *past,
         uint32_t subresource = engine_access_subresource(graph, access, i);
         subresource_history *now = &past->subresources[resource->first_subresource + subresource];
         graph->sources[access->first_source + i] = now->writer;
-        now->wanted = now->writer != ENGINE_DEPENDENCY_NONE;
-        written = written || now->wanted || has_content_at_start(resource, subresource);
+        now->is_output = now->writer != ENGINE_DEPENDENCY_NONE;
+        written = written || now->is_output || has_content_at_start(resource, subresource);
     }
     return written || fail(graph, ENGINE_FAULT_NEVER_WRITTEN, access, 0);
 }
@@ -166,15 +166,15 @@ static void merge_edges(engine_dependency_graph *graph) {
 
 bool engine_dependency_link(engine_dependency_graph *graph) {
     history past = {0};
-    bool fine = history_create(graph, &past);
-    if (!fine)
+    bool ok = history_create(graph, &past);
+    if (!ok)
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
-    for (uint32_t i = 0; fine && i < graph->access_count; i++) {
+    for (uint32_t i = 0; ok && i < graph->access_count; i++) {
         const engine_dependency_access *access = &graph->accesses[i];
-        fine = access->pass == ENGINE_DEPENDENCY_NONE ? link_output(graph, &past, access)
-                                                      : link_access(graph, &past, access);
+        ok = access->pass == ENGINE_DEPENDENCY_NONE ? link_output(graph, &past, access)
+                                                    : link_access(graph, &past, access);
     }
-    if (fine)
+    if (ok)
         merge_edges(graph);
-    return fine;
+    return ok;
 }

@@ -208,7 +208,8 @@ static void mistakes_are_named(void **state) {
     lent.usage &= ~(VkImageUsageFlags)VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     lobe_graph_begin(f->graph);
     draw_half(f, lobe_graph_import_image(f->graph, &lent), LOBE_LOAD_CLEAR, 0.5f);
-    assert_refused(f, LOBE_ERROR_GRAPH, "'canvas' was not created with a usage for drawing colour");
+    assert_refused(f, LOBE_ERROR_GRAPH,
+                   "'canvas' was not created with the usage 'colour attachment'");
     // Twice.
     lobe_graph_begin(f->graph);
     lobe_graph_import_image(f->graph, &lent);
