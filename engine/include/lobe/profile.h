@@ -32,9 +32,8 @@ typedef struct lobe_profile_times {
     const char *name;
     double median_milliseconds; ///< for an even number of frames: the mean of the middle two
     double p95_milliseconds; ///< the smallest time that at least 95 % of the frames do not exceed
-    double
-        share; ///< of the time of all frames, [0, 1]; passes sum to less: time passes between them
-    uint32_t runs; ///< frames in which it ran
+    double share;            ///< of the time of all frames, [0, 1]; the rest is time between passes
+    uint32_t runs;           ///< frames in which it ran
 } lobe_profile_times;
 
 typedef struct lobe_profile_summary {
