@@ -12,8 +12,13 @@ static inline void engine_sort_swap(unsigned char *first, unsigned char *second,
     }
 }
 
-/// As qsort, but takes no memory (the C library's does for more than a few items), and is quick
-/// where most items are in order already. Equal items may change places.
+/// Like qsort, but never allocates; fast if most items are already in order. Equal items may change
+/// places.
+///
+/// Only for what the render graph sorts in every frame (graph/plan): a frame like the last
+/// allocates no host memory, but qsort of glibc calls malloc for more than 1 KiB of items.
+/// Elsewhere, use qsort.
+///
 /// Shell 1959, "A high-speed sorting procedure"; gaps: Knuth 1973, "The art of computer
 /// programming 3", section 5.2.1, (3^k - 1) / 2.
 static inline void engine_sort(void *items, uint32_t count, size_t size,

@@ -41,7 +41,7 @@ static const char *origin_word(engine_graph_origin origin) {
     static const char *const words[] = {
         [ENGINE_GRAPH_TRANSIENT] = "transient", [ENGINE_GRAPH_RETAINED] = "retained",
         [ENGINE_GRAPH_TEXTURE] = "imported",    [ENGINE_GRAPH_BUFFER] = "imported",
-        [ENGINE_GRAPH_UPLOAD] = "uploaded",     [ENGINE_GRAPH_HOST_IMAGE] = "the host's",
+        [ENGINE_GRAPH_UPLOAD] = "uploaded",     [ENGINE_GRAPH_HOST_IMAGE] = "host",
     };
     return words[origin];
 }
@@ -84,7 +84,7 @@ static void print_shape(engine_text_builder *out, const engine_graph_resource *r
 // ---------------------------------------------------------------------------------------------
 // Text
 
-/// Names come from users: control characters would break the lines.
+/// Names come from users; control characters in them would break the lines.
 static void text_name(engine_text_builder *out, const char *name) {
     engine_text_add(out, "'");
     for (; *name; name++)
@@ -125,7 +125,7 @@ static void text_barrier(engine_text_builder *out, const lobe_graph *graph,
                          const engine_dependency_barrier *barrier) {
     engine_text_add(out, "      barrier ");
     if (barrier->resource == ENGINE_DEPENDENCY_NONE) {
-        engine_text_add(out, "on all memory: it held other resources before\n");
+        engine_text_add(out, "on all memory, which other resources used before\n");
         return;
     }
     const engine_graph_resource *resource = &graph->frame.resources[barrier->resource];
@@ -268,7 +268,7 @@ static void graphviz_content(engine_text_builder *out, const lobe_graph *graph, 
     engine_text_add(out, "\"];\n  p%u -> w%u;\n", access->pass, index);
 }
 
-/// Content that was there before any pass of the frame.
+/// Content from before the frame.
 static void graphviz_start(engine_text_builder *out, const lobe_graph *graph, uint32_t index) {
     const engine_graph_resource *resource = &graph->frame.resources[index];
     engine_text_add(out, "  r%u [shape=ellipse, %s, label=\"", index,

@@ -113,7 +113,7 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
 static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     if (graph->frame.phase == ENGINE_GRAPH_SUBMITTED || graph->frame.phase == ENGINE_GRAPH_EXECUTED)
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                               "render graph: the frame was already executed; begin a new one");
+                               "render graph: a frame cannot be executed twice; begin a new one");
     lobe_result result = lobe_graph_compile(graph);
     return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
 }

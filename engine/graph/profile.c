@@ -12,7 +12,7 @@ typedef struct time_series {
     double *milliseconds;
     uint32_t capacity;
     uint32_t runs;
-    bool running; ///< in the frame that is being added
+    bool running; ///< in the frame being added
 } time_series;
 
 struct lobe_profile {
@@ -20,20 +20,20 @@ struct lobe_profile {
     time_series frame, recording;
     time_series *passes;
     uint32_t pass_count, pass_capacity;
-    lobe_profile_times *times; ///< of the passes, for the last summary
+    lobe_profile_times *times; ///< of the passes, in the last summary
     uint32_t time_capacity;
     double *scratch; ///< for sorting
     uint32_t scratch_capacity;
 };
 
 static lobe_result fail_memory(const lobe_profile *profile) {
-    return lobe_host_fail(&profile->host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    return lobe_host_fail(&profile->host, LOBE_ERROR_OUT_OF_MEMORY, "profile: out of memory");
 }
 
 lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile) {
     *profile = lobe_allocate(lobe_host_allocator(host), 1, sizeof **profile);
     if (!*profile)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: out of memory");
     if (host)
         (*profile)->host = *host;
     (*profile)->frame.name = "frame";
@@ -87,7 +87,7 @@ static bool make_room_for_run(const lobe_profile *profile, time_series *series) 
                                 sizeof *series->milliseconds);
 }
 
-/// All that can fail comes first, so that a frame counts as a whole or not at all.
+/// Does everything that can fail, so that a frame is counted completely or not at all.
 static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
     for (size_t i = 0; i < report->pass_count; i++)
         if (report->passes[i].state == LOBE_PASS_RUN &&

@@ -11,8 +11,8 @@
 
 enum { COUNTED_READ = 1, COUNTED_WRITTEN = 2 };
 
-/// `counted` holds, by subresource, the pass that was counted last (plus one, times four) and the
-/// directions: no clearing between passes.
+/// `counted` holds for each subresource the last pass that was counted (plus one, times four) and
+/// the directions that were counted, so that it needs no clearing between passes.
 static void count_access(lobe_pass *pass, const engine_dependency_access *access,
                          uint64_t *counted) {
     const lobe_graph *graph = pass->graph;
@@ -91,8 +91,9 @@ void engine_graph_reset_timestamps(lobe_graph *graph) {
                                                graph->frame.flight->timestamp_capacity);
 }
 
-/// After all commands so far are done, on both sides of a pass: else passes that overlap would
-/// count twice, and on a CPU driver, where commands run one after the other, nothing would count.
+/// On both sides of a pass, the timestamp waits for all commands so far. Otherwise the overlap of
+/// passes would count twice; and on a CPU driver, which executes commands one after the other,
+/// every pass would seem to take no time.
 void engine_graph_write_timestamp(lobe_graph *graph, uint32_t position, bool after) {
     if (can_time(graph))
         graph->device->api.vkCmdWriteTimestamp2(

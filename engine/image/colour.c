@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-/// fmaxf returns the number where the other is NaN.
+/// NaN becomes 0: fmaxf returns its other argument.
 static float clamp01(float value) {
     return fminf(fmaxf(value, 0.0f), 1.0f);
 }
@@ -44,7 +44,7 @@ static void encode_texel(const float *linear, const lobe_display_parameters *par
     float maximum = fmaxf(colour[0], fmaxf(colour[1], colour[2]));
     bool compress = parameters->tone_map == LOBE_TONE_MAP_SHOULDER && maximum > 0.0f;
     for (int channel = 0; channel < 3; channel++) {
-        // The quotient first: the scale alone would be a subnormal number for huge radiance.
+        // Divide first: for huge radiance, the scale alone would be subnormal.
         float value = compress ? colour[channel] / maximum * shoulder(maximum) : colour[channel];
         texel[channel] = to_byte(lobe_srgb_encode(value));
     }

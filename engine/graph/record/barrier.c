@@ -26,7 +26,7 @@ VkImageLayout engine_graph_vulkan_layout(engine_layout layout) {
     }
 }
 
-/// As above; host images also have the layouts in which they come and go.
+/// Vulkan's name of a layout, including those of host images before and after the frame.
 static VkImageLayout layout_of(const engine_graph_resource *resource, engine_layout layout) {
     if (layout == ENGINE_LAYOUT_LENT)
         return resource->host->layout;
@@ -74,9 +74,10 @@ void engine_graph_record_last_barrier(lobe_graph *graph) {
     record_memory_barrier(graph, &barrier);
 }
 
-/// Content from a former frame has no stage in this one to wait for: its transition must then
-/// come after the barrier at the start. So must that of memory which a former frame, still under
-/// way, may be using; the stages that use it next are enough to wait for.
+/// Content from an earlier frame has no stage in this frame to wait for; its transition then waits
+/// for everything, to come after the barrier at the start of the frame. The same holds for memory
+/// that an earlier frame may still be using; there, waiting for the stages of the next use is
+/// enough.
 static VkPipelineStageFlags2 source_stages(const engine_dependency_barrier *barrier) {
     if (barrier->from.stages != 0)
         return barrier->from.stages;

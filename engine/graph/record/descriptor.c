@@ -16,15 +16,15 @@ static const VkDescriptorType types[] = {
 // ---------------------------------------------------------------------------------------------
 // Which commands need a set
 
-/// Commands of running passes that have a pipeline, one after the other. Start with zero.
+/// Walks the commands of running passes that have a pipeline. Starts zeroed.
 typedef struct command_walk {
     uint32_t position;
     lobe_pass *pass;
     engine_graph_command *command;
-    bool shares_set; ///< with the one before
+    bool shares_set; ///< with the previous command
 } command_walk;
 
-/// Draws that follow one another with the same pipeline and no bindings of their own share a set.
+/// Consecutive draws with the same pipeline and no bindings of their own share a set.
 static bool can_share_set(const engine_graph_command *command, const engine_graph_command *before) {
     return before->pipeline == command->pipeline && !before->bindings.first &&
            !command->bindings.first;
@@ -49,11 +49,11 @@ static bool next_command(const lobe_graph *graph, command_walk *walk) {
     return true;
 }
 
-/// What sets of this frame's commands take.
+/// What the sets of this frame's commands need.
 typedef struct set_needs {
     uint32_t counts[1 + TYPE_COUNT]; ///< sets, then descriptors by type
     uint32_t variables;
-    engine_stamp plan; ///< of the layouts of the sets
+    engine_stamp plan; ///< digest of the layouts of the sets
 } set_needs;
 
 static set_needs count_needs(const lobe_graph *graph) {
@@ -97,7 +97,7 @@ static lobe_result create_pool(lobe_graph *graph) {
                         "render graph");
 }
 
-/// Empties the pool; makes a larger one where it is too small for this frame.
+/// Empties the pool, or replaces it by a larger one if it is too small for this frame.
 static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
     lobe_device *device = graph->device;
     engine_graph_flight *flight = graph->frame.flight;
@@ -143,7 +143,7 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
         "render graph");
 }
 
-/// The sets of the flight's last frame serve where this one needs the very same.
+/// Reuses the sets of the flight's last frame if this frame needs exactly the same.
 static lobe_result prepare_sets(lobe_graph *graph, const set_needs *needs) {
     if (graph->frame.flight->set_plan == needs->plan || needs->counts[0] == 0)
         return LOBE_OK;
@@ -165,9 +165,9 @@ static void assign_sets(const lobe_graph *graph) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Their content
+// Content of the sets
 
-/// What is written to all sets of a frame at once; each write has an image or a buffer.
+/// Writes to all sets of a frame, made in one call; each has an image or a buffer.
 typedef struct write_batch {
     VkWriteDescriptorSet *writes;
     VkDescriptorImageInfo *images;
@@ -184,7 +184,7 @@ static bool create_batch(engine_arena *arena, uint32_t count, write_batch *batch
 
 static VkDescriptorBufferInfo describe_block(const engine_graph_resource *resource,
                                              const engine_shader_binding *variable) {
-    // Uniform blocks are limited in size, the buffers they lie in are not.
+    // Uniform blocks are limited in size, unlike the buffers that contain them.
     bool uniform = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     return (VkDescriptorBufferInfo){.buffer = resource->object->buffer,
                                     .offset = resource->offset,
@@ -209,7 +209,7 @@ static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
     const engine_graph_binding *binding =
         engine_graph_find_binding(walk->pass, walk->command, variable->name);
     if (!binding)
-        return LOBE_OK; // no code of the shader refers to it
+        return LOBE_OK; // declared in the shader but not used
     const engine_graph_resource *resource =
         &graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource];
     uint32_t n = batch->count++;

@@ -8,7 +8,7 @@
 #include "engine/graph/report.h"
 #include "engine/graph/store/store.h"
 
-/// Copies of images start at multiples of the texel size, of which this is the largest.
+/// Image copies start at multiples of the texel size; this is the largest.
 #define READ_BACK_ALIGNMENT 16
 
 // ---------------------------------------------------------------------------------------------
@@ -89,7 +89,7 @@ static lobe_result record_passes(lobe_graph *graph) {
     return result;
 }
 
-/// `host`: into the command buffer of the host.
+/// `host`: the host's command buffer to record into; VK_NULL_HANDLE: the flight's.
 static lobe_result record(lobe_graph *graph, VkCommandBuffer host) {
     graph->frame.commands = host ? host : graph->frame.flight->commands;
     lobe_result result = host ? LOBE_OK : begin_recording(graph);
@@ -116,8 +116,8 @@ static lobe_result prepare(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Execution
 
-/// Where the host submits, it does so before anything else that lobe does on the queue: what is
-/// retained counts as made in both cases.
+/// If the host submits, it does so before anything else that lobe submits: in both cases, retained
+/// content counts as written.
 static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
     engine_graph_flight *flight = graph->frame.flight;
     lobe_result result = LOBE_OK;

@@ -16,7 +16,7 @@ static engine_graph_resource *resource_at(const lobe_graph *graph, uint32_t acce
 // ---------------------------------------------------------------------------------------------
 // Dispatches and draws
 
-/// `before`: the pass's command before this one, or NULL; what it has bound is still bound.
+/// `before`: the pass's previous command, or NULL; what it bound is still bound.
 static void bind_command(lobe_graph *graph, const engine_graph_command *command,
                          const engine_graph_command *before, const void *constants,
                          size_t constants_size) {
@@ -72,7 +72,7 @@ static VkAttachmentLoadOp load_of(lobe_load load) {
     }
 }
 
-/// What nothing reads after this pass need not reach memory.
+/// What nothing reads after this pass need not be stored.
 static VkAttachmentStoreOp store_of(const lobe_graph *graph, const lobe_pass *pass,
                                     uint32_t access) {
     uint32_t index = access_at(graph, access)->resource;
@@ -99,7 +99,7 @@ static lobe_result describe_attachment(lobe_graph *graph, const lobe_pass *pass,
         engine_graph_vulkan_layout(access_at(graph, attachment->access)->state.layout);
     information->loadOp = load_of(attachment->load);
     information->storeOp = store_of(graph, pass, attachment->access);
-    // The clear values of depth and of the first colour channel are the same bytes.
+    // Depth and the first colour channel share the same bytes of the clear value.
     memcpy(information->clearValue.color.float32, attachment->clear, sizeof attachment->clear);
     return attachment_view(graph, attachment->access, &information->imageView);
 }

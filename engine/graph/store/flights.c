@@ -48,11 +48,11 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
 lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
     if (graph->frame.flight->busy) {
-        // In turn, so that the next one is the oldest.
+        // Taken in turn, so that the next one is the oldest.
         uint32_t index = (uint32_t)(graph->frame.flight - graph->kept.flights);
         graph->frame.flight = &graph->kept.flights[(index + 1) % graph->kept.flight_count];
     }
-    // Of a frame that the host submitted itself it knows that it is done.
+    // If the host submitted the frame itself, it guarantees that the frame has finished.
     if (graph->frame.flight->submission)
         result = engine_device_wait(graph->device, graph->frame.flight->submission);
     if (result != LOBE_OK)

@@ -46,7 +46,7 @@ lobe_result engine_graph_release_retained(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Uses
 
-/// More than this frame's uses: content that outlives the frame must serve uses of later ones.
+/// More than this frame's uses: the content is kept, and later frames may use it in other ways.
 static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resource *resource) {
     if (!resource->is_image)
         return resource->usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -94,7 +94,7 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
     return LOBE_OK;
 }
 
-/// The content is still there to be read; only no longer what any pass would write.
+/// The content can still be read, but its stamp no longer equals what any pass would write.
 static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
     for (uint32_t i = 0; i < kept->subresource_count; i++)
         if (kept->stamps[i] != ENGINE_STAMP_NONE)
@@ -113,7 +113,7 @@ void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Making them
+// Creation
 
 static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) {
     const engine_graph_resource *resource = &graph->frame.resources[index];
@@ -192,7 +192,7 @@ lobe_result engine_graph_place_retained(lobe_graph *graph) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What they hold
+// Content
 
 typedef void (*visit_written)(lobe_graph *graph, uint32_t access, uint32_t subresource);
 

@@ -5,15 +5,15 @@
 #include "engine/graph/plan/alias.h"
 
 // ---------------------------------------------------------------------------------------------
-// Which transients, and whether they are those of the last frame
+// Whether the transients are those of the last frame
 
 static bool is_placed(const lobe_graph *graph, uint32_t index) {
     return graph->frame.resources[index].origin == ENGINE_GRAPH_TRANSIENT &&
            graph->frame.dependencies.resources[index].first_position != ENGINE_DEPENDENCY_NONE;
 }
 
-/// Which of the transients before this one are alive at some time when it is: all that the places
-/// of both depend on.
+/// Mixes in which of the transients declared before this one are alive at the same time as it: the
+/// placement depends on nothing else about their lifetimes.
 static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, uint32_t index) {
     const engine_dependency_resource *resources = graph->frame.dependencies.resources;
     uint32_t rank = 0;
@@ -134,7 +134,7 @@ static lobe_result create_objects(lobe_graph *graph, block_plan *blocks) {
     return LOBE_OK;
 }
 
-/// Plans one block; requests of others are left alone.
+/// Plans one block; leaves the requests of other blocks alone.
 static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
                        engine_alias_request *scratch) {
     engine_graph_transients *transients = &graph->kept.transients;
@@ -157,7 +157,7 @@ static bool plan_block(lobe_graph *graph, uint32_t block, block_plan *plan,
 static lobe_result allocate_block(lobe_graph *graph, uint32_t block, const block_plan *plan) {
     char name[256];
     if (plan->members > 1)
-        snprintf(name, sizeof name, "%s (and %u more of the frame)", plan->largest,
+        snprintf(name, sizeof name, "%s (and %u more transients)", plan->largest,
                  plan->members - 1);
     else
         snprintf(name, sizeof name, "%s", plan->largest);

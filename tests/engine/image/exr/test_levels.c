@@ -215,7 +215,7 @@ static void wrong_levels_are_refused(void **state) {
     (void)state;
     lobe_image levels[MOST_LEVELS], other;
     uint32_t count = make_levels(8, 8, levels);
-    expect_refused(levels, count - 1, "3 levels given, 8x8 texels have 4");
+    expect_refused(levels, count - 1, "3 levels are given, 8x8 texels have 4");
     other = levels[2];
     levels[2] = levels[1];
     expect_refused(levels, count, "4x4 texels on level 2 instead of 2x2");
