@@ -1,5 +1,5 @@
-// A host's allocator: what lobe asks it for and gives back to it, and what happens where it has
-// nothing to give, in all that needs no device.
+// The host's allocator: what lobe allocates and frees, and what happens if an allocation fails, in
+// everything that needs no device.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -92,7 +92,7 @@ static void a_block_that_cannot_grow_is_kept(void **state) {
     assert_nothing_left(&counting);
 }
 
-/// A block remembers where it came from, whatever it is asked to grow by.
+/// A block remembers its allocator, whichever allocator a reallocation names.
 static void allocators_do_not_mix(void **state) {
     (void)state;
     counting_allocator countings[2];
@@ -196,7 +196,7 @@ static lobe_result work_with_profile(void *user, const lobe_host *host) {
 
 static void png_files_say_where_memory_ends(void **state) {
     (void)state;
-    // libpng takes its memory there too, and zlib's with it.
+    // libpng allocates there too, and so does zlib.
     assert_true(fail_each_allocation(work_with_png, NULL) > 20);
 }
 

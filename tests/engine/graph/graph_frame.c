@@ -2,12 +2,12 @@
 
 #include <stdio.h>
 
-#define EXTENT 32 ///< texels; of levels 0
+#define EXTENT 32 ///< texels of level 0
 #define LEVELS 6
 #define COUNT  64 ///< floats in a buffer
 
 // ---------------------------------------------------------------------------------------------
-// What lasts
+// Objects of all frames
 
 static const float triangle[] = {-1, -1, -1, 3, 3, -1};
 
@@ -84,7 +84,7 @@ static lobe_resource halve(graph_frame *frame, lobe_resource chain, uint32_t lev
     return chain;
 }
 
-/// The level 0 is filled anew in every frame.
+/// Level 0 is filled in every frame.
 static lobe_resource build_chain(graph_frame *frame, const char *name, bool retained) {
     lobe_resource chain =
         lobe_graph_image(frame->graph, &(lobe_image_description){.name = name,

@@ -44,7 +44,7 @@ static void passes_see_what_passes_before_wrote(void **state) {
     assert_true(report->transient_bytes < report->transient_bytes_without_aliasing);
 }
 
-/// A buffer may be overwritten once all that read it have done so.
+/// A buffer may be overwritten once all its readers have run.
 static void a_buffer_is_used_again(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -143,7 +143,7 @@ static void a_range_can_be_read_back(void **state) {
     assert_float_equal(read_floats(fixture, image, 4)[0], 20050.5, 1e-2);
 }
 
-/// Two dispatches of one pass, with bindings of their own for what they read.
+/// Two dispatches of one pass, each with its own bindings for reading.
 static void dispatches_have_their_own_bindings(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -249,7 +249,7 @@ static lobe_texture *make_texture(graph_fixture *fixture, uint32_t width, uint32
     return texture;
 }
 
-/// Sampled by a shader and copied from, in turn: the layout changes and comes back.
+/// Sampled by a shader and copied from, alternately: the layout changes back and forth.
 static void textures_are_sampled_and_copied(void **state) {
     graph_fixture *fixture = *state;
     lobe_texture *texture = make_texture(fixture, 8, 8);
@@ -276,7 +276,7 @@ static void textures_are_sampled_and_copied(void **state) {
     lobe_texture_destroy(&texture);
 }
 
-/// One pass reads one image both sampled and in place: one layout must do for both.
+/// One pass reads one image both sampled and as a storage image: one layout must allow both.
 static void one_pass_reads_one_image_in_two_ways(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -300,7 +300,7 @@ static void fills_and_copies(void **state) {
     lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_RGBA32_FLOAT, 5, 3);
     lobe_resource depth = graph_fixture_image(fixture, "depth", LOBE_FORMAT_D32_FLOAT, 5, 3);
     lobe_resource other = graph_fixture_image(fixture, "other", LOBE_FORMAT_RGBA32_FLOAT, 5, 3);
-    // Seven bytes: fills work in words.
+    // Seven bytes, although fills write words.
     lobe_resource buffer = graph_fixture_buffer(fixture, "buffer", 7);
     lobe_resource twin = graph_fixture_buffer(fixture, "twin", 7);
     lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill");
@@ -338,14 +338,14 @@ static void copies_between_levels(void **state) {
     assert_true(read_floats(fixture, small, 16)[0] == 50.5f);
 }
 
-/// A row of images, two of them alive at a time, each in memory that others had before.
+/// A series of images, two of them alive at a time, each in memory that others used before.
 static void images_share_memory(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_R32_FLOAT, 64, 64);
     image = paint(fixture, image, 64, 64, 1);
     for (int i = 0; i < 12; i++) {
-        // Sizes differ, so that places overlap in part.
+        // Sizes differ, so that places overlap partially.
         uint32_t height = 64 + 32 * (uint32_t)(i % 3);
         lobe_resource next = lobe_graph_image(
             fixture->graph,
@@ -448,7 +448,7 @@ static void passes_are_timed(void **state) {
 static void a_still_frame_allocates_nothing(void **state) {
     graph_fixture *fixture = *state;
     timed_frame(fixture, 1 << 16);
-    // Whoever plans memory anew loses the mark.
+    // The mark is lost if memory is planned again.
     const uint32_t mark = 12345;
     fixture->graph->kept.transients.requests[0].first = mark;
     const VkDescriptorPool pool = fixture->graph->frame.flight->descriptors;

@@ -204,7 +204,7 @@ static void format_that_cannot_be_stored_to(void **state) {
     GRAPH_EXPECT(fixture, LOBE_ERROR_UNSUPPORTED, "'depth'", "D32_FLOAT");
 }
 
-/// A device of its own, with little memory.
+/// On its own device, with little memory.
 static void memory_is_exhausted(void **state) {
     (void)state;
     graph_fixture small = {0};
@@ -224,7 +224,7 @@ static void memory_is_exhausted(void **state) {
         lobe_graph_output(small.graph, filled_image(&small, description));
         GRAPH_EXPECT(&small, LOBE_ERROR_OUT_OF_DEVICE_MEMORY, "large", "67108864");
     }
-    // The graph is as good as before.
+    // The graph still works.
     small.recorder.errors = 0;
     lobe_graph_begin(small.graph);
     lobe_graph_output(small.graph, filled(&small, "small", 256));
@@ -320,7 +320,7 @@ static void execution_twice(void **state) {
     GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "twice");
 }
 
-/// Everything after the first mistake is quiet, and usable.
+/// Everything after the first mistake is silent and safe.
 static void later_calls_do_nothing(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -338,7 +338,7 @@ static void later_calls_do_nothing(void **state) {
     assert_int_equal(lobe_graph_compile(fixture->graph), LOBE_ERROR_GRAPH);
     GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'odd'");
     assert_null(lobe_graph_data(fixture->graph, numbers, NULL));
-    // The next frame starts afresh.
+    // The next frame starts without the error.
     fixture->recorder.errors = 0;
     lobe_graph_begin(fixture->graph);
     graph_fixture_execute(fixture);
@@ -347,7 +347,7 @@ static void later_calls_do_nothing(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Shaders
 
-/// A right use of graph_add.comp, to be spoiled.
+/// A correct use of graph_add.comp, for tests to break.
 typedef struct add_use {
     const char *source_name, *target_name, *extra_name, *shader;
     size_t source_size, constants_size;

@@ -1,5 +1,4 @@
-// Frames that are declared like the one before take no memory of the host, and make nothing of
-// Vulkan's.
+// Frames declared like the one before allocate no host memory and create no Vulkan objects.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -17,11 +16,11 @@
 #define STEADY   6 ///< frames that are counted
 
 // ---------------------------------------------------------------------------------------------
-// A function that the linker puts before the C library's
+// A function that the linker calls instead of the C library's
 
 static int sorted;
 
-/// It takes memory of its own for more than a few items.
+/// qsort allocates for more than a few items.
 void __real_qsort(void *items, size_t count, size_t size,
                   int (*compare)(const void *, const void *));
 void __wrap_qsort(void *items, size_t count, size_t size,
@@ -80,7 +79,7 @@ static uint32_t count_passes(const lobe_graph *graph, lobe_pass_state state) {
     return count;
 }
 
-/// Each frame's time is `step` after that of the one before.
+/// The time of each frame is `step` after that of the previous one.
 static void check_steady(fixture *f, float step) {
     graph_frame *frame = &f->frame;
     float time = 1.0f;

@@ -82,7 +82,7 @@ static void passes_of_one_name_are_summed(void **state) {
     assert_float_equal(summary.passes[1].share, 0.5, 1e-12);
 }
 
-/// Frames in which a pass is skipped, or which came before it, tell nothing of its time.
+/// Frames in which a pass is skipped, or from before it existed, do not count for its time.
 static void a_pass_is_judged_by_the_frames_it_ran_in(void **state) {
     (void)state;
     lobe_profile_summary summary;

@@ -12,7 +12,7 @@ static lobe_resource retained(graph_fixture *fixture, const char *name, size_t s
         fixture->graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
 }
 
-/// What the frames of these tests differ in.
+/// Where the frames of these tests differ.
 typedef struct chain {
     float source[COUNT], other[COUNT]; ///< uploads
     float offset;                      ///< of the first pass
@@ -68,7 +68,7 @@ static void unchanged_passes_are_skipped(void **state) {
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
     for (int i = 0; i < 2; i++) {
         assert_true(run_chain(fixture, &frame) == 7.0f);
-        // What only a skipped pass needed is culled, and takes no memory.
+        // A pass that only a skipped pass needs is culled, and its resources take no memory.
         assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
                       LOBE_PASS_SKIPPED);
     }
@@ -84,7 +84,7 @@ static void only_dependents_of_a_change_run_again(void **state) {
     frame.source[1] = 6.0f;
     assert_true(run_chain(fixture, &frame) == 8.0f);
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
-    // A push constant counts as well as content.
+    // A push constant counts like content.
     frame.offset = 100.0f;
     assert_true(run_chain(fixture, &frame) == 108.0f);
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
@@ -104,7 +104,7 @@ static void invalidation_runs_all_again(void **state) {
     run_chain(fixture, &frame);
     assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
                   LOBE_PASS_SKIPPED);
-    // After the declaration it counts, too.
+    // Invalidation after the declaration counts, too.
     declare_chain(fixture, &frame);
     lobe_graph_invalidate(fixture->graph);
     graph_fixture_execute(fixture);
@@ -198,7 +198,7 @@ static lobe_resource declare_levels(graph_fixture *fixture, float value) {
     return image;
 }
 
-/// Layouts of each level are remembered from frame to frame.
+/// The layout of each level is kept between frames.
 static void levels_are_retained(void **state) {
     graph_fixture *fixture = *state;
     const float values[] = {3.0f, 3.0f, 3.0f, 4.0f, 4.0f};
@@ -215,8 +215,8 @@ static void levels_are_retained(void **state) {
     }
 }
 
-/// Content of an earlier version that the memory no longer holds is made again, and then also
-/// what comes after it.
+/// Content of an earlier version that is no longer in memory is written again, and so is everything
+/// after it.
 static void overwritten_content_is_made_again(void **state) {
     graph_fixture *fixture = *state;
     const float offsets[] = {1.0f, 1.0f, 2.0f, 2.0f};
@@ -280,7 +280,7 @@ static void sums_run_over_frames(void **state) {
     }
     const float *texels = lobe_graph_data(fixture->graph, sum, NULL);
     assert_true(texels[63] == 107.5f);
-    // To start again, the whole chain runs, although it is that of the first frame.
+    // To start again, the whole chain runs, although it is the same as in the first frame.
     accumulate(fixture, true);
     graph_fixture_execute(fixture);
     assert_int_equal(graph_fixture_state(fixture, "start"), LOBE_PASS_RUN);
@@ -306,7 +306,7 @@ static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
     }
 }
 
-/// A frame that fails leaves what was kept as it was.
+/// A frame that fails does not change retained content.
 static void a_failed_frame_changes_nothing(void **state) {
     graph_fixture *fixture = *state;
     const chain frame = {.source = {0, 5}};
@@ -320,7 +320,7 @@ static void a_failed_frame_changes_nothing(void **state) {
                   LOBE_PASS_SKIPPED);
 }
 
-/// Anything that a draw does differently makes another picture.
+/// Any change to a draw makes its pass run again.
 static void raster_passes_are_compared(void **state) {
     graph_fixture *fixture = *state;
     static const float vertices[] = {-1, -1, -1, 3, 3, -1};

@@ -66,7 +66,7 @@ static void ranges_count_their_texels(void **state) {
     assert_traffic(fixture, "copy", 3 * 2 * 8, 3 * 2 * 8);
 }
 
-/// Two bindings of one image are one reading of it.
+/// Two bindings of one image count as one read.
 static void what_is_bound_twice_counts_once(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -83,7 +83,7 @@ static void what_is_bound_twice_counts_once(void **state) {
     assert_traffic(fixture, "twice", 16 * 8 * 4, 16 * 8 * 4);
 }
 
-/// What a pass modifies it reads and writes; what it clears it only writes; of samples all count.
+/// Modifying counts as read and written, clearing only as written; all samples count.
 static void attachments_count_as_they_load(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);

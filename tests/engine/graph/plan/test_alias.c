@@ -23,7 +23,7 @@ static void assert_sound(const engine_alias_request *requests, size_t count, uin
     }
 }
 
-/// Bytes alive at once can never be undercut.
+/// The block is never smaller than the bytes alive at one position.
 static uint64_t largest_sum(const engine_alias_request *requests, size_t count,
                             uint32_t positions) {
     uint64_t largest = 0;

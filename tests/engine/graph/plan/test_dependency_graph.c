@@ -5,7 +5,7 @@
 
 #include "engine/graph/plan/dependency_graph.h"
 
-// States as some device might have them.
+// States of an imaginary device.
 #define STAGE_A 1
 #define STAGE_B 2
 #define STAGE_C 4
@@ -168,7 +168,7 @@ static void levels_are_apart(void **state) {
     assert_int_equal(hazards(base, half), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(half, quarter), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(base, quarter), 0);
-    // Who looks at level 0 only does not need the others.
+    // A pass that reads only level 0 does not need the others.
     assert_int_equal(hazards(base, view), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(quarter, view), 0);
     assert_running("base view");
@@ -187,7 +187,7 @@ static void layers_are_apart(void **state) {
     assert_running("a b");
 }
 
-/// Two halves of a resource by two passes, one of which wrote before a third overwrote both.
+/// Two passes write half of a resource each; one of them wrote before a third overwrote both.
 static void a_range_has_several_sources(void **state) {
     (void)state;
     lobe_resource x = transient("x", 2);
@@ -219,7 +219,7 @@ static void order_is_that_of_declaration_where_it_can_be(void **state) {
     assert_running("0 1 2 3 4 5 6 7");
 }
 
-/// Passes may be declared before those they need, as long as the accesses come in order.
+/// Passes may be added before those they need, as long as the accesses are added in order.
 static void a_pass_waits_for_what_it_needs(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1), y = transient("y", 1);
@@ -265,7 +265,7 @@ static void an_explicit_order_can_close_a_cycle(void **state) {
     assert_fault(ENGINE_FAULT_CYCLE, "'a'", "'x'");
 }
 
-/// Whatever the accesses, an order that is given back respects every edge.
+/// For any accesses, the order respects every edge.
 static void every_edge_is_respected(void **state) {
     (void)state;
     uint32_t seed = 1;
@@ -331,7 +331,7 @@ static void versions_of_the_future_are_refused(void **state) {
     }
 }
 
-/// A pass may name either version for what it does not write itself.
+/// A pass may name either version of what it does not write itself.
 static void a_pass_may_use_the_version_it_started_from(void **state) {
     (void)state;
     lobe_resource x = transient("x", 3);
@@ -398,7 +398,7 @@ static void an_output_is_not_overwritten(void **state) {
     uint32_t a = pass_of("a"), b = pass_of("b"), c = pass_of("c");
     x = writes_level(a, x, 0);
     wants(x);
-    x = writes_level(b, x, 1); // adds to it: fine
+    x = writes_level(b, x, 1); // adds to it: allowed
     x = writes_level(c, x, 0);
     assert_false(engine_dependency_link(&graph));
     assert_fault(ENGINE_FAULT_OVERWRITTEN, "'c'", "'x'");
@@ -462,7 +462,7 @@ static void what_nothing_wants_is_culled(void **state) {
     assert_int_equal(graph.passes[c].position, 1);
 }
 
-/// Whoever only overwrites needs no former content.
+/// A pass that only overwrites needs no previous content.
 static void overwritten_content_is_not_wanted(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1);
@@ -487,7 +487,7 @@ static void kept_passes_run(void **state) {
     assert_running("a b c");
 }
 
-/// What retained resources hold after the passes of the graph have run.
+/// Content of retained resources after the passes of the graph have run.
 static void record(uint32_t resource, engine_stamp *stamps) {
     for (uint32_t i = 0; i < graph.running_count; i++)
         for (uint32_t a = graph.passes[graph.running[i]].first_access; a != ENGINE_DEPENDENCY_NONE;
@@ -501,7 +501,7 @@ static void record(uint32_t resource, engine_stamp *stamps) {
                 }
 }
 
-/// import -> base (level 0) -> half (level 1), kept; half -> look -> seen, wanted.
+/// import -> base (level 0) -> half (level 1), retained; half -> look -> seen, an output.
 static void retained_frame(engine_stamp *stamps, uint64_t content, uint64_t half_signature) {
     engine_dependency_graph_reset(&graph);
     lobe_resource given = resource_of(
@@ -533,9 +533,9 @@ static void valid_content_stops_demand(void **state) {
     assert_running("look");
     assert_int_equal(graph.passes[0].state, LOBE_PASS_SKIPPED);
     assert_int_equal(graph.passes[1].state, LOBE_PASS_SKIPPED);
-    retained_frame(stamps, 100, 22); // half does something else now
+    retained_frame(stamps, 100, 22); // half does something else
     assert_running("half look");
-    retained_frame(stamps, 101, 22); // other content brought in
+    retained_frame(stamps, 101, 22); // other content is imported
     assert_running("base half look");
     stamps[1] = ENGINE_STAMP_NONE; // level 1 was lost
     retained_frame(stamps, 101, 22);
@@ -582,7 +582,7 @@ static void lifetimes_span_first_to_last_use(void **state) {
     assert_int_equal(graph.resources[x.index].first_position, 0);
     assert_int_equal(graph.resources[x.index].last_position, 2);
     assert_int_equal(graph.resources[y.index].first_position, 1);
-    // Outputs live on to the end of the frame.
+    // Outputs live until the end of the frame.
     assert_int_equal(graph.resources[z.index].last_position, 3);
     assert_int_equal(graph.resources[unused.index].first_position, ENGINE_DEPENDENCY_NONE);
 }
@@ -652,7 +652,7 @@ static void every_hazard_of_a_buffer_has_its_barrier(void **state) {
     wants(x);
     compile();
     assert_running("a b c");
-    assert_null(only_barrier(0, x.index)); // nothing was there before
+    assert_null(only_barrier(0, x.index)); // it had no content
     const engine_dependency_barrier *read = only_barrier(1, x.index);
     assert_int_equal(read->from.access, WRITE);
     assert_int_equal(read->to.stages, STAGE_B);
@@ -681,7 +681,7 @@ static void only_the_levels_concerned_are_moved(void **state) {
                      ENGINE_LAYOUT_SAMPLED);
 }
 
-/// Sampled in one way and read in place in another by one pass: one layout for both.
+/// One pass reads it both sampled and as a storage image: one layout for both.
 static void reads_of_one_pass_agree_on_a_layout(void **state) {
     (void)state;
     lobe_resource x = transient("x", 2), y = transient("y", 1);
@@ -731,7 +731,7 @@ static void retained_content_keeps_its_layout(void **state) {
     assert_null(only_barrier(0, x.index));
 }
 
-/// A resource that moves into memory where another lay waits for the other's last uses.
+/// A resource in memory that another used waits for the last uses of that other one.
 static void shared_memory_is_waited_for(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1), y = transient("y", 1), z = transient("z", 1);
@@ -742,7 +742,7 @@ static void shared_memory_is_waited_for(void **state) {
     reads(c, y);
     z = writes(c, z);
     wants(z);
-    // z lies where x lay, y elsewhere.
+    // z uses the memory of x; y is elsewhere.
     const uint64_t offsets[] = {0, 64, 32};
     for (int i = 0; i < 3; i++) {
         graph.resources[i].placed = true;
