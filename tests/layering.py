@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Checks who includes whom: a folder may include only what stands below it, and Vulkan stays inside
-engine/. And who takes memory: in the library, only what gives it to all others, from the host's
-allocator. Prints each line that breaks a rule; fails where there is one."""
+engine/, out of reach of the folders in ROOMS. And who takes memory: in the library, only what gives
+it to all others, from the host's allocator. Prints each line that breaks a rule; fails where there
+is one, and where it would not find the faults of a small tree made for that."""
 
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 # What a folder's files may include, besides the system's and other libraries' headers. A public
@@ -26,6 +28,11 @@ OWNED = {
     re.compile(r"png\.h"): {"engine", "third_party"},
 }
 
+# Folders inside a library that may include less than the library: these folders and public headers,
+# and no header of Vulkan, neither directly nor through a header of ours.
+ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
+VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")
+
 # Functions of the C library that give memory, or take it back; and where they may be called.
 HEAP = re.compile(r"\b(?:malloc|calloc|realloc|reallocarray|free|strdup|strndup|asprintf|vasprintf|"
                   r"open_memstream|getline|getdelim|aligned_alloc|posix_memalign)\s*\(|"
@@ -44,14 +51,21 @@ def public_folders(root):
             for folder in ALLOWED for path in (root / folder / "include").rglob("*.h")}
 
 
+def included_file(root, path, quote, name, public):
+    """The file of the tree that an include reaches; None for the system and libraries."""
+    if name in public:
+        return f"{public[name]}/include/{name}"
+    if quote == '"' and (path.parent / name).exists():
+        name = (path.parent / name).resolve().relative_to(root).as_posix()
+    return name if (root / name).exists() and name.split("/")[0] in ALLOWED else None
+
+
 def target_of(root, path, quote, name, public):
     """The part of the tree that an include reaches; None for the system and libraries."""
     if name in public:
         return f"{public[name]} public"
-    if quote == '"' and (path.parent / name).exists():
-        name = (path.parent / name).resolve().relative_to(root).as_posix()
-    folder = name.split("/")[0]
-    return folder if (root / name).exists() and folder in ALLOWED else None
+    file = included_file(root, path, quote, name, public)
+    return file.split("/")[0] if file else None
 
 
 def allowed(folder, target):
@@ -62,6 +76,38 @@ def allowed(folder, target):
 
 def breaks_ownership(folder, name):
     return any(pattern.match(name) and folder not in owners for pattern, owners in OWNED.items())
+
+
+def way_to_vulkan(root, path, public, seen):
+    """The files through which `path` includes a header of Vulkan, that header last; None: it does
+    not."""
+    for quote, name in INCLUDE.findall(path.read_text()):
+        if VULKAN.match(name):
+            return [name]
+        file = included_file(root, path, quote, name, public)
+        if file and file not in seen:
+            seen.add(file)
+            way = way_to_vulkan(root, root / file, public, seen)
+            if way:
+                return [file, *way]
+    return None
+
+
+def check_room(root, path, public):
+    """What a file includes that its room does not allow."""
+    relative = path.relative_to(root).as_posix()
+    faults = []
+    for room, allowed_folders in ROOMS.items():
+        if not relative.startswith(room + "/"):
+            continue
+        for quote, name in INCLUDE.findall(path.read_text()):
+            file = included_file(root, path, quote, name, public)
+            if file and not file.startswith(allowed_folders):
+                faults.append(f"{relative} includes {name}: {room}/ may not know it")
+        way = way_to_vulkan(root, path, public, set())
+        if way:
+            faults.append(f"{relative} includes {' -> '.join(way)}: {room}/ knows no Vulkan")
+    return faults
 
 
 def check_memory(relative, text):
@@ -75,7 +121,7 @@ def check_file(root, path, public):
     relative = path.relative_to(root).as_posix()
     folder = relative.split("/")[0]
     text = path.read_text()
-    faults = check_memory(relative, text)
+    faults = check_memory(relative, text) + check_room(root, path, public)
     for quote, name in INCLUDE.findall(text):
         target = target_of(root, path, quote, name, public)
         if not allowed(folder, target):
@@ -89,15 +135,51 @@ def check_file(root, path, public):
     return faults
 
 
-def main():
-    root = Path(sys.argv[1]).resolve()
+def check_tree(root):
+    """The faults of all files, and how many files there are."""
     public = public_folders(root)
-    faults, count = [], 0
-    for folder in ALLOWED:
-        for path in sorted((root / folder).rglob("*")):
-            if path.suffix in SUFFIXES:
-                faults += check_file(root, path, public)
-                count += 1
+    paths = [path for folder in ALLOWED for path in sorted((root / folder).rglob("*"))
+             if path.suffix in SUFFIXES]
+    return [fault for path in paths for fault in check_file(root, path, public)], len(paths)
+
+
+# A tree in which each file breaks the rule after it, or (None) breaks none.
+FAULTY = {
+    "engine/include/lobe/graph.h": ("#include <stdint.h>", None),
+    "engine/include/lobe/vulkan.h": ("#include <vulkan/vulkan.h>", None),
+    "engine/include/lobe/device.h": ("#include <vulkan/vulkan.h>", "public headers speak"),
+    "engine/base/arena.h": ("#include <lobe/graph.h>", None),
+    "engine/base/hidden.h": ("#include <lobe/vulkan.h>", None),
+    "engine/resource/memory.h": ("#include <stdint.h>", None),
+    "engine/graph/plan/good.c": ('#include "engine/base/arena.h"', None),
+    "engine/graph/plan/direct.c": ("#include <vulkan/vulkan.h>", "knows no Vulkan"),
+    "engine/graph/plan/through.c": ('#include "engine/base/hidden.h"', "knows no Vulkan"),
+    "engine/graph/plan/outside.c": ('#include "engine/resource/memory.h"', "may not know it"),
+    "engine/graph/plan/memory.c": ("void *taken(void) { return malloc(1); }", "calls malloc"),
+    "passes/upward.c": ('#include "engine/resource/memory.h"', "may not know engine"),
+    "passes/vulkan.c": ("#include <vulkan/vulkan.h>", "not for passes/"),
+}
+
+
+def check_itself():
+    """What goes wrong in a tree that breaks each rule once: faults not found, or found in vain."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder).resolve()
+        for name, (text, _) in FAULTY.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text + "\n")
+        faults, _ = check_tree(root)
+    wrong = []
+    for name, (_, rule) in FAULTY.items():
+        found = [fault for fault in faults if fault.startswith(name + " ")]
+        if len(found) != (rule is not None) or (rule and rule not in found[0]):
+            wrong.append(f"layering.py itself: {name} should break '{rule}': {found}")
+    return wrong
+
+
+def main():
+    faults, count = check_tree(Path(sys.argv[1]).resolve())
+    faults += check_itself()
     print("\n".join(faults) if faults else f"{count} files keep to the table")
     return 1 if faults or count == 0 else 0
 

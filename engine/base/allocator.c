@@ -5,15 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Stands before each block, so that releasing one needs nothing but the block.
+/// Precedes each block, so that lobe_release needs nothing but the block.
 typedef struct block_header {
     alignas(max_align_t) const lobe_allocator *allocator; ///< NULL: the C library's
     size_t size;                                          ///< bytes, this header included
 } block_header;
 
-_Static_assert(alignof(max_align_t) <= 16, "hosts are asked for 16 bytes");
+_Static_assert(alignof(max_align_t) <= 16, "lobe_allocator promises 16 bytes");
 
-/// Bytes of a block with its header; 0 where that is more than there can be.
+/// Bytes of a block with its header; 0 if that is more than an object can have.
 static size_t block_size(size_t count, size_t size) {
     if (size > 0 && count > (PTRDIFF_MAX - sizeof(block_header)) / size)
         return 0;
@@ -24,9 +24,9 @@ static block_header *header_of(void *memory) {
     return (block_header *)memory - 1;
 }
 
-/// What follows the header is zeroed.
+/// The bytes after the header are zeroed.
 static block_header *take(const lobe_allocator *allocator, size_t size) {
-    if (!allocator) // the C library knows which pages are zero already
+    if (!allocator) // calloc knows which pages are zero already
         return calloc(1, size);
     block_header *header = allocator->allocate(allocator->user, size);
     return header ? memset(header, 0, size) : NULL;
@@ -41,7 +41,7 @@ void *lobe_allocate(const lobe_allocator *allocator, size_t count, size_t size) 
     return header + 1;
 }
 
-/// Hosts are not asked to resize: most allocators could only do the same.
+/// lobe_allocator has no function to resize: most hosts could only do the same.
 static void *move(block_header *header, size_t whole) {
     const lobe_allocator *allocator = header->allocator;
     block_header *moved = allocator->allocate(allocator->user, whole);

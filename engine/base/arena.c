@@ -61,7 +61,7 @@ static void free_chunks(engine_arena_chunk *chunk) {
 void engine_arena_reset(engine_arena *arena) {
     if (!arena->chunks)
         return;
-    // Chunks double: the newest is the largest.
+    // Chunks double in size: the newest is the largest.
     free_chunks(arena->chunks->next);
     arena->chunks->next = NULL;
     arena->chunks->used = 0;

@@ -32,7 +32,7 @@ static lobe_result fail_too_large(const file_reader *reader) {
 }
 
 static lobe_result open_regular_file(file_reader *reader) {
-    // A pipe or a terminal in the place of a file must not make us wait: hence O_NONBLOCK.
+    // O_NONBLOCK: opening a pipe or a terminal must not block.
     reader->file = open(reader->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (reader->file < 0) {
         const bool absent = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
@@ -46,12 +46,12 @@ static lobe_result open_regular_file(file_reader *reader) {
         return fail_reading(reader, LOBE_ERROR_READ, "not a regular file");
     if ((uintmax_t)status.st_size > LOBE_FILE_MAXIMUM_SIZE)
         return fail_too_large(reader);
-    // One more than the file seems to have, so that its end is met without growing.
+    // One byte more than the file's size, so that its end is found without growing.
     reader->capacity = (size_t)status.st_size + 1;
     return LOBE_OK;
 }
 
-/// Room for the capacity, and for the zero byte behind it.
+/// Room for `capacity` bytes and a zero byte after them.
 static lobe_result reserve(file_reader *reader) {
     uint8_t *larger =
         lobe_reallocate(lobe_host_allocator(reader->host), reader->data, reader->capacity + 1, 1);
@@ -137,8 +137,8 @@ static lobe_result write_directly(const char *path, const void *data, size_t siz
     return LOBE_OK;
 }
 
-/// Creates a file of a new name in the folder of `path`. The name does not contain that of
-/// `path`, which may already be as long as names may be.
+/// Creates a file with a new name in the folder of `path`. The name does not contain that of
+/// `path`, which may already have the maximum length.
 static int create_temporary(const char *path, char *name, size_t name_size) {
     const char *slash = strrchr(path, '/');
     int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
@@ -178,7 +178,7 @@ lobe_result lobe_file_write(const char *path, const void *data, size_t size,
         return write_and_rename(path, data, size, host);
     if (!S_ISREG(status.st_mode))
         return write_directly(path, data, size, host);
-    // Through a symbolic link the file it points to is replaced, not the link.
+    // If `path` is a symbolic link, replace its target and not the link.
     char target[PATH_MAX];
     if (realpath(path, target) == NULL)
         return fail_writing(path, host);

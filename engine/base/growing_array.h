@@ -7,7 +7,8 @@
 
 #include <lobe/allocator.h>
 
-/// Makes room for `needed` items of `size` bytes, doubling; keeps what is there.
+/// Makes room for `needed` items of `size` bytes by doubling the capacity; keeps the items. False
+/// if out of memory.
 static inline bool engine_array_reserve(const lobe_allocator *allocator, void **items,
                                         uint32_t *capacity, uint64_t needed, size_t size) {
     if (needed <= *capacity)

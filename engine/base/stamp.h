@@ -5,8 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/// A stamp is a 64-bit digest of everything some content was computed from: equal stamps mean
-/// equal content. It is compared within one process only, never stored.
+/// A 64-bit digest of everything that some content was computed from: equal stamps mean equal
+/// content. Compared within one process only, never stored.
 typedef uint64_t engine_stamp;
 
 #define ENGINE_STAMP_NONE ((engine_stamp)0)
@@ -17,7 +17,7 @@ static inline engine_stamp engine_stamp_mix(engine_stamp stamp, uint64_t value) 
     uint64_t z = (stamp ^ value) + 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    // Position matters: without the rotation, (a, b) and (b, a) would differ only by the seed.
+    // Order matters: without the rotation, (a, b) and (b, a) would differ only by the seed.
     z ^= (z >> 31) ^ (stamp << 17 | stamp >> 47);
     return z ? z : 1;
 }

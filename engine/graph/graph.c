@@ -1,55 +1,10 @@
-#include "engine/graph/graph.h"
+#include <lobe/graph.h>
+#include <lobe/vulkan.h>
 
-#include <stdarg.h>
-#include <stdio.h>
-
-#include "engine/base/host_clock.h"
-#include "engine/device/vulkan_check.h"
-#include "engine/graph/declare/binding.h"
-#include "engine/graph/declare/host.h"
-#include "engine/graph/declare/raster.h"
-#include "engine/graph/declare/signature.h"
-#include "engine/graph/record/flight.h"
+#include "engine/graph/declare/declare.h"
 #include "engine/graph/record/record.h"
 #include "engine/graph/report.h"
-#include "engine/graph/store/memory.h"
-#include "engine/graph/store/retain.h"
-#include "engine/graph/traffic.h"
-
-#define LINE_SIZE 1024
-
-// ---------------------------------------------------------------------------------------------
-// Failures
-
-lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
-    if (graph->result != LOBE_OK)
-        return graph->result;
-    char line[LINE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    graph->result = lobe_host_fail(&graph->device->host, result, "%s", line);
-    return result;
-}
-
-lobe_result engine_graph_propagate(lobe_graph *graph, lobe_result result) {
-    if (graph->result == LOBE_OK)
-        graph->result = result;
-    return graph->result;
-}
-
-lobe_result engine_graph_fail_memory(lobe_graph *graph) {
-    return lobe_graph_fail(graph, LOBE_ERROR_OUT_OF_MEMORY, "render graph: no host memory");
-}
-
-lobe_result engine_graph_fail_dependency(lobe_graph *graph) {
-    char line[LINE_SIZE];
-    if (graph->dependencies.fault.kind == ENGINE_FAULT_MEMORY)
-        return engine_graph_fail_memory(graph);
-    engine_dependency_explain(&graph->dependencies, line, sizeof line);
-    return lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "%s", line);
-}
+#include "engine/graph/store/store.h"
 
 // ---------------------------------------------------------------------------------------------
 // Life
@@ -60,10 +15,10 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     lobe_graph *created = lobe_allocate(allocator, 1, sizeof *created);
     if (!created)
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "render graph: no host memory");
+                              "render graph: out of memory");
     created->device = device;
-    created->arena.allocator = created->dependencies.scratch.allocator = allocator;
-    created->nothing = (lobe_pass){.graph = created, .name = "(none)"};
+    created->frame.arena.allocator = created->frame.dependencies.scratch.allocator = allocator;
+    created->frame.nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = engine_graph_create_flights(created);
     if (result != LOBE_OK)
         lobe_graph_destroy(&created);
@@ -71,36 +26,36 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     return result;
 }
 
-static void forget_frame(lobe_graph *graph) {
-    engine_graph_forget_imports(graph);
-    engine_dependency_graph_reset(&graph->dependencies);
-    engine_arena_reset(&graph->arena);
-    graph->report = (lobe_graph_report){0};
-    graph->result = LOBE_OK;
-    graph->phase = ENGINE_GRAPH_DECLARING;
+static void reset_frame(lobe_graph *graph) {
+    engine_graph_release_imports(graph);
+    engine_dependency_graph_reset(&graph->frame.dependencies);
+    engine_arena_reset(&graph->frame.arena);
+    graph->frame.report = (lobe_graph_report){0};
+    graph->frame.result = LOBE_OK;
+    graph->frame.phase = ENGINE_GRAPH_DECLARING;
 }
 
 void lobe_graph_destroy(lobe_graph **graph) {
     lobe_graph *gone = *graph;
     if (!gone)
         return;
-    // A device that is lost has finished, too.
+    // A failure is a lost device, which has finished too.
     (void)engine_graph_finish_flights(gone);
-    forget_frame(gone);
+    reset_frame(gone);
     engine_graph_free_retained(gone);
-    engine_graph_free_memory(gone);
+    engine_graph_free_transients(gone);
     engine_graph_free_flights(gone);
-    engine_dependency_graph_free(&gone->dependencies);
-    engine_arena_free(&gone->arena);
-    lobe_release(gone->resources);
-    lobe_release(gone->passes);
-    lobe_release(gone->pass_reports);
+    engine_dependency_graph_free(&gone->frame.dependencies);
+    engine_arena_free(&gone->frame.arena);
+    lobe_release(gone->frame.resources);
+    lobe_release(gone->frame.passes);
+    lobe_release(gone->frame.pass_reports);
     lobe_release(gone);
     *graph = NULL;
 }
 
 void lobe_graph_begin(lobe_graph *graph) {
-    forget_frame(graph);
+    reset_frame(graph);
     engine_graph_begin_retained(graph);
     engine_graph_propagate(graph, engine_graph_begin_flight(graph));
 }
@@ -109,53 +64,56 @@ void lobe_graph_begin(lobe_graph *graph) {
 // Compilation
 
 static lobe_result analyse(lobe_graph *graph) {
-    engine_dependency_graph *dependencies = &graph->dependencies;
+    engine_dependency_graph *dependencies = &graph->frame.dependencies;
     if (!engine_dependency_link(dependencies) || !engine_dependency_order(dependencies) ||
         !engine_dependency_cull(dependencies))
         return engine_graph_fail_dependency(graph);
-    engine_dependency_lifetimes(dependencies);
+    engine_dependency_find_lifetimes(dependencies);
     return LOBE_OK;
 }
 
 static lobe_result derive_barriers(lobe_graph *graph) {
-    return engine_dependency_barriers(&graph->dependencies) ? LOBE_OK
-                                                            : engine_graph_fail_dependency(graph);
+    return engine_dependency_derive_barriers(&graph->frame.dependencies)
+               ? LOBE_OK
+               : engine_graph_fail_dependency(graph);
 }
 
+/// From the declaration (declare/) to a frame that can be recorded (record/). Nothing is recorded
+/// here: lobe_graph_execute and lobe_graph_submit do that after compiling.
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
-    engine_graph_check_rasters,     // attachments fit each other
-    engine_graph_resolve_bindings,  // names meet shaders: how each resource is used
-    engine_graph_check_host_images, // they allow these uses
-    engine_graph_check_retained,    // kept objects fit these uses
-    engine_graph_sign_passes,       // what would make a pass compute something else
-    analyse,                        // sources, order, what runs, lifetimes
-    engine_graph_release_retained,  // what this frame does not know any more
-    engine_graph_find_pipelines,    // of what runs
-    engine_graph_place_retained,    // memory of their own
-    engine_graph_place_transients,  // memory shared between those not alive together
-    derive_barriers,                // transitions, and waits for former tenants of the memory
-    engine_graph_count_traffic,     // what each pass must read and write
-    engine_graph_report_compiled,
+    engine_graph_check_rasters,     // declare/raster.c      attachments fit each other
+    engine_graph_resolve_bindings,  // declare/binding.c     names meet shaders: uses of resources
+    engine_graph_check_host_images, // declare/host_image.c  host images allow these uses
+    engine_graph_check_retained,    // store/retained.c      retained objects allow these uses
+    engine_graph_sign_passes,       // declare/signature.c   digest of what each pass does
+    analyse,                        // plan/                 sources, order, what runs, lifetimes
+    engine_graph_release_retained,  // store/retained.c      frees what this frame did not declare
+    engine_graph_find_pipelines,    // declare/binding.c     of the passes that run
+    engine_graph_place_retained,    // store/retained.c      objects with memory of their own
+    engine_graph_place_transients,  // store/transients.c    objects that share memory
+    derive_barriers,                // plan/barrier.c        transitions, waits for shared memory
+    engine_graph_count_traffic,     // report.c              bytes that each pass reads and writes
+    engine_graph_report_compiled,   // report.c
 };
 
 lobe_result lobe_graph_compile(lobe_graph *graph) {
-    if (graph->phase != ENGINE_GRAPH_DECLARING || graph->result != LOBE_OK)
-        return graph->result;
+    if (graph->frame.phase != ENGINE_GRAPH_DECLARING || graph->frame.result != LOBE_OK)
+        return graph->frame.result;
     const double start = engine_host_milliseconds();
-    for (size_t n = 0; n < sizeof compile_steps / sizeof *compile_steps; n++) {
-        lobe_result result = compile_steps[n](graph);
+    for (size_t i = 0; i < sizeof compile_steps / sizeof *compile_steps; i++) {
+        lobe_result result = compile_steps[i](graph);
         if (result != LOBE_OK)
             return engine_graph_propagate(graph, result);
     }
-    graph->report.host_milliseconds = engine_host_milliseconds() - start;
-    graph->phase = ENGINE_GRAPH_COMPILED;
+    graph->frame.report.host_milliseconds = engine_host_milliseconds() - start;
+    graph->frame.phase = ENGINE_GRAPH_COMPILED;
     return LOBE_OK;
 }
 
 static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
-    if (graph->phase == ENGINE_GRAPH_SUBMITTED || graph->phase == ENGINE_GRAPH_EXECUTED)
+    if (graph->frame.phase == ENGINE_GRAPH_SUBMITTED || graph->frame.phase == ENGINE_GRAPH_EXECUTED)
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                               "render graph: executed twice; begin a new frame in between");
+                               "render graph: a frame cannot be executed twice; begin a new one");
     lobe_result result = lobe_graph_compile(graph);
     return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
 }
@@ -171,8 +129,8 @@ static lobe_result check_submission(lobe_graph *graph, const lobe_vulkan_submiss
     uint32_t waits = submission->wait_count, signals = submission->signal_count;
     if (submission->commands && (waits || signals))
         return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
-                               "render graph: semaphores are for whoever submits the host's "
-                               "command buffer");
+                               "render graph: a submission with the host's command buffer "
+                               "takes no semaphores");
     if (waits > LOBE_VULKAN_MAXIMUM_SEMAPHORES || signals > LOBE_VULKAN_MAXIMUM_SEMAPHORES)
         return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
                                "render graph: %u semaphores to wait for and %u to signal, more "
@@ -189,7 +147,7 @@ lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *s
 }
 
 lobe_result lobe_graph_wait(lobe_graph *graph) {
-    if (graph->phase != ENGINE_GRAPH_SUBMITTED)
-        return graph->result;
+    if (graph->frame.phase != ENGINE_GRAPH_SUBMITTED)
+        return graph->frame.result;
     return engine_graph_propagate(graph, engine_graph_finish(graph));
 }

@@ -12,7 +12,7 @@ typedef struct time_series {
     double *milliseconds;
     uint32_t capacity;
     uint32_t runs;
-    bool running; ///< in the frame that is being added
+    bool running; ///< in the frame being added
 } time_series;
 
 struct lobe_profile {
@@ -20,20 +20,20 @@ struct lobe_profile {
     time_series frame, recording;
     time_series *passes;
     uint32_t pass_count, pass_capacity;
-    lobe_profile_times *times; ///< of the passes, for the last summary
+    lobe_profile_times *times; ///< of the passes, in the last summary
     uint32_t time_capacity;
     double *scratch; ///< for sorting
     uint32_t scratch_capacity;
 };
 
 static lobe_result fail_memory(const lobe_profile *profile) {
-    return lobe_host_fail(&profile->host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+    return lobe_host_fail(&profile->host, LOBE_ERROR_OUT_OF_MEMORY, "profile: out of memory");
 }
 
 lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile) {
     *profile = lobe_allocate(lobe_host_allocator(host), 1, sizeof **profile);
     if (!*profile)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: no host memory");
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: out of memory");
     if (host)
         (*profile)->host = *host;
     (*profile)->frame.name = "frame";
@@ -45,9 +45,9 @@ void lobe_profile_destroy(lobe_profile **profile) {
     lobe_profile *gone = *profile;
     if (!gone)
         return;
-    for (uint32_t n = 0; n < gone->pass_count; n++) {
-        lobe_release(gone->passes[n].name);
-        lobe_release(gone->passes[n].milliseconds);
+    for (uint32_t i = 0; i < gone->pass_count; i++) {
+        lobe_release(gone->passes[i].name);
+        lobe_release(gone->passes[i].milliseconds);
     }
     lobe_release(gone->passes);
     lobe_release(gone->frame.milliseconds);
@@ -62,9 +62,9 @@ void lobe_profile_destroy(lobe_profile **profile) {
 // Gathering
 
 static time_series *find_pass(lobe_profile *profile, const char *name) {
-    for (uint32_t n = 0; n < profile->pass_count; n++)
-        if (strcmp(profile->passes[n].name, name) == 0)
-            return &profile->passes[n];
+    for (uint32_t i = 0; i < profile->pass_count; i++)
+        if (strcmp(profile->passes[i].name, name) == 0)
+            return &profile->passes[i];
     return NULL;
 }
 
@@ -87,15 +87,15 @@ static bool make_room_for_run(const lobe_profile *profile, time_series *series) 
                                 sizeof *series->milliseconds);
 }
 
-/// All that can fail comes first, so that a frame counts as a whole or not at all.
+/// Does everything that can fail, so that a frame is counted completely or not at all.
 static bool make_room(lobe_profile *profile, const lobe_graph_report *report) {
-    for (size_t n = 0; n < report->pass_count; n++)
-        if (report->passes[n].state == LOBE_PASS_RUN &&
-            !find_pass(profile, report->passes[n].name) &&
-            !add_pass(profile, report->passes[n].name))
+    for (size_t i = 0; i < report->pass_count; i++)
+        if (report->passes[i].state == LOBE_PASS_RUN &&
+            !find_pass(profile, report->passes[i].name) &&
+            !add_pass(profile, report->passes[i].name))
             return false;
-    for (uint32_t n = 0; n < profile->pass_count; n++)
-        if (!make_room_for_run(profile, &profile->passes[n]))
+    for (uint32_t i = 0; i < profile->pass_count; i++)
+        if (!make_room_for_run(profile, &profile->passes[i]))
             return false;
     return make_room_for_run(profile, &profile->frame) &&
            make_room_for_run(profile, &profile->recording);
@@ -111,14 +111,14 @@ static void add_time(time_series *series, double milliseconds) {
 lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report) {
     if (!make_room(profile, report))
         return fail_memory(profile);
-    for (size_t n = 0; n < report->pass_count; n++)
-        if (report->passes[n].state == LOBE_PASS_RUN)
-            add_time(find_pass(profile, report->passes[n].name), report->passes[n].milliseconds);
+    for (size_t i = 0; i < report->pass_count; i++)
+        if (report->passes[i].state == LOBE_PASS_RUN)
+            add_time(find_pass(profile, report->passes[i].name), report->passes[i].milliseconds);
     add_time(&profile->frame, report->milliseconds);
     add_time(&profile->recording, report->host_milliseconds);
     profile->frame.running = profile->recording.running = false;
-    for (uint32_t n = 0; n < profile->pass_count; n++)
-        profile->passes[n].running = false;
+    for (uint32_t i = 0; i < profile->pass_count; i++)
+        profile->passes[i].running = false;
     return LOBE_OK;
 }
 
@@ -132,8 +132,8 @@ static int compare_times(const void *a, const void *b) {
 
 static double sum_of(const time_series *series) {
     double sum = 0.0;
-    for (uint32_t n = 0; n < series->runs; n++)
-        sum += series->milliseconds[n];
+    for (uint32_t i = 0; i < series->runs; i++)
+        sum += series->milliseconds[i];
     return sum;
 }
 
@@ -173,9 +173,9 @@ lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary 
         return result;
     double whole = sum_of(&profile->frame);
     summary->passes = profile->times;
-    for (uint32_t n = 0; n < profile->pass_count; n++)
-        if (profile->passes[n].runs > 0)
-            profile->times[summary->pass_count++] = times_of(profile, &profile->passes[n], whole);
+    for (uint32_t i = 0; i < profile->pass_count; i++)
+        if (profile->passes[i].runs > 0)
+            profile->times[summary->pass_count++] = times_of(profile, &profile->passes[i], whole);
     summary->frame = times_of(profile, &profile->frame, whole);
     summary->host = times_of(profile, &profile->recording, 0.0);
     return LOBE_OK;

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-/// Numbers of 16 bits as in IEEE 754 (binary16): 5 bits of exponent, 10 of fraction.
+/// 16-bit floats (IEEE 754 binary16): 5 bits of exponent, 10 bits of fraction.
 
 /// Largest finite value.
 #define ENGINE_HALF_MAXIMUM 65504.0f

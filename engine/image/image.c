@@ -45,16 +45,16 @@ lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t 
     *image = (lobe_image){0};
     size_t size = lobe_format_size(format);
     if (size == 0)
-        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "image: no texel format was given");
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "image: no texel format is given");
     if (width == 0 || height == 0 || width > LOBE_IMAGE_MAXIMUM_EXTENT ||
         height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "image: %ux%u texels is outside 1x1 to %ux%u",
-                              width, height, LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "image: %ux%u texels is not within 1x1 to %ux%u", width, height,
+                              LOBE_IMAGE_MAXIMUM_EXTENT, LOBE_IMAGE_MAXIMUM_EXTENT);
     void *texels = lobe_allocate(lobe_host_allocator(host), (size_t)width * height, size);
     if (texels == NULL)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "image: no memory for %ux%u texels of %s", width, height,
+                              "image: out of memory for %ux%u texels of %s", width, height,
                               lobe_format_name(format));
     *image = (lobe_image){format, width, height, texels};
     return LOBE_OK;

@@ -12,16 +12,16 @@
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-/// libpng leaves its functions by longjmp, so all that outlives such a jump is kept here and not
+/// libpng reports errors by longjmp, so everything that is needed after such a jump is here and not
 /// in local variables.
 typedef struct png_writer {
     png_structp png;
     png_infop information;
     engine_bytes output;
-    char message[128]; ///< why libpng gave up
+    char message[128]; ///< why libpng failed
 } png_writer;
 
-static void remember_error(png_structp png, png_const_charp message) {
+static void store_error(png_structp png, png_const_charp message) {
     png_writer *writer = png_get_error_ptr(png);
     snprintf(writer->message, sizeof writer->message, "%s", message);
     png_longjmp(png, 1);
@@ -63,7 +63,7 @@ static void release(png_structp png, png_voidp memory) {
 
 static bool create(png_writer *writer) {
     snprintf(writer->message, sizeof writer->message, "out of memory");
-    writer->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, writer, remember_error,
+    writer->png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, writer, store_error,
                                             ignore_warning, (png_voidp)writer->output.allocator,
                                             allocate, release); // only read
     if (writer->png != NULL)
@@ -128,8 +128,8 @@ lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lob
 // ---------------------------------------------------------------------------------------------
 // Reading
 
-/// Deflate packs at most 1032 bytes into one, and a texel takes at least a bit: a header that
-/// promises more than the file can hold is refused before memory is taken for it.
+/// Deflate compresses by at most 1032 to 1, and a texel needs at least one bit: a header that
+/// promises more than the file can contain is rejected before memory is allocated for it.
 static bool fits_file(const image_codec_extent *extent, size_t size) {
     return (uint64_t)extent->width * extent->height / 8 / 1032 <= size;
 }
@@ -141,7 +141,8 @@ static void *resize(void *allocator, void *memory, size_t size) {
 static lobe_result fail_reading(const library_memory *memory, const char *path, const char *message,
                                 const lobe_host *host) {
     if (memory->failed)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it", path);
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory decoding it",
+                              path);
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %s", path, message);
 }
 
@@ -157,12 +158,12 @@ static lobe_result decode(const char *path, const uint8_t *data, size_t size, co
     if (!third_party_png_measure(data, size, &memory, &extent, message) || memory.failed)
         return fail_reading(&memory, path, message, host);
     if (extent.width > LOBE_IMAGE_MAXIMUM_EXTENT || extent.height > LOBE_IMAGE_MAXIMUM_EXTENT)
-        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: %ux%u texels is more than %ux%u", path,
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: %ux%u texels is above %ux%u", path,
                               extent.width, extent.height, LOBE_IMAGE_MAXIMUM_EXTENT,
                               LOBE_IMAGE_MAXIMUM_EXTENT);
     if (!fits_file(&extent, size))
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
-                              "%s: broken PNG: %ux%u texels cannot be in %zu bytes", path,
+                              "%s: damaged PNG file: %ux%u texels cannot be in %zu bytes", path,
                               extent.width, extent.height, size);
     lobe_result result = lobe_image_allocate(
         image, extent.sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_SRGB,

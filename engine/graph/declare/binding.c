@@ -1,8 +1,7 @@
-#include "engine/graph/declare/binding.h"
+#include "engine/graph/declare/declare.h"
 
 #include <string.h>
 
-#include "engine/graph/declare/raster.h"
 #include "engine/shader/shader.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -37,8 +36,9 @@ static bool is_storage(const engine_shader_binding *variable) {
 
 static bool check_direction(const binding_site *site) {
     if (site->binding->kind == ENGINE_ACCESS_READ && site->variable->writes)
-        return mismatch(site, "the shader may write it: declare it readonly there, or bind it for "
-                              "writing");
+        return mismatch(site,
+                        "the shader may write to it: declare it readonly in the shader, or bind "
+                        "it for writing");
     if (site->binding->kind != ENGINE_ACCESS_READ && !site->variable->writes)
         return mismatch(site, "the shader only reads it");
     return true;
@@ -47,12 +47,12 @@ static bool check_direction(const binding_site *site) {
 static bool check_block(const binding_site *site) {
     const VkPhysicalDeviceLimits *limits = &site->pass->graph->device->limits;
     if (site->resource->is_image)
-        return mismatch(site, "the shader has a block of data there, not an image");
+        return mismatch(site, "the shader expects a block of data, not an image");
     if (site->resource->size < site->variable->size)
         return mismatch(site, "the buffer is smaller than the shader's block");
     if (site->variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER &&
         site->variable->size > limits->maxUniformBufferRange)
-        return mismatch(site, "the block is larger than the device's uniform blocks may be");
+        return mismatch(site, "the block is larger than the device's limit for uniform blocks");
     return true;
 }
 
@@ -61,15 +61,15 @@ static bool check_view(const binding_site *site) {
     bool square = site->resource->width == site->resource->height;
     switch (site->variable->view) {
     case VK_IMAGE_VIEW_TYPE_2D:
-        return layers == 1 || mismatch(site, "several layers, but the shader has no array there");
+        return layers == 1 || mismatch(site, "several layers, but the shader expects no array");
     case VK_IMAGE_VIEW_TYPE_2D_ARRAY:
         return true;
     case VK_IMAGE_VIEW_TYPE_CUBE:
-        return (square && layers == 6) || mismatch(site, "a cube has six square layers");
+        return (square && layers == 6) || mismatch(site, "a cube needs six square layers");
     case VK_IMAGE_VIEW_TYPE_CUBE_ARRAY:
-        return (square && layers % 6 == 0) || mismatch(site, "cubes have six square layers each");
+        return (square && layers % 6 == 0) || mismatch(site, "each cube needs six square layers");
     default:
-        return mismatch(site, "the shader has an image there that is not two-dimensional");
+        return mismatch(site, "the shader expects an image that is not two-dimensional");
     }
 }
 
@@ -81,14 +81,14 @@ static bool check_sampler(const binding_site *site) {
                 site->resource->format == LOBE_FORMAT_RG32_FLOAT ||
                 site->resource->format == LOBE_FORMAT_RGBA32_FLOAT;
     if (linear && wide && !device->information.linear_filter_float32)
-        return mismatch(site, "the device cannot filter 32-bit floats");
+        return mismatch(site, "the device cannot filter 32-bit float images");
     return true;
 }
 
 static bool check_image(const binding_site *site) {
     const engine_shader_binding *variable = site->variable;
     if (!site->resource->is_image)
-        return mismatch(site, "the shader has an image there, not a buffer");
+        return mismatch(site, "the shader expects an image, not a buffer");
     if (variable->multisampled != (site->resource->samples > 1))
         return mismatch(site, "one is multisampled, the other is not");
     if (!check_view(site))
@@ -96,11 +96,11 @@ static bool check_image(const binding_site *site) {
     if (variable->type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
         return check_sampler(site);
     if (site->resource->origin == ENGINE_GRAPH_TEXTURE)
-        return mismatch(site, "textures can only be sampled, not read as storage images");
+        return mismatch(site, "textures can only be sampled, not used as storage images");
     if (site->access->range.level_count != 1)
-        return mismatch(site, "a storage image is a single level");
+        return mismatch(site, "a storage image must be a single level");
     if (variable->format != LOBE_FORMAT_NONE && variable->format != site->resource->format)
-        return mismatch(site, "the shader states another format");
+        return mismatch(site, "the shader declares another format");
     return true;
 }
 
@@ -112,7 +112,7 @@ static bool check_fit(const binding_site *site) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// How it is used
+// How the resource is used
 
 static uint64_t stage_of(const engine_shader *shader) {
     switch (shader->stage) {
@@ -158,7 +158,7 @@ static void record_use(const binding_site *site) {
     engine_layout layout = layout_of(site->variable);
     state->stages |= stage_of(site->shader);
     state->access |= access_of(site->variable, site->binding->kind);
-    // Read as sampled image here and as storage image there: one layout must serve both.
+    // Both a sampled and a storage image in one pass: one layout must allow both.
     state->layout = state->layout == ENGINE_LAYOUT_UNDEFINED || state->layout == layout
                         ? layout
                         : ENGINE_LAYOUT_GENERAL;
@@ -179,8 +179,9 @@ static engine_graph_binding *find(const engine_graph_binding_list *list, const c
     return NULL;
 }
 
-engine_graph_binding *engine_graph_bound(const lobe_pass *pass, const engine_graph_command *command,
-                                         const char *name) {
+engine_graph_binding *engine_graph_find_binding(const lobe_pass *pass,
+                                                const engine_graph_command *command,
+                                                const char *name) {
     engine_graph_binding *own = find(&command->bindings, name);
     return own ? own : find(&pass->bindings, name);
 }
@@ -188,7 +189,7 @@ engine_graph_binding *engine_graph_bound(const lobe_pass *pass, const engine_gra
 static bool resolve_variable(lobe_pass *pass, engine_graph_command *command,
                              const engine_shader *shader, const engine_shader_binding *variable) {
     lobe_graph *graph = pass->graph;
-    engine_graph_binding *binding = engine_graph_bound(pass, command, variable->name);
+    engine_graph_binding *binding = engine_graph_find_binding(pass, command, variable->name);
     if (!binding && !variable->used)
         return true;
     if (!binding) {
@@ -196,13 +197,13 @@ static bool resolve_variable(lobe_pass *pass, engine_graph_command *command,
                         pass->name, shader->name, variable->name);
         return false;
     }
-    engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
+    engine_dependency_access *access = &graph->frame.dependencies.accesses[binding->access];
     binding_site site = {.pass = pass,
                          .shader = shader,
                          .variable = variable,
                          .binding = binding,
                          .access = access,
-                         .resource = &graph->resources[access->resource]};
+                         .resource = &graph->frame.resources[access->resource]};
     if (!check_fit(&site))
         return false;
     record_use(&site);
@@ -220,8 +221,8 @@ static bool resolve_shader(lobe_pass *pass, engine_graph_command *command, const
     if (shader->push_constant_size > *push_constant_size)
         *push_constant_size = shader->push_constant_size;
     command->shader_stamp = engine_stamp_mix(command->shader_stamp, shader->version);
-    for (size_t n = 0; n < shader->binding_count; n++)
-        if (!resolve_variable(pass, command, shader, &shader->bindings[n]))
+    for (size_t i = 0; i < shader->binding_count; i++)
+        if (!resolve_variable(pass, command, shader, &shader->bindings[i]))
             return false;
     return true;
 }
@@ -229,7 +230,7 @@ static bool resolve_shader(lobe_pass *pass, engine_graph_command *command, const
 static bool check_constants(lobe_pass *pass, const char *shader, size_t given, uint32_t wanted) {
     if (given != wanted)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                        "pass '%s', shader '%s': %zu bytes of constants, the shader has %u",
+                        "pass '%s', shader '%s': %zu bytes of constants, the shader expects %u",
                         pass->name, shader, given, wanted);
     return given == wanted;
 }
@@ -243,7 +244,8 @@ static bool check_names(lobe_pass *pass, const engine_graph_binding_list *list,
                 "pass '%s' binds resource '%s' to '%s', which shader '%s' does not "
                 "have",
                 pass->name,
-                pass->graph->resources[pass->graph->dependencies.accesses[binding->access].resource]
+                pass->graph->frame
+                    .resources[pass->graph->frame.dependencies.accesses[binding->access].resource]
                     .name,
                 binding->name, shader);
             return false;
@@ -296,9 +298,9 @@ static bool resolve_pass(lobe_pass *pass) {
 }
 
 lobe_result engine_graph_resolve_bindings(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++)
-        if (!resolve_pass(graph->passes[n]))
-            return graph->result;
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
+        if (!resolve_pass(graph->frame.passes[i]))
+            return graph->frame.result;
     return LOBE_OK;
 }
 
@@ -307,15 +309,15 @@ lobe_result engine_graph_resolve_bindings(lobe_graph *graph) {
 
 static lobe_result count_groups(lobe_pass *pass, engine_graph_command *command) {
     const VkPhysicalDeviceLimits *limits = &pass->graph->device->limits;
-    for (uint32_t n = 0; n < 3; n++) {
-        uint32_t threads = command->dispatch.threads[n] ? command->dispatch.threads[n] : 1;
-        uint32_t local = command->pipeline->local_size[n];
-        command->group_count[n] = threads / local + (threads % local != 0);
-        if (command->group_count[n] > limits->maxComputeWorkGroupCount[n])
+    for (uint32_t i = 0; i < 3; i++) {
+        uint32_t threads = command->dispatch.threads[i] ? command->dispatch.threads[i] : 1;
+        uint32_t local = command->pipeline->local_size[i];
+        command->group_count[i] = threads / local + (threads % local != 0);
+        if (command->group_count[i] > limits->maxComputeWorkGroupCount[i])
             return lobe_graph_fail(pass->graph, LOBE_ERROR_LIMIT,
-                                   "pass '%s', shader '%s': %u groups, the device allows %u",
-                                   pass->name, command->dispatch.shader, command->group_count[n],
-                                   limits->maxComputeWorkGroupCount[n]);
+                                   "pass '%s', shader '%s': %u groups, the device's limit is %u",
+                                   pass->name, command->dispatch.shader, command->group_count[i],
+                                   limits->maxComputeWorkGroupCount[i]);
     }
     return LOBE_OK;
 }
@@ -337,8 +339,8 @@ static lobe_result find_pipeline(lobe_pass *pass, engine_graph_command *command)
 }
 
 lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.running_count; n++) {
-        lobe_pass *pass = graph->passes[graph->dependencies.running[n]];
+    for (uint32_t i = 0; i < graph->frame.dependencies.running_count; i++) {
+        lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[i]];
         for (engine_graph_command *command = pass->first_command; command;
              command = command->next) {
             lobe_result result = find_pipeline(pass, command);

@@ -1,35 +1,72 @@
 #ifndef ENGINE_GRAPH_DECLARE_H
 #define ENGINE_GRAPH_DECLARE_H
 
-#include "engine/graph/graph.h"
+#include "engine/graph/state.h"
+
+// ---------------------------------------------------------------------------------------------
+// Declaration
 
 /// Whether the frame still takes declarations: nothing failed, nothing was compiled. Fails the
-/// frame where `what` (a pass or resource) comes too late.
-bool engine_graph_may_declare(lobe_graph *graph, const char *what);
+/// frame if `what` (the name of a pass or resource) comes too late.
+bool engine_graph_can_declare(lobe_graph *graph, const char *what);
 
-/// Adds the resource under the same index to both tables; all zero after a failure.
+/// Adds the resource to the frame and to the dependency graph, under the same index. Returns a
+/// zero handle after a failure.
 lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
                                         const engine_dependency_resource *dependency);
 
-/// Adds a pass that the caller did not ask for; NULL after a failure.
+/// Adds a pass to the frame and to the dependency graph; NULL after a failure.
 lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
 
-/// Declares an access of the pass and its state; the index, or NONE after a failure. `resource`
-/// is replaced by its newest version.
-uint32_t engine_graph_access(lobe_pass *pass, lobe_resource *resource, lobe_range range,
-                             engine_access_kind kind, engine_access_state state);
+/// Adds an access of the pass with its state; the index, or NONE after a failure. A write replaces
+/// `resource` by its new version.
+uint32_t engine_graph_add_access(lobe_pass *pass, lobe_resource *resource, lobe_range range,
+                                 engine_access_kind kind, engine_access_state state);
 
-/// The resource a handle stands for; fails the frame and gives NULL where there is none.
+/// The resource of a handle; if there is none, fails the frame and returns NULL.
 engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource handle);
 
-/// Whether the pass may take a call that is for passes of this kind.
-bool engine_graph_pass_is(lobe_pass *pass, lobe_pass_kind kind, const char *call);
+/// Bytes of these levels and layers of an image, tightly packed, all samples; or of a whole buffer.
+uint64_t engine_graph_range_bytes(const engine_graph_resource *resource, const lobe_range *range);
 
-/// A command at the end of the pass; NULL after a failure.
+/// Whether the pass is still being declared and of this kind; if not, fails the frame.
+bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call);
+
+/// Appends a command to the pass; NULL after a failure.
 engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind);
 
-/// Copies a binding and declares its access. Returns the resource's newest version.
-lobe_resource engine_graph_bind(lobe_pass *pass, engine_graph_binding_list *list,
-                                const lobe_binding *binding, engine_access_kind kind);
+/// Copies a binding and adds its access. Returns the resource's newest version.
+lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_list *list,
+                                       const lobe_binding *binding, engine_access_kind kind);
+
+// ---------------------------------------------------------------------------------------------
+// Compilation
+
+/// Checks that the attachments of each raster pass have one extent and one sample count (raster.c).
+lobe_result engine_graph_check_rasters(lobe_graph *graph);
+
+/// Matches the bindings of each pass with its shaders' variables by name, checks that they fit, and
+/// derives how each resource is used (binding.c).
+lobe_result engine_graph_resolve_bindings(lobe_graph *graph);
+
+/// Checks that host images were created for what passes do with them (host_image.c).
+lobe_result engine_graph_check_host_images(lobe_graph *graph);
+
+/// Gives each pass a digest of everything it does, except the content it reads and the resources it
+/// names, which the dependency graph adds (signature.c).
+lobe_result engine_graph_sign_passes(lobe_graph *graph);
+
+/// Gets the pipelines of the passes that run (binding.c).
+lobe_result engine_graph_find_pipelines(lobe_graph *graph);
+
+/// What a command binds to a name: its own binding before the pass's; NULL if neither has one
+/// (binding.c).
+engine_graph_binding *engine_graph_find_binding(const lobe_pass *pass,
+                                                const engine_graph_command *command,
+                                                const char *name);
+
+/// Parameters of a draw's pipeline (raster.c).
+engine_raster_parameters engine_graph_raster_parameters(const lobe_pass *pass,
+                                                        const lobe_draw *draw);
 
 #endif

@@ -14,43 +14,44 @@ static const char *const kind_names[] = {
 // Passes
 
 lobe_pass *engine_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name) {
-    lobe_pass *pass = engine_arena_allocate(&graph->arena, sizeof *pass);
-    const char *kept = engine_arena_copy_text(&graph->arena, name);
-    uint32_t index = graph->dependencies.pass_count;
+    lobe_pass *pass = engine_arena_allocate(&graph->frame.arena, sizeof *pass);
+    const char *kept = engine_arena_copy_text(&graph->frame.arena, name);
+    uint32_t index = graph->frame.dependencies.pass_count;
     if (!pass || !kept ||
-        !engine_array_reserve(graph->device->host.allocator, (void **)&graph->passes,
-                              &graph->pass_capacity, (uint64_t)index + 1, sizeof *graph->passes) ||
-        engine_dependency_add_pass(&graph->dependencies, kept) == ENGINE_DEPENDENCY_NONE) {
+        !engine_array_reserve(graph->device->host.allocator, (void **)&graph->frame.passes,
+                              &graph->frame.pass_capacity, (uint64_t)index + 1,
+                              sizeof *graph->frame.passes) ||
+        engine_dependency_add_pass(&graph->frame.dependencies, kept) == ENGINE_DEPENDENCY_NONE) {
         engine_graph_fail_memory(graph);
         return NULL;
     }
     *pass = (lobe_pass){.graph = graph, .index = index, .kind = kind, .name = kept};
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        pass->colour[n].access = pass->resolve[n].access = ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        pass->colour[i].access = pass->resolve[i].access = ENGINE_DEPENDENCY_NONE;
     pass->depth.access = ENGINE_DEPENDENCY_NONE;
-    graph->passes[index] = pass;
+    graph->frame.passes[index] = pass;
     return pass;
 }
 
 lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name) {
     const char *given = name ? name : "pass";
     lobe_pass *pass = NULL;
-    if (engine_graph_may_declare(graph, given))
+    if (engine_graph_can_declare(graph, given))
         pass = engine_graph_add_pass(graph, kind, given);
-    return pass ? pass : &graph->nothing;
+    return pass ? pass : &graph->frame.nothing;
 }
 
 void lobe_pass_keep(lobe_pass *pass) {
-    if (engine_graph_may_declare(pass->graph, pass->name))
-        pass->graph->dependencies.passes[pass->index].keep = true;
+    if (engine_graph_can_declare(pass->graph, pass->name))
+        pass->graph->frame.dependencies.passes[pass->index].keep = true;
 }
 
-bool engine_graph_pass_is(lobe_pass *pass, lobe_pass_kind kind, const char *call) {
-    if (!engine_graph_may_declare(pass->graph, pass->name))
+bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call) {
+    if (!engine_graph_can_declare(pass->graph, pass->name))
         return false;
     if (pass->kind != kind)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                        "pass '%s': %s is for %s passes, this is a %s pass", pass->name, call,
+                        "pass '%s': %s needs a %s pass, this is a %s pass", pass->name, call,
                         kind_names[kind], kind_names[pass->kind]);
     return pass->kind == kind;
 }
@@ -60,24 +61,24 @@ bool engine_graph_pass_is(lobe_pass *pass, lobe_pass_kind kind, const char *call
 
 engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource handle) {
     lobe_graph *graph = pass->graph;
-    if (handle.version != 0 && handle.index < graph->dependencies.resource_count)
-        return &graph->resources[handle.index];
+    if (handle.version != 0 && handle.index < graph->frame.dependencies.resource_count)
+        return &graph->frame.resources[handle.index];
     lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                    "pass '%s' uses a resource handle that this frame never gave out", pass->name);
+                    "pass '%s' uses a resource handle that is not of this frame", pass->name);
     return NULL;
 }
 
-uint32_t engine_graph_access(lobe_pass *pass, lobe_resource *resource, lobe_range range,
-                             engine_access_kind kind, engine_access_state state) {
+uint32_t engine_graph_add_access(lobe_pass *pass, lobe_resource *resource, lobe_range range,
+                                 engine_access_kind kind, engine_access_state state) {
     lobe_graph *graph = pass->graph;
     uint32_t version = 0;
-    uint32_t access = engine_dependency_add_access(&graph->dependencies, pass->index, *resource,
-                                                   range, kind, &version);
+    uint32_t access = engine_dependency_add_access(&graph->frame.dependencies, pass->index,
+                                                   *resource, range, kind, &version);
     if (access == ENGINE_DEPENDENCY_NONE) {
         engine_graph_fail_dependency(graph);
         return access;
     }
-    graph->dependencies.accesses[access].state = state;
+    graph->frame.dependencies.accesses[access].state = state;
     if (kind != ENGINE_ACCESS_READ)
         resource->version = version;
     return access;
@@ -93,12 +94,12 @@ static bool is_bound(const engine_graph_binding_list *list, const char *name) {
 static bool check_binding_name(lobe_pass *pass, const engine_graph_binding_list *list,
                                const char *name) {
     if (!name)
-        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding without a name",
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': a binding has no name",
                         pass->name);
     else if (is_bound(list, name))
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s' binds '%s' twice", pass->name,
                         name);
-    return pass->graph->result == LOBE_OK;
+    return pass->graph->frame.result == LOBE_OK;
 }
 
 static void append_binding(engine_graph_binding_list *list, engine_graph_binding *binding) {
@@ -109,19 +110,21 @@ static void append_binding(engine_graph_binding_list *list, engine_graph_binding
     list->last = binding;
 }
 
-lobe_resource engine_graph_bind(lobe_pass *pass, engine_graph_binding_list *list,
-                                const lobe_binding *binding, engine_access_kind kind) {
+lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_list *list,
+                                       const lobe_binding *binding, engine_access_kind kind) {
     lobe_graph *graph = pass->graph;
     lobe_resource resource = binding->resource;
     if (!check_binding_name(pass, list, binding->name))
         return resource;
     if (!engine_graph_find_resource(pass, resource))
         return resource;
-    lobe_range range = graph->resources[resource.index].is_image ? binding->range : (lobe_range){0};
-    // How it is used is known when the shaders are.
-    uint32_t access = engine_graph_access(pass, &resource, range, kind, (engine_access_state){0});
-    engine_graph_binding *added = engine_arena_allocate(&graph->arena, sizeof *added);
-    const char *name = engine_arena_copy_text(&graph->arena, binding->name);
+    lobe_range range =
+        graph->frame.resources[resource.index].is_image ? binding->range : (lobe_range){0};
+    // The shaders decide how it is used: see engine_graph_resolve_bindings.
+    uint32_t access =
+        engine_graph_add_access(pass, &resource, range, kind, (engine_access_state){0});
+    engine_graph_binding *added = engine_arena_allocate(&graph->frame.arena, sizeof *added);
+    const char *name = engine_arena_copy_text(&graph->frame.arena, binding->name);
     if (!added || !name) {
         engine_graph_fail_memory(graph);
         return resource;
@@ -134,7 +137,7 @@ lobe_resource engine_graph_bind(lobe_pass *pass, engine_graph_binding_list *list
 
 static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
                                   engine_access_kind kind) {
-    if (!engine_graph_may_declare(pass->graph, pass->name))
+    if (!engine_graph_can_declare(pass->graph, pass->name))
         return binding->resource;
     if (pass->kind == LOBE_PASS_TRANSFER) {
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
@@ -142,7 +145,7 @@ static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
                         binding->name ? binding->name : "");
         return binding->resource;
     }
-    return engine_graph_bind(pass, &pass->bindings, binding, kind);
+    return engine_graph_add_binding(pass, &pass->bindings, binding, kind);
 }
 
 void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding) {
@@ -161,7 +164,8 @@ lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding) {
 // Commands
 
 engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind) {
-    engine_graph_command *command = engine_arena_allocate(&pass->graph->arena, sizeof *command);
+    engine_graph_command *command =
+        engine_arena_allocate(&pass->graph->frame.arena, sizeof *command);
     if (!command) {
         engine_graph_fail_memory(pass->graph);
         return NULL;
@@ -186,13 +190,13 @@ static bool check_constants(lobe_pass *pass, const char *shader, const void *con
                         "pass '%s', shader '%s': %zu bytes of constants, not in [0, %d]",
                         pass->name, shader, size, ENGINE_MAXIMUM_PUSH_CONSTANTS);
     }
-    return pass->graph->result == LOBE_OK;
+    return pass->graph->frame.result == LOBE_OK;
 }
 
 static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
                             const lobe_binding *bindings, size_t count) {
-    for (size_t n = 0; n < count; n++)
-        engine_graph_bind(pass, &command->bindings, &bindings[n], ENGINE_ACCESS_READ);
+    for (size_t i = 0; i < count; i++)
+        engine_graph_add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
 }
 
 static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lobe_dispatch *copy) {
@@ -207,13 +211,13 @@ static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lo
 }
 
 void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
-    if (!engine_graph_pass_is(pass, LOBE_PASS_COMPUTE, "a dispatch") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_COMPUTE, "a dispatch") ||
         !check_constants(pass, dispatch->shader, dispatch->constants, dispatch->constants_size))
         return;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DISPATCH);
     if (!command)
         return;
-    if (!copy_dispatch(&pass->graph->arena, dispatch, &command->dispatch))
+    if (!copy_dispatch(&pass->graph->frame.arena, dispatch, &command->dispatch))
         engine_graph_fail_memory(pass->graph);
     else
         bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
@@ -250,20 +254,20 @@ static void bind_indices(lobe_pass *pass, engine_graph_command *command) {
         return;
     }
     command->index_access =
-        engine_graph_access(pass, &draw->indices, (lobe_range){0}, ENGINE_ACCESS_READ,
-                            (engine_access_state){.stages = VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
-                                                  .access = VK_ACCESS_2_INDEX_READ_BIT});
-    graph->resources[draw->indices.index].usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+        engine_graph_add_access(pass, &draw->indices, (lobe_range){0}, ENGINE_ACCESS_READ,
+                                (engine_access_state){.stages = VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT,
+                                                      .access = VK_ACCESS_2_INDEX_READ_BIT});
+    graph->frame.resources[draw->indices.index].usage |= VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 }
 
 void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw) {
-    if (!engine_graph_pass_is(pass, LOBE_PASS_RASTER, "a draw") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a draw") ||
         !check_constants(pass, draw->vertex_shader, draw->constants, draw->constants_size))
         return;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DRAW);
     if (!command)
         return;
-    if (!copy_draw(&pass->graph->arena, draw, &command->draw)) {
+    if (!copy_draw(&pass->graph->frame.arena, draw, &command->draw)) {
         engine_graph_fail_memory(pass->graph);
         return;
     }

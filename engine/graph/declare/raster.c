@@ -1,8 +1,6 @@
-#include "engine/graph/declare/raster.h"
+#include "engine/graph/declare/declare.h"
 
 #include <string.h>
-
-#include "engine/graph/declare/declare.h"
 
 static const engine_access_state colour_state = {
     .stages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -57,7 +55,7 @@ static lobe_resource attach(lobe_pass *pass, engine_graph_attachment *slot,
     engine_access_kind kind =
         attachment->load == LOBE_LOAD_KEEP ? ENGINE_ACCESS_MODIFY : ENGINE_ACCESS_WRITE;
     slot->access =
-        engine_graph_access(pass, &resource, range, kind, depth ? depth_state : colour_state);
+        engine_graph_add_access(pass, &resource, range, kind, depth ? depth_state : colour_state);
     slot->load = attachment->load;
     memcpy(slot->clear, attachment->clear, sizeof slot->clear);
     target->usage |=
@@ -67,7 +65,7 @@ static lobe_resource attach(lobe_pass *pass, engine_graph_attachment *slot,
 
 lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
                                const lobe_attachment *attachment) {
-    if (!engine_graph_pass_is(pass, LOBE_PASS_RASTER, "a colour attachment") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a colour attachment") ||
         !check_location(pass, location) ||
         !check_slot(pass, &pass->colour[location], "one colour location"))
         return attachment->resource;
@@ -75,7 +73,7 @@ lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
 }
 
 lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target) {
-    if (!engine_graph_pass_is(pass, LOBE_PASS_RASTER, "a resolve") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a resolve") ||
         !check_location(pass, location) ||
         !check_slot(pass, &pass->resolve[location], "one resolve location"))
         return target;
@@ -84,7 +82,7 @@ lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resourc
 }
 
 lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment) {
-    if (!engine_graph_pass_is(pass, LOBE_PASS_RASTER, "a depth attachment") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a depth attachment") ||
         !check_slot(pass, &pass->depth, "depth"))
         return attachment->resource;
     return attach(pass, &pass->depth, attachment, true);
@@ -95,17 +93,17 @@ lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment
 
 static const engine_graph_resource *attached(const lobe_graph *graph,
                                              const engine_graph_attachment *attachment) {
-    return &graph->resources[graph->dependencies.accesses[attachment->access].resource];
+    return &graph->frame.resources[graph->frame.dependencies.accesses[attachment->access].resource];
 }
 
 static VkExtent2D extent_of(const lobe_graph *graph, const engine_graph_attachment *attachment) {
     const engine_graph_resource *image = attached(graph, attachment);
-    uint32_t level = graph->dependencies.accesses[attachment->access].range.first_level;
-    uint32_t width = image->width >> level, height = image->height >> level;
-    return (VkExtent2D){width ? width : 1, height ? height : 1};
+    uint32_t level = graph->frame.dependencies.accesses[attachment->access].range.first_level;
+    return (VkExtent2D){engine_graph_level_extent(image->width, level),
+                        engine_graph_level_extent(image->height, level)};
 }
 
-/// The first attachment sets the pass's extent and sample count, the others must agree.
+/// The first attachment sets the pass's extent and sample count; the others must have the same.
 static bool check_attachment(lobe_pass *pass, const engine_graph_attachment *attachment) {
     lobe_graph *graph = pass->graph;
     if (attachment->access == ENGINE_DEPENDENCY_NONE)
@@ -125,7 +123,7 @@ static bool check_attachment(lobe_pass *pass, const engine_graph_attachment *att
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                         "pass '%s': attachment '%s' has %u samples, another has %u", pass->name,
                         image->name, image->samples, pass->samples);
-    return graph->result == LOBE_OK;
+    return graph->frame.result == LOBE_OK;
 }
 
 static bool check_resolve(lobe_pass *pass, uint32_t location) {
@@ -150,29 +148,30 @@ static bool check_resolve(lobe_pass *pass, uint32_t location) {
                         pass->extent.width, pass->extent.height, source->samples, target->name,
                         lobe_format_name(target->format), extent.width, extent.height,
                         target->samples);
-    return graph->result == LOBE_OK;
+    return graph->frame.result == LOBE_OK;
 }
 
 static bool check_raster(lobe_pass *pass) {
     pass->samples = 0;
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (!check_attachment(pass, &pass->colour[n]))
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (!check_attachment(pass, &pass->colour[i]))
             return false;
     if (!check_attachment(pass, &pass->depth))
         return false;
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (!check_resolve(pass, n))
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (!check_resolve(pass, i))
             return false;
     if (pass->samples == 0)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "raster pass '%s' has no attachments",
                         pass->name);
-    return pass->graph->result == LOBE_OK;
+    return pass->graph->frame.result == LOBE_OK;
 }
 
 lobe_result engine_graph_check_rasters(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++)
-        if (graph->passes[n]->kind == LOBE_PASS_RASTER && !check_raster(graph->passes[n]))
-            return graph->result;
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
+        if (graph->frame.passes[i]->kind == LOBE_PASS_RASTER &&
+            !check_raster(graph->frame.passes[i]))
+            return graph->frame.result;
     return LOBE_OK;
 }
 
@@ -190,9 +189,9 @@ engine_raster_parameters engine_graph_raster_parameters(const lobe_pass *pass,
         .blend = draw->blend,
         .samples = pass->samples,
     };
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++)
-        if (pass->colour[n].access != ENGINE_DEPENDENCY_NONE)
-            parameters.colour[n] = attached(graph, &pass->colour[n])->format;
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)
+        if (pass->colour[i].access != ENGINE_DEPENDENCY_NONE)
+            parameters.colour[i] = attached(graph, &pass->colour[i])->format;
     if (pass->depth.access != ENGINE_DEPENDENCY_NONE)
         parameters.depth = attached(graph, &pass->depth)->format;
     return parameters;

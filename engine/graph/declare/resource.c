@@ -8,27 +8,27 @@ static uint32_t at_least_one(uint32_t value) {
     return value ? value : 1;
 }
 
-bool engine_graph_may_declare(lobe_graph *graph, const char *what) {
-    if (graph->result != LOBE_OK)
+bool engine_graph_can_declare(lobe_graph *graph, const char *what) {
+    if (graph->frame.result != LOBE_OK)
         return false;
-    if (graph->phase == ENGINE_GRAPH_DECLARING)
+    if (graph->frame.phase == ENGINE_GRAPH_DECLARING)
         return true;
     lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                    "'%s' was declared after the frame was compiled; begin a new one first", what);
+                    "'%s' is declared after the frame was compiled; begin a new frame first", what);
     return false;
 }
 
 lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_resource *resource,
                                         const engine_dependency_resource *dependency) {
-    uint32_t index = graph->dependencies.resource_count;
-    if (!engine_array_reserve(graph->device->host.allocator, (void **)&graph->resources,
-                              &graph->resource_capacity, (uint64_t)index + 1,
-                              sizeof *graph->resources)) {
+    uint32_t index = graph->frame.dependencies.resource_count;
+    if (!engine_array_reserve(graph->device->host.allocator, (void **)&graph->frame.resources,
+                              &graph->frame.resource_capacity, (uint64_t)index + 1,
+                              sizeof *graph->frame.resources)) {
         engine_graph_fail_memory(graph);
         return (lobe_resource){0};
     }
-    graph->resources[index] = *resource;
-    if (engine_dependency_add_resource(&graph->dependencies, dependency) ==
+    graph->frame.resources[index] = *resource;
+    if (engine_dependency_add_resource(&graph->frame.dependencies, dependency) ==
         ENGINE_DEPENDENCY_NONE) {
         engine_graph_fail_dependency(graph);
         return (lobe_resource){0};
@@ -36,8 +36,19 @@ lobe_resource engine_graph_add_resource(lobe_graph *graph, const engine_graph_re
     return (lobe_resource){.index = index, .version = 1};
 }
 
-static const char *keep_name(lobe_graph *graph, const char *name, const char *otherwise) {
-    const char *kept = engine_arena_copy_text(&graph->arena, name ? name : otherwise);
+uint64_t engine_graph_range_bytes(const engine_graph_resource *resource, const lobe_range *range) {
+    if (!resource->is_image)
+        return resource->size;
+    uint64_t texels = 0;
+    for (uint32_t i = 0; i < range->level_count; i++)
+        texels += (uint64_t)engine_graph_level_extent(resource->width, range->first_level + i) *
+                  engine_graph_level_extent(resource->height, range->first_level + i);
+    return texels * range->layer_count * lobe_format_size(resource->format) *
+           (resource->samples > 1 ? resource->samples : 1);
+}
+
+static const char *copy_name(lobe_graph *graph, const char *name, const char *otherwise) {
+    const char *kept = engine_arena_copy_text(&graph->frame.arena, name ? name : otherwise);
     if (!kept)
         engine_graph_fail_memory(graph);
     return kept;
@@ -51,17 +62,15 @@ static bool check_extent(lobe_graph *graph, const lobe_image_description *image)
     if (limit > LOBE_IMAGE_MAXIMUM_EXTENT)
         limit = LOBE_IMAGE_MAXIMUM_EXTENT;
     if (image->width == 0 || image->height == 0)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': an extent of %ux%u texels",
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': the extent is %ux%u texels",
                         image->name, image->width, image->height);
     else if (image->width > limit || image->height > limit)
-        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "image '%s': %ux%u texels, the device allows %u at most", image->name,
-                        image->width, image->height, limit);
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT, "image '%s': %ux%u texels, the limit is %u",
+                        image->name, image->width, image->height, limit);
     else if (image->layers > graph->device->limits.maxImageArrayLayers)
-        lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "image '%s': %u layers, the device allows %u at most", image->name,
-                        image->layers, graph->device->limits.maxImageArrayLayers);
-    return graph->result == LOBE_OK;
+        lobe_graph_fail(graph, LOBE_ERROR_LIMIT, "image '%s': %u layers, the device's limit is %u",
+                        image->name, image->layers, graph->device->limits.maxImageArrayLayers);
+    return graph->frame.result == LOBE_OK;
 }
 
 static uint32_t possible_levels(uint32_t width, uint32_t height) {
@@ -75,28 +84,28 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     uint32_t levels = possible_levels(image->width, image->height);
     uint32_t samples = at_least_one(image->samples);
     if (image->format <= LOBE_FORMAT_NONE || image->format >= LOBE_FORMAT_COUNT)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': no format", image->name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': has no format", image->name);
     else if (image->levels > levels)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "image '%s': %u levels, but %ux%u texels have %u at most", image->name,
+                        "image '%s': %u levels, but %ux%u texels have at most %u", image->name,
                         image->levels, image->width, image->height, levels);
     else if (samples != 1 && samples != 2 && samples != 4)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': %u samples, not 1, 2 or 4",
                         image->name, samples);
     else if (samples > 1 && (image->levels > 1 || image->layers > 1))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "image '%s': multisampled images have one level and one layer",
+                        "image '%s': a multisampled image must have one level and one layer",
                         image->name);
-    return graph->result == LOBE_OK;
+    return graph->frame.result == LOBE_OK;
 }
 
 void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
                        uint32_t *height) {
     *width = *height = 0;
-    if (image.version == 0 || image.index >= graph->dependencies.resource_count)
+    if (image.version == 0 || image.index >= graph->frame.dependencies.resource_count)
         return;
-    *width = graph->resources[image.index].width;
-    *height = graph->resources[image.index].height;
+    *width = graph->frame.resources[image.index].width;
+    *height = graph->frame.resources[image.index].height;
 }
 
 static engine_stamp identity_of(const engine_graph_resource *resource) {
@@ -107,18 +116,18 @@ static engine_stamp identity_of(const engine_graph_resource *resource) {
     return engine_stamp_bytes(stamp, numbers, sizeof numbers);
 }
 
-/// Finds what former frames kept under this name; false where this frame already declared it.
+/// Finds what earlier frames kept under this name; false if this frame has declared it already.
 static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
                            engine_dependency_resource *dependency) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
-        if (graph->resources[n].origin == ENGINE_GRAPH_RETAINED &&
-            strcmp(graph->resources[n].name, resource->name) == 0) {
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if (graph->frame.resources[i].origin == ENGINE_GRAPH_RETAINED &&
+            strcmp(graph->frame.resources[i].name, resource->name) == 0) {
             lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                             "retained resource '%s' is declared twice in one frame",
                             resource->name);
             return false;
         }
-    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+    for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         if (strcmp(kept->name, resource->name) == 0 && kept->identity == dependency->identity) {
             kept->declared = true;
             resource->retained = kept;
@@ -144,9 +153,9 @@ static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource,
 
 lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description) {
     lobe_image_description image = *description;
-    if (!engine_graph_may_declare(graph, image.name ? image.name : "image"))
+    if (!engine_graph_can_declare(graph, image.name ? image.name : "image"))
         return (lobe_resource){0};
-    image.name = keep_name(graph, image.name, "image");
+    image.name = copy_name(graph, image.name, "image");
     if (!image.name || !check_extent(graph, &image) || !check_shape(graph, &image))
         return (lobe_resource){0};
     engine_graph_resource resource = {.name = image.name,
@@ -162,17 +171,17 @@ lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *
 
 lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description) {
     const char *given = description->name ? description->name : "buffer";
-    if (!engine_graph_may_declare(graph, given))
+    if (!engine_graph_can_declare(graph, given))
         return (lobe_resource){0};
-    const char *name = keep_name(graph, given, given);
+    const char *name = copy_name(graph, given, given);
     uint64_t limit = graph->device->limits.maxStorageBufferRange;
     if (name && description->size == 0)
-        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': a size of 0", name);
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': the size is 0", name);
     else if (name && description->size > limit)
         lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
-                        "buffer '%s': %zu bytes, the device allows %llu at most", name,
+                        "buffer '%s': %zu bytes, the device's limit is %llu", name,
                         description->size, (unsigned long long)limit);
-    if (graph->result != LOBE_OK)
+    if (graph->frame.result != LOBE_OK)
         return (lobe_resource){0};
     engine_graph_resource resource = {
         .name = name, .layers = 1, .levels = 1, .size = description->size};
@@ -183,23 +192,23 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 // What comes from the host
 
 static uint32_t find_import(const lobe_graph *graph, const void *object) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
-        if ((graph->resources[n].origin == ENGINE_GRAPH_TEXTURE &&
-             graph->resources[n].texture == object) ||
-            (graph->resources[n].origin == ENGINE_GRAPH_BUFFER &&
-             graph->resources[n].buffer == object))
-            return n;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if ((graph->frame.resources[i].origin == ENGINE_GRAPH_TEXTURE &&
+             graph->frame.resources[i].texture == object) ||
+            (graph->frame.resources[i].origin == ENGINE_GRAPH_BUFFER &&
+             graph->frame.resources[i].buffer == object))
+            return i;
     return ENGINE_DEPENDENCY_NONE;
 }
 
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture) {
     static const engine_layout layout = ENGINE_LAYOUT_SAMPLED;
-    if (!engine_graph_may_declare(graph, texture->name))
+    if (!engine_graph_can_declare(graph, texture->name))
         return (lobe_resource){0};
     uint32_t known = find_import(graph, texture);
     if (known != ENGINE_DEPENDENCY_NONE)
         return (lobe_resource){.index = known, .version = 1};
-    engine_graph_resource resource = {.name = keep_name(graph, texture->name, "texture"),
+    engine_graph_resource resource = {.name = copy_name(graph, texture->name, "texture"),
                                       .origin = ENGINE_GRAPH_TEXTURE,
                                       .is_image = true,
                                       .format = texture->format,
@@ -221,12 +230,12 @@ lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *t
 }
 
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer) {
-    if (!engine_graph_may_declare(graph, buffer->name))
+    if (!engine_graph_can_declare(graph, buffer->name))
         return (lobe_resource){0};
     uint32_t known = find_import(graph, buffer);
     if (known != ENGINE_DEPENDENCY_NONE)
         return (lobe_resource){.index = known, .version = 1};
-    engine_graph_resource resource = {.name = keep_name(graph, buffer->name, "buffer"),
+    engine_graph_resource resource = {.name = copy_name(graph, buffer->name, "buffer"),
                                       .origin = ENGINE_GRAPH_BUFFER,
                                       .layers = 1,
                                       .levels = 1,
@@ -245,20 +254,20 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data,
                                 size_t size) {
     const char *given = name ? name : "upload";
-    if (!engine_graph_may_declare(graph, given))
+    if (!engine_graph_can_declare(graph, given))
         return (lobe_resource){0};
     if (size == 0 || size > ENGINE_MAXIMUM_UPLOAD) {
         lobe_graph_fail(graph, size ? LOBE_ERROR_LIMIT : LOBE_ERROR_GRAPH,
-                        "upload '%s': %zu bytes, not in [1, %zu]", given, size,
+                        "upload '%s': %zu bytes is not in [1, %zu]", given, size,
                         ENGINE_MAXIMUM_UPLOAD);
         return (lobe_resource){0};
     }
-    engine_graph_resource resource = {.name = keep_name(graph, given, given),
+    engine_graph_resource resource = {.name = copy_name(graph, given, given),
                                       .origin = ENGINE_GRAPH_UPLOAD,
                                       .layers = 1,
                                       .levels = 1,
                                       .size = size,
-                                      .upload = engine_arena_copy(&graph->arena, data, size),
+                                      .upload = engine_arena_copy(&graph->frame.arena, data, size),
                                       .bytes = size};
     if (!resource.name || !resource.upload) {
         engine_graph_fail_memory(graph);

@@ -1,4 +1,4 @@
-#include "engine/graph/declare/signature.h"
+#include "engine/graph/declare/declare.h"
 
 static engine_stamp sign_sampler(engine_stamp stamp, const lobe_sampler *sampler) {
     const uint32_t modes[] = {sampler->texels, sampler->levels, sampler->wrap_u, sampler->wrap_v};
@@ -18,8 +18,8 @@ static engine_stamp sign_bindings(engine_stamp stamp, const engine_graph_binding
 static engine_stamp sign_specialisation(engine_stamp stamp, const lobe_specialisation *values,
                                         size_t count) {
     stamp = engine_stamp_mix(stamp, count);
-    for (size_t n = 0; n < count; n++)
-        stamp = engine_stamp_mix(engine_stamp_mix(stamp, values[n].id), values[n].bits);
+    for (size_t i = 0; i < count; i++)
+        stamp = engine_stamp_mix(engine_stamp_mix(stamp, values[i].id), values[i].bits);
     return stamp;
 }
 
@@ -62,9 +62,9 @@ static engine_stamp sign_attachment(engine_stamp stamp, const engine_graph_attac
 }
 
 static engine_stamp sign_attachments(engine_stamp stamp, const lobe_pass *pass) {
-    for (uint32_t n = 0; n < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; n++) {
-        stamp = sign_attachment(stamp, &pass->colour[n]);
-        stamp = sign_attachment(stamp, &pass->resolve[n]);
+    for (uint32_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++) {
+        stamp = sign_attachment(stamp, &pass->colour[i]);
+        stamp = sign_attachment(stamp, &pass->resolve[i]);
     }
     return sign_attachment(stamp, &pass->depth);
 }
@@ -82,7 +82,7 @@ static engine_stamp sign_pass(const lobe_pass *pass) {
 }
 
 lobe_result engine_graph_sign_passes(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++)
-        graph->dependencies.passes[n].signature = sign_pass(graph->passes[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
+        graph->frame.dependencies.passes[i].signature = sign_pass(graph->frame.passes[i]);
     return LOBE_OK;
 }

@@ -6,7 +6,7 @@ static uint64_t align_up(uint64_t value, uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-/// Larger first; among equals the earlier declared, so that the plan is deterministic.
+/// Larger first; equal sizes in order of declaration, so that the plan is deterministic.
 static int compare_requests(const void *a, const void *b) {
     const engine_alias_request *first = *(engine_alias_request *const *)a;
     const engine_alias_request *second = *(engine_alias_request *const *)b;
@@ -25,14 +25,14 @@ static bool alive_together(const engine_alias_request *a, const engine_alias_req
     return a->first <= b->last && b->first <= a->last;
 }
 
-/// `placed` holds the requests that have their place and are alive with this one.
+/// `placed`: the requests that are placed already and alive together with this one.
 static void place(engine_alias_request *request, engine_alias_request **placed, size_t count) {
     qsort(placed, count, sizeof *placed, compare_offsets);
     uint64_t offset = 0;
-    for (size_t n = 0; n < count; n++) {
-        if (offset + request->size <= placed[n]->offset)
+    for (size_t i = 0; i < count; i++) {
+        if (offset + request->size <= placed[i]->offset)
             break;
-        uint64_t end = placed[n]->offset + placed[n]->size;
+        uint64_t end = placed[i]->offset + placed[i]->size;
         if (end > offset)
             offset = align_up(end, request->alignment);
     }
@@ -46,16 +46,16 @@ bool engine_alias_plan(const lobe_allocator *allocator, engine_alias_request *re
     if (!order)
         return false;
     engine_alias_request **alive = order + count;
-    for (size_t n = 0; n < count; n++)
-        order[n] = &requests[n];
+    for (size_t i = 0; i < count; i++)
+        order[i] = &requests[i];
     if (count > 0)
         qsort(order, count, sizeof *order, compare_requests);
-    for (size_t n = 0; n < count; n++) {
-        engine_alias_request *request = order[n];
+    for (size_t i = 0; i < count; i++) {
+        engine_alias_request *request = order[i];
         size_t alive_count = 0;
-        for (size_t m = 0; m < n; m++)
-            if (alive_together(request, order[m]))
-                alive[alive_count++] = order[m];
+        for (size_t j = 0; j < i; j++)
+            if (alive_together(request, order[j]))
+                alive[alive_count++] = order[j];
         place(request, alive, alive_count);
         uint64_t end = request->offset + request->size;
         *shared_size = end > *shared_size ? end : *shared_size;

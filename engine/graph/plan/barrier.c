@@ -5,23 +5,23 @@
 #include "engine/base/growing_array.h"
 #include "engine/base/sort.h"
 
-/// What one pass does to one subresource, all its accesses united.
+/// What one pass does to one subresource, united over all its accesses.
 typedef struct subresource_use {
     uint32_t position;
     uint32_t resource;
     uint32_t subresource;
     bool writes, modifies;
     engine_access_state state;
-    engine_access_state group; ///< reads: united with the reads that follow before a write
+    engine_access_state group; ///< reads: united with the reads that follow before the next write
 } subresource_use;
 
 /// What must be waited for before a subresource can be used in another way.
 typedef struct subresource_tracker {
     engine_layout layout;
     uint64_t write_stages, write_access;     ///< the last write (or transition)
-    uint64_t reader_stages;                  ///< reads since then
+    uint64_t reader_stages;                  ///< reads since that write
     uint64_t visible_stages, visible_access; ///< where that write is visible
-    bool took_memory; ///< its first write must wait for what lay in the memory before
+    bool took_memory; ///< its first use must wait for the resources that used the memory before
 } subresource_tracker;
 
 typedef struct barrier_builder {
@@ -30,8 +30,8 @@ typedef struct barrier_builder {
     uint32_t use_count;
     subresource_tracker *trackers; ///< by subresource
     bool *started;                 ///< by resource: something has used it
-    uint32_t *slots;   ///< by subresource: its use by the pass at hand, where that is one of its
-    uint32_t *general; ///< by resource: position + 1 of the pass whose reads disagree, or 0
+    uint32_t *slots;   ///< by subresource: index of its newest use; valid if that is of this pass
+    uint32_t *general; ///< by resource: position + 1 of a pass whose reads differ in layout, or 0
 } barrier_builder;
 
 // ---------------------------------------------------------------------------------------------
@@ -48,8 +48,8 @@ static void append_use(barrier_builder *builder, uint32_t position,
                           .state = access->state};
 }
 
-/// Unites this with what the pass does to the subresource already. Two reads may want different
-/// layouts; then all reads of the resource by the pass are to make do with the general one.
+/// Unites an access with the pass's other accesses of the subresource. If two reads need different
+/// layouts, all reads of the resource by this pass use the general layout.
 static void add_use(barrier_builder *builder, uint32_t position, uint32_t first,
                     const engine_dependency_access *access, uint32_t subresource) {
     const engine_dependency_resource *resource = &builder->graph->resources[access->resource];
@@ -68,21 +68,21 @@ static void add_use(barrier_builder *builder, uint32_t position, uint32_t first,
 
 static void add_uses_of_access(barrier_builder *builder, uint32_t position, uint32_t first,
                                const engine_dependency_access *access) {
-    for (uint32_t n = 0; n < engine_access_size(access); n++)
+    for (uint32_t i = 0; i < engine_access_size(access); i++)
         add_use(builder, position, first, access,
-                engine_access_subresource(builder->graph, access, n));
+                engine_access_subresource(builder->graph, access, i));
 }
 
-/// Gives the reads of resources that were marked so the general layout.
+/// Gives reads of the resources marked in `general` the general layout.
 static void unite_layouts(barrier_builder *builder, uint32_t position, uint32_t first) {
     engine_dependency_graph *graph = builder->graph;
     const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
-    for (uint32_t n = first; n < builder->use_count; n++)
-        if (!builder->uses[n].writes && builder->general[builder->uses[n].resource] == position + 1)
-            builder->uses[n].state.layout = ENGINE_LAYOUT_GENERAL;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
-         n = graph->accesses[n].next) {
-        engine_dependency_access *access = &graph->accesses[n];
+    for (uint32_t i = first; i < builder->use_count; i++)
+        if (!builder->uses[i].writes && builder->general[builder->uses[i].resource] == position + 1)
+            builder->uses[i].state.layout = ENGINE_LAYOUT_GENERAL;
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE;
+         i = graph->accesses[i].next) {
+        engine_dependency_access *access = &graph->accesses[i];
         if (access->kind == ENGINE_ACCESS_READ &&
             builder->general[access->resource] == position + 1)
             access->state.layout = ENGINE_LAYOUT_GENERAL;
@@ -101,25 +101,25 @@ static void list_uses(barrier_builder *builder) {
     for (uint32_t position = 0; position < graph->running_count; position++) {
         const engine_dependency_pass *pass = &graph->passes[graph->running[position]];
         uint32_t first = builder->use_count;
-        for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE;
-             n = graph->accesses[n].next)
-            add_uses_of_access(builder, position, first, &graph->accesses[n]);
+        for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE;
+             i = graph->accesses[i].next)
+            add_uses_of_access(builder, position, first, &graph->accesses[i]);
         unite_layouts(builder, position, first);
-        // Neighbours come to stand together, to share a barrier.
+        // Neighbouring subresources become adjacent, so that they can share a barrier.
         engine_sort(builder->uses + first, builder->use_count - first, sizeof *builder->uses,
                     compare_uses);
     }
 }
 
-/// Backwards: a barrier for the first of several reads makes the content visible to all of them.
+/// Backwards, so that a barrier before the first of several reads makes the content visible to all.
 static bool group_reads(barrier_builder *builder) {
     const engine_dependency_graph *graph = builder->graph;
     const subresource_use **next =
         engine_arena_allocate(&builder->graph->scratch, graph->subresource_count * sizeof *next);
     if (!next)
         return false;
-    for (uint32_t n = builder->use_count; n-- > 0;) {
-        subresource_use *use = &builder->uses[n];
+    for (uint32_t i = builder->use_count; i-- > 0;) {
+        subresource_use *use = &builder->uses[i];
         const subresource_use **after =
             &next[graph->resources[use->resource].first_subresource + use->subresource];
         use->group = use->state;
@@ -142,14 +142,14 @@ static bool shared_memory(const engine_dependency_resource *a,
            b->offset < a->offset + a->size;
 }
 
-/// Stages and writes of every resource that lay in this one's memory before.
+/// Stages and writes of all resources that used this one's memory before.
 static engine_access_state former_tenants(const barrier_builder *builder, uint32_t index) {
     const engine_dependency_graph *graph = builder->graph;
     const engine_dependency_resource *resource = &graph->resources[index];
     engine_access_state former = {0};
-    for (uint32_t n = 0; n < graph->resource_count; n++) {
-        const engine_dependency_resource *other = &graph->resources[n];
-        if (n == index || !shared_memory(resource, other) ||
+    for (uint32_t i = 0; i < graph->resource_count; i++) {
+        const engine_dependency_resource *other = &graph->resources[i];
+        if (i == index || !shared_memory(resource, other) ||
             other->last_position >= resource->first_position)
             continue;
         for (uint32_t s = 0; s < other->levels * other->layers; s++) {
@@ -201,7 +201,7 @@ static bool same_transition(const engine_dependency_barrier *a,
            same_state(&a->from, &b->from) && same_state(&a->to, &b->to);
 }
 
-/// Layers come in order within a level: append this one to the barrier before it.
+/// Layers come in order within a level: adds this one to the previous barrier if it is the same.
 static bool extend_layers(engine_dependency_barrier *last, const engine_dependency_barrier *next) {
     if (!same_transition(last, next) || last->range.level_count != 1 ||
         last->range.first_level != next->range.first_level ||
@@ -211,11 +211,11 @@ static bool extend_layers(engine_dependency_barrier *last, const engine_dependen
     return true;
 }
 
-/// Levels come in order: unite the last barrier with one of the level before.
+/// Levels come in order: unites barriers that differ only in adjacent levels.
 static void extend_levels(engine_dependency_graph *graph) {
     uint32_t kept = 0;
-    for (uint32_t n = 0; n < graph->barrier_count; n++) {
-        engine_dependency_barrier *barrier = &graph->barriers[n];
+    for (uint32_t i = 0; i < graph->barrier_count; i++) {
+        engine_dependency_barrier *barrier = &graph->barriers[i];
         engine_dependency_barrier *last = kept ? &graph->barriers[kept - 1] : NULL;
         if (last && last->resource != ENGINE_DEPENDENCY_NONE && same_transition(last, barrier) &&
             last->range.first_layer == barrier->range.first_layer &&
@@ -244,15 +244,15 @@ static bool emit(barrier_builder *builder, const subresource_use *use, engine_ac
     return add_barrier(graph, &barrier);
 }
 
-/// Other resources wrote this memory under their own names: only a barrier on all memory orders
-/// that. One a pass is enough.
+/// Other resources wrote the same memory, which only a barrier on all memory can order. One per
+/// pass is enough.
 static bool emit_memory(barrier_builder *builder, uint32_t first_barrier,
                         const subresource_use *use, const subresource_tracker *tracker) {
     engine_dependency_graph *graph = builder->graph;
     engine_dependency_barrier *memory = NULL;
-    for (uint32_t n = first_barrier; n < graph->barrier_count; n++)
-        if (graph->barriers[n].resource == ENGINE_DEPENDENCY_NONE)
-            memory = &graph->barriers[n];
+    for (uint32_t i = first_barrier; i < graph->barrier_count; i++)
+        if (graph->barriers[i].resource == ENGINE_DEPENDENCY_NONE)
+            memory = &graph->barriers[i];
     if (!memory) {
         engine_dependency_barrier added = {.position = use->position,
                                            .resource = ENGINE_DEPENDENCY_NONE};
@@ -274,7 +274,7 @@ static bool track_write(barrier_builder *builder, const subresource_use *use,
                                 .layout =
                                     use->modifies ? tracker->layout : ENGINE_LAYOUT_UNDEFINED};
     bool transition = tracker->layout != use->state.layout;
-    // Without a transition the content stays where it is: nothing to gain from dropping it.
+    // Without a transition there is nothing to gain from dropping the content.
     if (!transition)
         from.layout = tracker->layout;
     bool image = use->state.layout != ENGINE_LAYOUT_UNDEFINED;
@@ -331,9 +331,9 @@ static bool track_use(barrier_builder *builder, uint32_t first_barrier,
 
 static bool derive(barrier_builder *builder) {
     uint32_t first_barrier = 0;
-    for (uint32_t n = 0; n < builder->use_count; n++) {
-        const subresource_use *use = &builder->uses[n];
-        if (n > 0 && use->position != use[-1].position)
+    for (uint32_t i = 0; i < builder->use_count; i++) {
+        const subresource_use *use = &builder->uses[i];
+        if (i > 0 && use->position != use[-1].position)
             first_barrier = builder->graph->barrier_count;
         if (!builder->started[use->resource])
             start_resource(builder, use->resource);
@@ -343,7 +343,7 @@ static bool derive(barrier_builder *builder) {
     return true;
 }
 
-/// What was brought in goes back to the layout it came in.
+/// Returns imported resources to the layout that they had at the start.
 static bool restore_imports(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
     for (uint32_t index = 0; index < graph->resource_count; index++) {
@@ -364,7 +364,7 @@ static bool restore_imports(barrier_builder *builder) {
     return true;
 }
 
-/// What was borrowed goes back as its owner wants it, used or not.
+/// Returns borrowed resources in the state that their owner asked for, whether used or not.
 static bool return_borrowed(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
     for (uint32_t index = 0; index < graph->resource_count; index++) {
@@ -405,13 +405,13 @@ static bool builder_create(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
     engine_arena *scratch = &graph->scratch;
     const size_t subresources = graph->subresource_count, resources = graph->resource_count;
-    // Each subresource of an access has a source; each is one use at most.
+    // Each subresource of each access has one source, and makes at most one use.
     builder->uses = engine_arena_allocate(scratch, graph->source_count * sizeof *builder->uses);
     builder->trackers = engine_arena_allocate(scratch, subresources * sizeof *builder->trackers);
     builder->started = engine_arena_allocate(scratch, resources * sizeof *builder->started);
     builder->slots = engine_arena_allocate(scratch, subresources * sizeof *builder->slots);
     if (builder->slots)
-        memset(builder->slots, 0xff, subresources * sizeof *builder->slots); // no use at all
+        memset(builder->slots, 0xff, subresources * sizeof *builder->slots); // no use yet
     builder->general = engine_arena_allocate(scratch, resources * sizeof *builder->general);
     return builder->uses && builder->trackers && builder->started && builder->slots &&
            builder->general &&
@@ -420,19 +420,19 @@ static bool builder_create(barrier_builder *builder) {
                                 sizeof *graph->end_layouts);
 }
 
-bool engine_dependency_barriers(engine_dependency_graph *graph) {
+bool engine_dependency_derive_barriers(engine_dependency_graph *graph) {
     barrier_builder builder = {.graph = graph};
     graph->barrier_count = 0;
-    bool fine = builder_create(&builder);
-    if (fine)
+    bool ok = builder_create(&builder);
+    if (ok)
         list_uses(&builder);
-    fine = fine && group_reads(&builder) && derive(&builder) && restore_imports(&builder) &&
-           return_borrowed(&builder);
-    if (fine) {
+    ok = ok && group_reads(&builder) && derive(&builder) && restore_imports(&builder) &&
+         return_borrowed(&builder);
+    if (ok) {
         extend_levels(graph);
         record_end_layouts(&builder);
     } else {
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
     }
-    return fine;
+    return ok;
 }

@@ -2,8 +2,8 @@
 
 #include "engine/base/growing_array.h"
 
-/// Demand goes backwards: from what is wanted after the frame to the passes that write it, and
-/// from each of those to what it reads. It stops at retained content that is still valid.
+/// Demand propagates backwards: from the outputs to the passes that write them, and from each of
+/// those to what it reads. It stops at retained content that is still valid.
 
 static bool writes(const engine_dependency_access *access) {
     return access->kind != ENGINE_ACCESS_READ;
@@ -13,10 +13,10 @@ static bool reads(const engine_dependency_access *access) {
     return access->kind != ENGINE_ACCESS_WRITE;
 }
 
-/// In topological order, so that the stamps of what a pass reads are known.
+/// In topological order, so that the stamps of everything a pass reads are known.
 static void stamp_passes(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->order_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+    for (uint32_t i = 0; i < graph->order_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[i]];
         engine_stamp stamp = pass->signature;
         for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
              a = graph->accesses[a].next) {
@@ -43,8 +43,8 @@ static uint32_t source_before(const engine_dependency_graph *graph, uint32_t wri
     return engine_access_source(graph, access, level * access->range.layer_count + layer);
 }
 
-/// Whether the memory already holds what `writer` would put into the subresource, and no pass
-/// that runs puts something else there first.
+/// Whether the subresource already has the content that `writer` would give it, and no running pass
+/// overwrites that content first.
 static bool still_valid(const engine_dependency_graph *graph, uint32_t writer,
                         uint32_t subresource) {
     uint32_t index = graph->accesses[writer].resource;
@@ -60,7 +60,8 @@ static bool still_valid(const engine_dependency_graph *graph, uint32_t writer,
     return true;
 }
 
-/// Makes the pass behind one subresource's content run where it must; true where that is news.
+/// Marks the pass that writes this content as running unless the content is still valid. Returns
+/// whether that is new.
 static bool demand_content(engine_dependency_graph *graph, uint32_t writer, uint32_t subresource,
                            bool use_retained) {
     if (writer == ENGINE_DEPENDENCY_NONE)
@@ -76,86 +77,86 @@ static bool demand_content(engine_dependency_graph *graph, uint32_t writer, uint
 
 static bool demand_read(engine_dependency_graph *graph, const engine_dependency_access *access,
                         bool use_retained) {
-    bool news = false;
-    for (uint32_t n = 0; n < engine_access_size(access); n++)
-        news |= demand_content(graph, engine_access_source(graph, access, n),
-                               engine_access_subresource(graph, access, n), use_retained);
-    return news;
+    bool changed = false;
+    for (uint32_t i = 0; i < engine_access_size(access); i++)
+        changed |= demand_content(graph, engine_access_source(graph, access, i),
+                                  engine_access_subresource(graph, access, i), use_retained);
+    return changed;
 }
 
 static bool demand_written(engine_dependency_graph *graph, uint32_t access, bool use_retained) {
-    bool news = false;
-    for (uint32_t n = 0; n < engine_access_size(&graph->accesses[access]); n++)
-        news |= demand_content(graph, access,
-                               engine_access_subresource(graph, &graph->accesses[access], n),
-                               use_retained);
-    return news;
+    bool changed = false;
+    for (uint32_t i = 0; i < engine_access_size(&graph->accesses[access]); i++)
+        changed |= demand_content(graph, access,
+                                  engine_access_subresource(graph, &graph->accesses[access], i),
+                                  use_retained);
+    return changed;
 }
 
-/// A kept pass counts as if all it writes were wanted; one that writes nothing just runs.
+/// Everything that a kept pass writes counts as an output; one that writes nothing always runs.
 static bool demand_kept(engine_dependency_graph *graph, engine_dependency_pass *pass,
                         bool use_retained) {
-    bool news = false, written = false;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (writes(&graph->accesses[n])) {
+    bool changed = false, written = false;
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (writes(&graph->accesses[i])) {
             written = true;
-            news |= demand_written(graph, n, use_retained);
+            changed |= demand_written(graph, i, use_retained);
         }
     if (!written && pass->state != LOBE_PASS_RUN) {
         pass->state = LOBE_PASS_RUN;
-        news = true;
+        changed = true;
     }
-    return news;
+    return changed;
 }
 
 static bool demand_of_pass(engine_dependency_graph *graph, engine_dependency_pass *pass,
                            bool use_retained) {
-    bool news = pass->keep && demand_kept(graph, pass, use_retained);
+    bool changed = pass->keep && demand_kept(graph, pass, use_retained);
     if (pass->state != LOBE_PASS_RUN)
-        return news;
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (reads(&graph->accesses[n]))
-            news |= demand_read(graph, &graph->accesses[n], use_retained);
-    return news;
+        return changed;
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (reads(&graph->accesses[i]))
+            changed |= demand_read(graph, &graph->accesses[i], use_retained);
+    return changed;
 }
 
 static bool demand_outputs(engine_dependency_graph *graph, bool use_retained) {
-    bool news = false;
-    for (uint32_t n = 0; n < graph->access_count; n++)
-        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
-            news |= demand_read(graph, &graph->accesses[n], use_retained);
-    return news;
+    bool changed = false;
+    for (uint32_t i = 0; i < graph->access_count; i++)
+        if (graph->accesses[i].pass == ENGINE_DEPENDENCY_NONE)
+            changed |= demand_read(graph, &graph->accesses[i], use_retained);
+    return changed;
 }
 
-/// A pass that runs may destroy retained content that counted as valid: repeat until all is quiet.
-/// Running passes only become more, so it ends.
+/// A running pass may destroy retained content that counted as valid, so repeat until nothing
+/// changes. It ends because the set of running passes only grows.
 static void propagate_demand(engine_dependency_graph *graph, bool use_retained) {
-    for (uint32_t n = 0; n < graph->pass_count; n++)
-        graph->passes[n].state = LOBE_PASS_CULLED;
-    for (bool news = true; news;) {
-        news = demand_outputs(graph, use_retained);
-        for (uint32_t n = graph->order_count; n-- > 0;)
-            news |= demand_of_pass(graph, &graph->passes[graph->order[n]], use_retained);
+    for (uint32_t i = 0; i < graph->pass_count; i++)
+        graph->passes[i].state = LOBE_PASS_CULLED;
+    for (bool changed = true; changed;) {
+        changed = demand_outputs(graph, use_retained);
+        for (uint32_t i = graph->order_count; i-- > 0;)
+            changed |= demand_of_pass(graph, &graph->passes[graph->order[i]], use_retained);
     }
 }
 
 static bool writes_retained(const engine_dependency_graph *graph,
                             const engine_dependency_pass *pass) {
-    for (uint32_t n = pass->first_access; n != ENGINE_DEPENDENCY_NONE; n = graph->accesses[n].next)
-        if (writes(&graph->accesses[n]) && graph->resources[graph->accesses[n].resource].retained)
+    for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
+        if (writes(&graph->accesses[i]) && graph->resources[graph->accesses[i].resource].retained)
             return true;
     return false;
 }
 
 static void mark_live(engine_dependency_graph *graph) {
     propagate_demand(graph, false);
-    for (uint32_t n = 0; n < graph->pass_count; n++)
-        graph->passes[n].live = graph->passes[n].state == LOBE_PASS_RUN;
+    for (uint32_t i = 0; i < graph->pass_count; i++)
+        graph->passes[i].live = graph->passes[i].state == LOBE_PASS_RUN;
 }
 
 static void mark_skipped(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->pass_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[n];
+    for (uint32_t i = 0; i < graph->pass_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[i];
         if (pass->live && pass->state != LOBE_PASS_RUN && writes_retained(graph, pass))
             pass->state = LOBE_PASS_SKIPPED;
     }
@@ -163,13 +164,13 @@ static void mark_skipped(engine_dependency_graph *graph) {
 
 static void list_running(engine_dependency_graph *graph) {
     graph->running_count = 0;
-    for (uint32_t n = 0; n < graph->order_count; n++) {
-        engine_dependency_pass *pass = &graph->passes[graph->order[n]];
+    for (uint32_t i = 0; i < graph->order_count; i++) {
+        engine_dependency_pass *pass = &graph->passes[graph->order[i]];
         pass->position = ENGINE_DEPENDENCY_NONE;
         if (pass->state != LOBE_PASS_RUN)
             continue;
         pass->position = graph->running_count;
-        graph->running[graph->running_count++] = graph->order[n];
+        graph->running[graph->running_count++] = graph->order[i];
     }
 }
 

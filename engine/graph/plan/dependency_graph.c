@@ -82,8 +82,7 @@ uint32_t engine_dependency_add_pass(engine_dependency_graph *graph, const char *
     return graph->pass_count++;
 }
 
-/// Whether `pass` may name this version: the newest, or the one that the pass's own writes
-/// started from.
+/// Whether `pass` may name this version: the newest one, or the one before the pass's own writes.
 static bool version_is_current(const engine_dependency_resource *resource, uint32_t version,
                                uint32_t pass) {
     if (version == resource->version)
@@ -103,7 +102,7 @@ static engine_dependency_fault_kind check_handle(const engine_dependency_graph *
                                                               : ENGINE_FAULT_STALE;
 }
 
-/// Replaces counts of 0; false where the resource does not have the range.
+/// Replaces counts of 0; false if the resource does not have the range.
 static bool resolve_range(const engine_dependency_resource *resource, lobe_range *range) {
     if (range->first_level >= resource->levels || range->first_layer >= resource->layers)
         return false;
@@ -213,7 +212,7 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
     if (from == to)
         return true;
     engine_dependency_edge *last = graph->edge_count ? &graph->edges[graph->edge_count - 1] : NULL;
-    if (last && last->from == from && last->to == to) { // as for the subresource before
+    if (last && last->from == from && last->to == to) { // common for neighbouring subresources
         last->hazards |= hazard;
         return true;
     }
@@ -256,10 +255,10 @@ static const char *pass_name(const engine_dependency_graph *graph, uint32_t pass
 }
 
 static void explain_cycle(const engine_dependency_graph *graph, char *text, size_t size) {
-    int length = snprintf(text, size, "passes depend on each other in a circle:");
-    for (uint32_t n = 0; n <= graph->cycle_count && length >= 0 && (size_t)length < size; n++) {
-        uint32_t pass = graph->cycle[n % graph->cycle_count];
-        length += snprintf(text + length, size - (size_t)length, "%s '%s'", n ? " before" : "",
+    int length = snprintf(text, size, "passes depend on each other in a cycle:");
+    for (uint32_t i = 0; i <= graph->cycle_count && length >= 0 && (size_t)length < size; i++) {
+        uint32_t pass = graph->cycle[i % graph->cycle_count];
+        length += snprintf(text + length, size - (size_t)length, "%s '%s'", i ? " before" : "",
                            pass_name(graph, pass));
     }
     size_t used = strlen(text);
@@ -282,7 +281,7 @@ void engine_dependency_explain(const engine_dependency_graph *graph, char *text,
         snprintf(text, size, "render graph: out of host memory");
         break;
     case ENGINE_FAULT_UNKNOWN_RESOURCE:
-        snprintf(text, size, "pass '%s' uses a resource handle that this frame never gave out (%s)",
+        snprintf(text, size, "pass '%s' uses a resource handle that is not of this frame (%s)",
                  pass, resource);
         break;
     case ENGINE_FAULT_STALE:
@@ -297,7 +296,7 @@ void engine_dependency_explain(const engine_dependency_graph *graph, char *text,
                  pass, resource, fault->level, fault->layer);
         break;
     case ENGINE_FAULT_IMPORTED_WRITTEN:
-        snprintf(text, size, "pass '%s' writes resource '%s', which was brought in for reading",
+        snprintf(text, size, "pass '%s' writes resource '%s', which was imported for reading only",
                  pass, resource);
         break;
     case ENGINE_FAULT_NEVER_WRITTEN:

@@ -7,25 +7,25 @@ static void extend(engine_dependency_resource *resource, uint32_t position) {
         resource->last_position = position;
 }
 
-/// An output lives on after the last pass, but only if something that runs makes it.
+/// An output lives until after the last pass, if a running pass uses it at all.
 static void extend_output(engine_dependency_graph *graph, const engine_dependency_access *access) {
     engine_dependency_resource *resource = &graph->resources[access->resource];
     if (resource->first_position != ENGINE_DEPENDENCY_NONE)
         extend(resource, graph->running_count);
 }
 
-void engine_dependency_lifetimes(engine_dependency_graph *graph) {
-    for (uint32_t n = 0; n < graph->resource_count; n++) {
-        graph->resources[n].first_position = ENGINE_DEPENDENCY_NONE;
-        graph->resources[n].last_position = ENGINE_DEPENDENCY_NONE;
+void engine_dependency_find_lifetimes(engine_dependency_graph *graph) {
+    for (uint32_t i = 0; i < graph->resource_count; i++) {
+        graph->resources[i].first_position = ENGINE_DEPENDENCY_NONE;
+        graph->resources[i].last_position = ENGINE_DEPENDENCY_NONE;
     }
-    for (uint32_t n = 0; n < graph->access_count; n++) {
-        const engine_dependency_access *access = &graph->accesses[n];
+    for (uint32_t i = 0; i < graph->access_count; i++) {
+        const engine_dependency_access *access = &graph->accesses[i];
         if (access->pass != ENGINE_DEPENDENCY_NONE &&
             graph->passes[access->pass].position != ENGINE_DEPENDENCY_NONE)
             extend(&graph->resources[access->resource], graph->passes[access->pass].position);
     }
-    for (uint32_t n = 0; n < graph->access_count; n++)
-        if (graph->accesses[n].pass == ENGINE_DEPENDENCY_NONE)
-            extend_output(graph, &graph->accesses[n]);
+    for (uint32_t i = 0; i < graph->access_count; i++)
+        if (graph->accesses[i].pass == ENGINE_DEPENDENCY_NONE)
+            extend_output(graph, &graph->accesses[i]);
 }

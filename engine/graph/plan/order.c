@@ -13,7 +13,7 @@ static bool reserve(engine_dependency_graph *graph) {
                                 sizeof *graph->cycle);
 }
 
-/// The first pass in order of declaration that waits for nothing; NONE where all wait.
+/// The first pass in order of declaration that waits for nothing; NONE if all wait.
 static uint32_t next_ready(const engine_dependency_graph *graph, const uint32_t *waiting) {
     for (uint32_t pass = 0; pass < graph->pass_count; pass++)
         if (waiting[pass] == 0)
@@ -23,28 +23,28 @@ static uint32_t next_ready(const engine_dependency_graph *graph, const uint32_t 
 
 static void release_successors(const engine_dependency_graph *graph, uint32_t pass,
                                uint32_t *waiting) {
-    for (uint32_t n = 0; n < graph->edge_count; n++)
-        if (graph->edges[n].from == pass)
-            waiting[graph->edges[n].to]--;
+    for (uint32_t i = 0; i < graph->edge_count; i++)
+        if (graph->edges[i].from == pass)
+            waiting[graph->edges[i].to]--;
 }
 
 static uint32_t waiting_predecessor(const engine_dependency_graph *graph, const uint32_t *waiting,
                                     uint32_t pass) {
-    for (uint32_t n = 0; n < graph->edge_count; n++)
-        if (graph->edges[n].to == pass && waiting[graph->edges[n].from] != ENGINE_DEPENDENCY_NONE)
-            return graph->edges[n].from;
+    for (uint32_t i = 0; i < graph->edge_count; i++)
+        if (graph->edges[i].to == pass && waiting[graph->edges[i].from] != ENGINE_DEPENDENCY_NONE)
+            return graph->edges[i].from;
     return ENGINE_DEPENDENCY_NONE;
 }
 
 static bool is_on_walk(const uint32_t *walk, uint32_t length, uint32_t pass) {
-    for (uint32_t n = 0; n < length; n++)
-        if (walk[n] == pass)
+    for (uint32_t i = 0; i < length; i++)
+        if (walk[i] == pass)
             return true;
     return false;
 }
 
-/// Every pass still waiting has a predecessor still waiting: going back along those must come
-/// round to a pass met before, and from there on the walk is the cycle, backwards.
+/// Every pass that still waits has a predecessor that still waits. Following those must return to a
+/// pass already visited; from there on, the walk is the cycle in reverse.
 static void find_cycle(engine_dependency_graph *graph, const uint32_t *waiting) {
     uint32_t *walk = graph->cycle, length = 0, pass = 0;
     while (waiting[pass] == ENGINE_DEPENDENCY_NONE)
@@ -59,37 +59,37 @@ static void find_cycle(engine_dependency_graph *graph, const uint32_t *waiting) 
 }
 
 static void reverse(uint32_t *items, uint32_t count) {
-    for (uint32_t n = 0; n < count / 2; n++) {
-        uint32_t swapped = items[n];
-        items[n] = items[count - 1 - n];
-        items[count - 1 - n] = swapped;
+    for (uint32_t i = 0; i < count / 2; i++) {
+        uint32_t swapped = items[i];
+        items[i] = items[count - 1 - i];
+        items[count - 1 - i] = swapped;
     }
 }
 
-/// In order of execution, from the pass that was declared first. (Reversing all, then both parts
-/// apart, rotates.)
+/// Puts the cycle in order of execution, starting with the pass declared first. Reversing both
+/// parts and then everything is a rotation.
 static void arrange_cycle(engine_dependency_graph *graph) {
     uint32_t *cycle = graph->cycle, count = graph->cycle_count, first = 0;
     reverse(cycle, count);
-    for (uint32_t n = 1; n < count; n++)
-        if (cycle[n] < cycle[first])
-            first = n;
+    for (uint32_t i = 1; i < count; i++)
+        if (cycle[i] < cycle[first])
+            first = i;
     reverse(cycle, first);
     reverse(cycle + first, count - first);
     reverse(cycle, count);
 }
 
-/// A resource that two neighbours of the cycle share, for the message.
+/// A resource that two neighbours in the cycle share, for the message.
 static uint32_t cycle_resource(const engine_dependency_graph *graph) {
     uint32_t first = graph->cycle[0], second = graph->cycle[1 % graph->cycle_count];
-    for (uint32_t n = graph->passes[first].first_access; n != ENGINE_DEPENDENCY_NONE;
-         n = graph->accesses[n].next)
-        for (uint32_t m = graph->passes[second].first_access; m != ENGINE_DEPENDENCY_NONE;
-             m = graph->accesses[m].next)
-            if (graph->accesses[n].resource == graph->accesses[m].resource &&
-                (graph->accesses[n].kind != ENGINE_ACCESS_READ ||
-                 graph->accesses[m].kind != ENGINE_ACCESS_READ))
-                return graph->accesses[n].resource;
+    for (uint32_t i = graph->passes[first].first_access; i != ENGINE_DEPENDENCY_NONE;
+         i = graph->accesses[i].next)
+        for (uint32_t j = graph->passes[second].first_access; j != ENGINE_DEPENDENCY_NONE;
+             j = graph->accesses[j].next)
+            if (graph->accesses[i].resource == graph->accesses[j].resource &&
+                (graph->accesses[i].kind != ENGINE_ACCESS_READ ||
+                 graph->accesses[j].kind != ENGINE_ACCESS_READ))
+                return graph->accesses[i].resource;
     return ENGINE_DEPENDENCY_NONE;
 }
 
@@ -105,20 +105,20 @@ static bool fail_cycle(engine_dependency_graph *graph, const uint32_t *waiting) 
 
 bool engine_dependency_order(engine_dependency_graph *graph) {
     uint32_t *waiting = engine_arena_allocate(&graph->scratch, graph->pass_count * sizeof *waiting);
-    bool fine = waiting && reserve(graph);
-    if (!fine)
+    bool ok = waiting && reserve(graph);
+    if (!ok)
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
-    for (uint32_t n = 0; fine && n < graph->edge_count; n++)
-        waiting[graph->edges[n].to]++;
+    for (uint32_t i = 0; ok && i < graph->edge_count; i++)
+        waiting[graph->edges[i].to]++;
     graph->order_count = 0;
-    while (fine && graph->order_count < graph->pass_count) {
+    while (ok && graph->order_count < graph->pass_count) {
         uint32_t pass = next_ready(graph, waiting);
-        fine = pass != ENGINE_DEPENDENCY_NONE || fail_cycle(graph, waiting);
-        if (!fine)
+        ok = pass != ENGINE_DEPENDENCY_NONE || fail_cycle(graph, waiting);
+        if (!ok)
             break;
         waiting[pass] = ENGINE_DEPENDENCY_NONE; // placed
         graph->order[graph->order_count++] = pass;
         release_successors(graph, pass, waiting);
     }
-    return fine;
+    return ok;
 }

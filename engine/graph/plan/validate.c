@@ -2,11 +2,11 @@
 
 #include "engine/base/sort.h"
 
-/// What is known of one subresource while the accesses are walked in order of declaration.
+/// State of one subresource while walking the accesses in order of declaration.
 typedef struct subresource_history {
     uint32_t writer;       ///< newest access that wrote it, or NONE
-    uint32_t first_reader; ///< of `reader_list`: passes that read since then, or NONE
-    bool wanted;           ///< an output names what it holds
+    uint32_t first_reader; ///< list in `readers`: passes that have read it since, or NONE
+    bool is_output;        ///< its present content is an output
 } subresource_history;
 
 typedef struct reader_entry {
@@ -27,8 +27,8 @@ static bool history_create(engine_dependency_graph *graph, history *past) {
     past->reader_count = 0;
     if (!past->subresources || !past->readers)
         return false;
-    for (size_t n = 0; n < subresources; n++)
-        past->subresources[n] = (subresource_history){.writer = ENGINE_DEPENDENCY_NONE,
+    for (size_t i = 0; i < subresources; i++)
+        past->subresources[i] = (subresource_history){.writer = ENGINE_DEPENDENCY_NONE,
                                                       .first_reader = ENGINE_DEPENDENCY_NONE};
     return true;
 }
@@ -46,14 +46,14 @@ static bool fail(engine_dependency_graph *graph, engine_dependency_fault_kind ki
 }
 
 static bool pass_reads(const history *past, const subresource_history *subresource, uint32_t pass) {
-    for (uint32_t n = subresource->first_reader; n != ENGINE_DEPENDENCY_NONE;
-         n = past->readers[n].next)
-        if (past->readers[n].pass == pass)
+    for (uint32_t i = subresource->first_reader; i != ENGINE_DEPENDENCY_NONE;
+         i = past->readers[i].next)
+        if (past->readers[i].pass == pass)
             return true;
     return false;
 }
 
-/// From the host, or from the frame before.
+/// Content from the host, or from an earlier frame.
 static bool has_content_at_start(const engine_dependency_resource *resource, uint32_t subresource) {
     return resource->imported ||
            (resource->borrowed && resource->before.layout != ENGINE_LAYOUT_UNDEFINED) ||
@@ -75,8 +75,8 @@ static bool link_read(engine_dependency_graph *graph, history *past,
                                       ENGINE_HAZARD_READ_AFTER_WRITE);
 }
 
-static void remember_reader(history *past, subresource_history *now, uint32_t pass) {
-    // The draws of a pass may all read the same.
+static void add_reader(history *past, subresource_history *now, uint32_t pass) {
+    // All draws of a pass may read the same resource: list the pass once.
     if (now->first_reader != ENGINE_DEPENDENCY_NONE &&
         past->readers[now->first_reader].pass == pass)
         return;
@@ -88,7 +88,7 @@ static bool link_write(engine_dependency_graph *graph, history *past,
                        const engine_dependency_access *access, uint32_t subresource) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
     subresource_history *now = &past->subresources[resource->first_subresource + subresource];
-    if (now->wanted)
+    if (now->is_output)
         return fail(graph, ENGINE_FAULT_OVERWRITTEN, access, subresource);
     if (pass_reads(past, now, access->pass))
         return fail(graph, ENGINE_FAULT_CONFLICT, access, subresource);
@@ -100,8 +100,8 @@ static bool link_write(engine_dependency_graph *graph, history *past,
                                         ENGINE_HAZARD_WRITE_AFTER_WRITE))
             return false;
     }
-    for (uint32_t n = now->first_reader; n != ENGINE_DEPENDENCY_NONE; n = past->readers[n].next)
-        if (!engine_dependency_add_edge(graph, past->readers[n].pass, access->pass,
+    for (uint32_t i = now->first_reader; i != ENGINE_DEPENDENCY_NONE; i = past->readers[i].next)
+        if (!engine_dependency_add_edge(graph, past->readers[i].pass, access->pass,
                                         ENGINE_HAZARD_WRITE_AFTER_READ))
             return false;
     now->writer = (uint32_t)(access - graph->accesses);
@@ -112,31 +112,31 @@ static bool link_write(engine_dependency_graph *graph, history *past,
 static bool link_access(engine_dependency_graph *graph, history *past,
                         const engine_dependency_access *access) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
-    for (uint32_t n = 0; n < engine_access_size(access); n++) {
-        uint32_t subresource = engine_access_subresource(graph, access, n);
+    for (uint32_t i = 0; i < engine_access_size(access); i++) {
+        uint32_t subresource = engine_access_subresource(graph, access, i);
         subresource_history *now = &past->subresources[resource->first_subresource + subresource];
-        graph->sources[access->first_source + n] = now->writer;
+        graph->sources[access->first_source + i] = now->writer;
         if (access->kind != ENGINE_ACCESS_WRITE && !link_read(graph, past, access, subresource))
             return false;
         if (access->kind == ENGINE_ACCESS_READ)
-            remember_reader(past, now, access->pass);
+            add_reader(past, now, access->pass);
         else if (!link_write(graph, past, access, subresource))
             return false;
     }
     return true;
 }
 
-/// An output is whatever the resource holds; something, though, it must hold.
+/// An output is all content that the resource has; it must have some.
 static bool link_output(engine_dependency_graph *graph, history *past,
                         const engine_dependency_access *access) {
     const engine_dependency_resource *resource = &graph->resources[access->resource];
     bool written = false;
-    for (uint32_t n = 0; n < engine_access_size(access); n++) {
-        uint32_t subresource = engine_access_subresource(graph, access, n);
+    for (uint32_t i = 0; i < engine_access_size(access); i++) {
+        uint32_t subresource = engine_access_subresource(graph, access, i);
         subresource_history *now = &past->subresources[resource->first_subresource + subresource];
-        graph->sources[access->first_source + n] = now->writer;
-        now->wanted = now->writer != ENGINE_DEPENDENCY_NONE;
-        written = written || now->wanted || has_content_at_start(resource, subresource);
+        graph->sources[access->first_source + i] = now->writer;
+        now->is_output = now->writer != ENGINE_DEPENDENCY_NONE;
+        written = written || now->is_output || has_content_at_start(resource, subresource);
     }
     return written || fail(graph, ENGINE_FAULT_NEVER_WRITTEN, access, 0);
 }
@@ -155,26 +155,26 @@ static void merge_edges(engine_dependency_graph *graph) {
         return;
     engine_sort(graph->edges, graph->edge_count, sizeof *graph->edges, compare_edges);
     uint32_t kept = 0;
-    for (uint32_t n = 1; n < graph->edge_count; n++) {
-        if (compare_edges(&graph->edges[kept], &graph->edges[n]) == 0)
-            graph->edges[kept].hazards |= graph->edges[n].hazards;
+    for (uint32_t i = 1; i < graph->edge_count; i++) {
+        if (compare_edges(&graph->edges[kept], &graph->edges[i]) == 0)
+            graph->edges[kept].hazards |= graph->edges[i].hazards;
         else
-            graph->edges[++kept] = graph->edges[n];
+            graph->edges[++kept] = graph->edges[i];
     }
     graph->edge_count = kept + 1;
 }
 
 bool engine_dependency_link(engine_dependency_graph *graph) {
     history past = {0};
-    bool fine = history_create(graph, &past);
-    if (!fine)
+    bool ok = history_create(graph, &past);
+    if (!ok)
         engine_dependency_fail(graph, (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
-    for (uint32_t n = 0; fine && n < graph->access_count; n++) {
-        const engine_dependency_access *access = &graph->accesses[n];
-        fine = access->pass == ENGINE_DEPENDENCY_NONE ? link_output(graph, &past, access)
-                                                      : link_access(graph, &past, access);
+    for (uint32_t i = 0; ok && i < graph->access_count; i++) {
+        const engine_dependency_access *access = &graph->accesses[i];
+        ok = access->pass == ENGINE_DEPENDENCY_NONE ? link_output(graph, &past, access)
+                                                    : link_access(graph, &past, access);
     }
-    if (fine)
+    if (ok)
         merge_edges(graph);
-    return fine;
+    return ok;
 }

@@ -1,9 +1,9 @@
-#include "engine/graph/record/descriptor.h"
+#include "engine/graph/record/record.h"
 
 #include "engine/base/growing_array.h"
 #include "engine/device/vulkan_check.h"
-#include "engine/graph/declare/binding.h"
-#include "engine/graph/store/object.h"
+#include "engine/graph/declare/declare.h"
+#include "engine/graph/store/store.h"
 
 static const VkDescriptorType types[] = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
@@ -13,37 +13,18 @@ static const VkDescriptorType types[] = {
 };
 #define TYPE_COUNT (sizeof types / sizeof *types)
 
-VkImageLayout engine_graph_vulkan_layout(engine_layout layout) {
-    switch (layout) {
-    case ENGINE_LAYOUT_GENERAL:
-        return VK_IMAGE_LAYOUT_GENERAL;
-    case ENGINE_LAYOUT_SAMPLED:
-        return VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    case ENGINE_LAYOUT_COLOUR:
-        return VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    case ENGINE_LAYOUT_DEPTH:
-        return VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-    case ENGINE_LAYOUT_COPY_SOURCE:
-        return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-    case ENGINE_LAYOUT_COPY_TARGET:
-        return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    default:
-        return VK_IMAGE_LAYOUT_UNDEFINED;
-    }
-}
-
 // ---------------------------------------------------------------------------------------------
 // Which commands need a set
 
-/// Commands of running passes that have a pipeline, one after the other. Start with zero.
+/// Walks the commands of running passes that have a pipeline. Starts zeroed.
 typedef struct command_walk {
     uint32_t position;
     lobe_pass *pass;
     engine_graph_command *command;
-    bool shares_set; ///< with the one before
+    bool shares_set; ///< with the previous command
 } command_walk;
 
-/// Draws that follow one another with the same pipeline and no bindings of their own share a set.
+/// Consecutive draws with the same pipeline and no bindings of their own share a set.
 static bool can_share_set(const engine_graph_command *command, const engine_graph_command *before) {
     return before->pipeline == command->pipeline && !before->bindings.first &&
            !command->bindings.first;
@@ -57,9 +38,9 @@ static bool next_command(const lobe_graph *graph, command_walk *walk) {
             command = command->next;
             continue;
         }
-        if (walk->position == graph->dependencies.running_count)
+        if (walk->position == graph->frame.dependencies.running_count)
             return false;
-        walk->pass = graph->passes[graph->dependencies.running[walk->position++]];
+        walk->pass = graph->frame.passes[graph->frame.dependencies.running[walk->position++]];
         command = walk->pass->first_command;
         before = NULL;
     }
@@ -68,11 +49,11 @@ static bool next_command(const lobe_graph *graph, command_walk *walk) {
     return true;
 }
 
-/// What sets of this frame's commands take.
+/// What the sets of this frame's commands need.
 typedef struct set_needs {
     uint32_t counts[1 + TYPE_COUNT]; ///< sets, then descriptors by type
     uint32_t variables;
-    engine_stamp plan; ///< of the layouts of the sets
+    engine_stamp plan; ///< digest of the layouts of the sets
 } set_needs;
 
 static set_needs count_needs(const lobe_graph *graph) {
@@ -84,10 +65,10 @@ static set_needs count_needs(const lobe_graph *graph) {
         needs.counts[0]++;
         needs.variables += (uint32_t)pipeline->binding_count;
         needs.plan = engine_stamp_mix(needs.plan, (uint64_t)pipeline->set_layout);
-        for (size_t n = 0; n < pipeline->binding_count; n++)
+        for (size_t i = 0; i < pipeline->binding_count; i++)
             for (size_t type = 0; type < TYPE_COUNT; type++)
-                if (pipeline->bindings[n].type == types[type])
-                    needs.counts[1 + type] += pipeline->bindings[n].count;
+                if (pipeline->bindings[i].type == types[type])
+                    needs.counts[1 + type] += pipeline->bindings[i].count;
     }
     return needs;
 }
@@ -99,31 +80,31 @@ static lobe_result create_pool(lobe_graph *graph) {
     lobe_device *device = graph->device;
     VkDescriptorPoolSize sizes[TYPE_COUNT];
     uint32_t used = 0;
-    for (size_t n = 0; n < TYPE_COUNT; n++)
-        if (graph->flight->descriptor_capacity[1 + n] > 0)
+    for (size_t i = 0; i < TYPE_COUNT; i++)
+        if (graph->frame.flight->descriptor_capacity[1 + i] > 0)
             sizes[used++] =
-                (VkDescriptorPoolSize){types[n], graph->flight->descriptor_capacity[1 + n]};
+                (VkDescriptorPoolSize){types[i], graph->frame.flight->descriptor_capacity[1 + i]};
     const VkDescriptorPoolCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = graph->flight->descriptor_capacity[0],
+        .maxSets = graph->frame.flight->descriptor_capacity[0],
         .poolSizeCount = used,
         .pPoolSizes = sizes,
     };
     return VULKAN_CHECK(&device->host,
                         device->api.vkCreateDescriptorPool(device->vulkan, &create,
                                                            device->callbacks,
-                                                           &graph->flight->descriptors),
+                                                           &graph->frame.flight->descriptors),
                         "render graph");
 }
 
-/// Empties the pool; makes a larger one where it is too small for this frame.
+/// Empties the pool, or replaces it by a larger one if it is too small for this frame.
 static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
     lobe_device *device = graph->device;
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     bool large_enough = flight->descriptors != VK_NULL_HANDLE;
-    for (size_t n = 0; n < 1 + TYPE_COUNT; n++)
-        if (needs->counts[n] > flight->descriptor_capacity[n]) {
-            flight->descriptor_capacity[n] = needs->counts[n];
+    for (size_t i = 0; i < 1 + TYPE_COUNT; i++)
+        if (needs->counts[i] > flight->descriptor_capacity[i]) {
+            flight->descriptor_capacity[i] = needs->counts[i];
             large_enough = false;
         }
     if (large_enough)
@@ -140,9 +121,10 @@ static lobe_result prepare_pool(lobe_graph *graph, const set_needs *needs) {
 // Sets
 
 static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     uint32_t filled = 0;
-    VkDescriptorSetLayout *layouts = engine_arena_allocate(&graph->arena, count * sizeof *layouts);
+    VkDescriptorSetLayout *layouts =
+        engine_arena_allocate(&graph->frame.arena, count * sizeof *layouts);
     if (!layouts || !engine_array_reserve(graph->device->host.allocator, (void **)&flight->sets,
                                           &flight->set_capacity, count, sizeof *flight->sets))
         return engine_graph_fail_memory(graph);
@@ -161,16 +143,16 @@ static lobe_result allocate_sets(lobe_graph *graph, uint32_t count) {
         "render graph");
 }
 
-/// The sets of the flight's last frame serve where this one needs the very same.
+/// Reuses the sets of the flight's last frame if this frame needs exactly the same.
 static lobe_result prepare_sets(lobe_graph *graph, const set_needs *needs) {
-    if (graph->flight->set_plan == needs->plan || needs->counts[0] == 0)
+    if (graph->frame.flight->set_plan == needs->plan || needs->counts[0] == 0)
         return LOBE_OK;
-    graph->flight->set_plan = ENGINE_STAMP_NONE;
+    graph->frame.flight->set_plan = ENGINE_STAMP_NONE;
     lobe_result result = prepare_pool(graph, needs);
     if (result == LOBE_OK)
         result = allocate_sets(graph, needs->counts[0]);
     if (result == LOBE_OK)
-        graph->flight->set_plan = needs->plan;
+        graph->frame.flight->set_plan = needs->plan;
     return result;
 }
 
@@ -178,14 +160,14 @@ static void assign_sets(const lobe_graph *graph) {
     uint32_t next = 0;
     for (command_walk walk = {0}; next_command(graph, &walk);) {
         next += !walk.shares_set;
-        walk.command->set = graph->flight->sets[next - 1];
+        walk.command->set = graph->frame.flight->sets[next - 1];
     }
 }
 
 // ---------------------------------------------------------------------------------------------
-// Their content
+// Content of the sets
 
-/// What is written to all sets of a frame at once; each write has an image or a buffer.
+/// Writes to all sets of a frame, made in one call; each has an image or a buffer.
 typedef struct write_batch {
     VkWriteDescriptorSet *writes;
     VkDescriptorImageInfo *images;
@@ -202,7 +184,7 @@ static bool create_batch(engine_arena *arena, uint32_t count, write_batch *batch
 
 static VkDescriptorBufferInfo describe_block(const engine_graph_resource *resource,
                                              const engine_shader_binding *variable) {
-    // Uniform blocks are limited in size, the buffers they lie in are not.
+    // Uniform blocks are limited in size, unlike the buffers that contain them.
     bool uniform = variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     return (VkDescriptorBufferInfo){.buffer = resource->object->buffer,
                                     .offset = resource->offset,
@@ -213,10 +195,10 @@ static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource
                                   const engine_graph_binding *binding,
                                   const engine_shader_binding *variable,
                                   VkDescriptorImageInfo *image) {
-    const engine_dependency_access *access = &graph->dependencies.accesses[binding->access];
+    const engine_dependency_access *access = &graph->frame.dependencies.accesses[binding->access];
     image->imageLayout = engine_graph_vulkan_layout(access->state.layout);
-    lobe_result result = engine_graph_view_of(graph->device, resource, variable->view,
-                                              &access->range, &image->imageView);
+    lobe_result result = engine_graph_get_view(graph->device, resource, variable->view,
+                                               &access->range, &image->imageView);
     if (result == LOBE_OK && variable->type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
         result = engine_sampler(graph->device, &binding->sampler, &image->sampler);
     return result;
@@ -225,11 +207,11 @@ static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource
 static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
                                 const engine_shader_binding *variable, write_batch *batch) {
     const engine_graph_binding *binding =
-        engine_graph_bound(walk->pass, walk->command, variable->name);
+        engine_graph_find_binding(walk->pass, walk->command, variable->name);
     if (!binding)
-        return LOBE_OK; // no code of the shader refers to it
+        return LOBE_OK; // declared in the shader but not used
     const engine_graph_resource *resource =
-        &graph->resources[graph->dependencies.accesses[binding->access].resource];
+        &graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource];
     uint32_t n = batch->count++;
     batch->writes[n] = (VkWriteDescriptorSet){
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -249,11 +231,11 @@ static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
 static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {
     write_batch batch;
     lobe_result result = LOBE_OK;
-    if (!create_batch(&graph->arena, variables, &batch))
+    if (!create_batch(&graph->frame.arena, variables, &batch))
         return engine_graph_fail_memory(graph);
     for (command_walk walk = {0}; next_command(graph, &walk);)
-        for (size_t n = 0; !walk.shares_set && n < walk.command->pipeline->binding_count; n++) {
-            result = add_variable(graph, &walk, &walk.command->pipeline->bindings[n], &batch);
+        for (size_t i = 0; !walk.shares_set && i < walk.command->pipeline->binding_count; i++) {
+            result = add_variable(graph, &walk, &walk.command->pipeline->bindings[i], &batch);
             if (result != LOBE_OK)
                 return result;
         }

@@ -4,15 +4,11 @@
 
 #include <lobe/vulkan.h>
 
-#include "engine/base/host_clock.h"
 #include "engine/device/vulkan_check.h"
-#include "engine/graph/record/descriptor.h"
-#include "engine/graph/record/flight.h"
 #include "engine/graph/report.h"
-#include "engine/graph/store/memory.h"
-#include "engine/graph/store/retain.h"
+#include "engine/graph/store/store.h"
 
-/// Copies of images start at multiples of the texel size, of which this is the largest.
+/// Image copies start at multiples of the texel size; this is the largest.
 #define READ_BACK_ALIGNMENT 16
 
 // ---------------------------------------------------------------------------------------------
@@ -24,32 +20,32 @@ static engine_graph_command *read_back_of(const lobe_pass *pass) {
 
 static lobe_result place_read_backs(lobe_graph *graph) {
     uint64_t size = 0;
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++) {
-        engine_graph_command *command = read_back_of(graph->passes[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        engine_graph_command *command = read_back_of(graph->frame.passes[i]);
         if (!command)
             continue;
         command->read_back_offset = size;
         size += (command->read_back_size + READ_BACK_ALIGNMENT - 1) / READ_BACK_ALIGNMENT *
                 READ_BACK_ALIGNMENT;
     }
-    if (size <= graph->flight->read_back.size)
+    if (size <= graph->frame.flight->read_back.size)
         return LOBE_OK;
-    engine_staging_destroy(graph->device, &graph->flight->read_back);
+    engine_staging_destroy(graph->device, &graph->frame.flight->read_back);
     return engine_staging_create(graph->device, "read back of the frame", size,
-                                 ENGINE_MEMORY_READ_BACK, &graph->flight->read_back);
+                                 ENGINE_MEMORY_READ_BACK, &graph->frame.flight->read_back);
 }
 
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size) {
-    if (graph->phase != ENGINE_GRAPH_EXECUTED || graph->result != LOBE_OK)
+    if (graph->frame.phase != ENGINE_GRAPH_EXECUTED || graph->frame.result != LOBE_OK)
         return NULL;
-    for (uint32_t n = 0; n < graph->dependencies.pass_count; n++) {
-        const engine_graph_command *command = read_back_of(graph->passes[n]);
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        const engine_graph_command *command = read_back_of(graph->frame.passes[i]);
         if (!command || command->read_back.index != resource.index ||
             command->read_back.version != resource.version)
             continue;
         if (size)
             *size = command->read_back_size;
-        return (const char *)graph->flight->read_back.mapped + command->read_back_offset;
+        return (const char *)graph->frame.flight->read_back.mapped + command->read_back_offset;
     }
     return NULL;
 }
@@ -63,45 +59,46 @@ static lobe_result begin_recording(lobe_graph *graph) {
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT,
     };
-    lobe_result result =
-        VULKAN_CHECK(&device->host,
-                     device->api.vkResetCommandPool(device->vulkan, graph->flight->command_pool, 0),
-                     "render graph");
+    lobe_result result = VULKAN_CHECK(
+        &device->host,
+        device->api.vkResetCommandPool(device->vulkan, graph->frame.flight->command_pool, 0),
+        "render graph");
     if (result == LOBE_OK)
-        result =
-            VULKAN_CHECK(&device->host, device->api.vkBeginCommandBuffer(graph->commands, &begin),
-                         "render graph");
+        result = VULKAN_CHECK(&device->host,
+                              device->api.vkBeginCommandBuffer(graph->frame.commands, &begin),
+                              "render graph");
     return result;
 }
 
 static lobe_result record_passes(lobe_graph *graph) {
-    uint32_t next_barrier = 0, count = graph->dependencies.running_count;
+    uint32_t next_barrier = 0, count = graph->frame.dependencies.running_count;
     lobe_result result = LOBE_OK;
     engine_graph_reset_timestamps(graph);
-    engine_graph_record_start(graph);
-    for (uint32_t n = 0; result == LOBE_OK && n < count; n++) {
-        engine_graph_write_timestamp(graph, n, false);
-        result = engine_graph_record_barriers(graph, n, &next_barrier);
+    engine_graph_record_first_barrier(graph);
+    for (uint32_t i = 0; result == LOBE_OK && i < count; i++) {
+        engine_graph_write_timestamp(graph, i, false);
+        result = engine_graph_record_barriers(graph, i, &next_barrier);
         if (result == LOBE_OK)
-            result = engine_graph_record_pass(graph, graph->passes[graph->dependencies.running[n]]);
-        engine_graph_write_timestamp(graph, n, true);
+            result = engine_graph_record_pass(
+                graph, graph->frame.passes[graph->frame.dependencies.running[i]]);
+        engine_graph_write_timestamp(graph, i, true);
     }
     if (result == LOBE_OK)
         result = engine_graph_record_barriers(graph, count, &next_barrier);
-    engine_graph_record_end(graph);
+    engine_graph_record_last_barrier(graph);
     return result;
 }
 
-/// `host`: into the command buffer of the host.
+/// `host`: the host's command buffer to record into; VK_NULL_HANDLE: the flight's.
 static lobe_result record(lobe_graph *graph, VkCommandBuffer host) {
-    graph->commands = host ? host : graph->flight->commands;
+    graph->frame.commands = host ? host : graph->frame.flight->commands;
     lobe_result result = host ? LOBE_OK : begin_recording(graph);
     if (result == LOBE_OK)
         result = record_passes(graph);
     if (result == LOBE_OK && !host)
-        result =
-            VULKAN_CHECK(&graph->device->host,
-                         graph->device->api.vkEndCommandBuffer(graph->commands), "render graph");
+        result = VULKAN_CHECK(&graph->device->host,
+                              graph->device->api.vkEndCommandBuffer(graph->frame.commands),
+                              "render graph");
     return result;
 }
 
@@ -119,19 +116,19 @@ static lobe_result prepare(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Execution
 
-/// Where the host submits, it does so before anything else that lobe does on the queue: what is
-/// retained counts as made in both cases.
+/// If the host submits, it does so before anything else that lobe submits: in both cases, retained
+/// content counts as written.
 static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     lobe_result result = LOBE_OK;
     engine_graph_invalidate_retained(graph);
     if (!submission || !submission->commands)
-        result =
-            engine_device_submit(graph->device, graph->commands, submission, &flight->submission);
+        result = engine_device_submit(graph->device, graph->frame.commands, submission,
+                                      &flight->submission);
     if (result != LOBE_OK)
         return result;
     flight->busy = true;
-    engine_graph_record_retained(graph);
+    engine_graph_stamp_retained(graph);
     return LOBE_OK;
 }
 
@@ -140,20 +137,20 @@ lobe_result engine_graph_run(lobe_graph *graph, const lobe_vulkan_submission *su
     lobe_result result = prepare(graph);
     if (result == LOBE_OK)
         result = record(graph, submission ? submission->commands : VK_NULL_HANDLE);
-    graph->report.host_milliseconds += engine_host_milliseconds() - start;
+    graph->frame.report.host_milliseconds += engine_host_milliseconds() - start;
     if (result == LOBE_OK)
         result = submit(graph, submission);
-    graph->phase = result == LOBE_OK ? ENGINE_GRAPH_SUBMITTED : ENGINE_GRAPH_EXECUTED;
-    engine_graph_forget_imports(graph);
+    graph->frame.phase = result == LOBE_OK ? ENGINE_GRAPH_SUBMITTED : ENGINE_GRAPH_EXECUTED;
+    engine_graph_release_imports(graph);
     return result;
 }
 
 lobe_result engine_graph_finish(lobe_graph *graph) {
-    engine_graph_flight *flight = graph->flight;
+    engine_graph_flight *flight = graph->frame.flight;
     lobe_result result = LOBE_OK;
     if (flight->submission)
         result = engine_device_wait(graph->device, flight->submission);
-    graph->phase = ENGINE_GRAPH_EXECUTED;
+    graph->frame.phase = ENGINE_GRAPH_EXECUTED;
     engine_graph_retire_flight(graph, flight);
     if (result == LOBE_OK)
         result = engine_graph_read_timestamps(graph);

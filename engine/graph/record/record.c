@@ -2,35 +2,34 @@
 
 #include <string.h>
 
-#include "engine/graph/record/descriptor.h"
-#include "engine/graph/store/object.h"
+#include "engine/graph/store/store.h"
 #include "engine/resource/format.h"
 
 static const engine_dependency_access *access_at(const lobe_graph *graph, uint32_t access) {
-    return &graph->dependencies.accesses[access];
+    return &graph->frame.dependencies.accesses[access];
 }
 
 static engine_graph_resource *resource_at(const lobe_graph *graph, uint32_t access) {
-    return &graph->resources[access_at(graph, access)->resource];
+    return &graph->frame.resources[access_at(graph, access)->resource];
 }
 
 // ---------------------------------------------------------------------------------------------
 // Dispatches and draws
 
-/// `before`: the pass's command before this one, or NULL; what it has bound is still bound.
+/// `before`: the pass's previous command, or NULL; what it bound is still bound.
 static void bind_command(lobe_graph *graph, const engine_graph_command *command,
                          const engine_graph_command *before, const void *constants,
                          size_t constants_size) {
     const engine_pipeline *pipeline = command->pipeline;
     const bool bound = before && before->pipeline == pipeline;
     if (!bound)
-        graph->device->api.vkCmdBindPipeline(graph->commands, pipeline->bind_point,
+        graph->device->api.vkCmdBindPipeline(graph->frame.commands, pipeline->bind_point,
                                              pipeline->pipeline);
     if (!bound || before->set != command->set)
-        graph->device->api.vkCmdBindDescriptorSets(graph->commands, pipeline->bind_point,
+        graph->device->api.vkCmdBindDescriptorSets(graph->frame.commands, pipeline->bind_point,
                                                    pipeline->layout, 0, 1, &command->set, 0, NULL);
     if (constants_size > 0)
-        graph->device->api.vkCmdPushConstants(graph->commands, pipeline->layout,
+        graph->device->api.vkCmdPushConstants(graph->frame.commands, pipeline->layout,
                                               pipeline->push_constant_stages, 0,
                                               (uint32_t)constants_size, constants);
 }
@@ -39,7 +38,7 @@ static void record_dispatch(lobe_graph *graph, const engine_graph_command *comma
                             const engine_graph_command *before) {
     bind_command(graph, command, before, command->dispatch.constants,
                  command->dispatch.constants_size);
-    graph->device->api.vkCmdDispatch(graph->commands, command->group_count[0],
+    graph->device->api.vkCmdDispatch(graph->frame.commands, command->group_count[0],
                                      command->group_count[1], command->group_count[2]);
 }
 
@@ -48,15 +47,15 @@ static void record_draw(lobe_graph *graph, const engine_graph_command *command,
     const lobe_draw *draw = &command->draw;
     bind_command(graph, command, before, draw->constants, draw->constants_size);
     if (command->index_access == ENGINE_DEPENDENCY_NONE) {
-        graph->device->api.vkCmdDraw(graph->commands, draw->index_count, draw->instance_count,
+        graph->device->api.vkCmdDraw(graph->frame.commands, draw->index_count, draw->instance_count,
                                      draw->first_index, 0);
         return;
     }
     const engine_graph_resource *indices = resource_at(graph, command->index_access);
-    graph->device->api.vkCmdBindIndexBuffer(graph->commands, indices->object->buffer,
+    graph->device->api.vkCmdBindIndexBuffer(graph->frame.commands, indices->object->buffer,
                                             indices->offset, VK_INDEX_TYPE_UINT32);
-    graph->device->api.vkCmdDrawIndexed(graph->commands, draw->index_count, draw->instance_count,
-                                        draw->first_index, 0, 0);
+    graph->device->api.vkCmdDrawIndexed(graph->frame.commands, draw->index_count,
+                                        draw->instance_count, draw->first_index, 0, 0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -73,19 +72,19 @@ static VkAttachmentLoadOp load_of(lobe_load load) {
     }
 }
 
-/// What nothing reads after this pass need not reach memory.
+/// What nothing reads after this pass need not be stored.
 static VkAttachmentStoreOp store_of(const lobe_graph *graph, const lobe_pass *pass,
                                     uint32_t access) {
     uint32_t index = access_at(graph, access)->resource;
-    bool last = graph->resources[index].origin == ENGINE_GRAPH_TRANSIENT &&
-                graph->dependencies.resources[index].last_position ==
-                    graph->dependencies.passes[pass->index].position;
+    bool last = graph->frame.resources[index].origin == ENGINE_GRAPH_TRANSIENT &&
+                graph->frame.dependencies.resources[index].last_position ==
+                    graph->frame.dependencies.passes[pass->index].position;
     return last ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
 }
 
 static lobe_result attachment_view(lobe_graph *graph, uint32_t access, VkImageView *view) {
-    return engine_graph_view_of(graph->device, resource_at(graph, access), VK_IMAGE_VIEW_TYPE_2D,
-                                &access_at(graph, access)->range, view);
+    return engine_graph_get_view(graph->device, resource_at(graph, access), VK_IMAGE_VIEW_TYPE_2D,
+                                 &access_at(graph, access)->range, view);
 }
 
 static lobe_result describe_attachment(lobe_graph *graph, const lobe_pass *pass,
@@ -100,7 +99,7 @@ static lobe_result describe_attachment(lobe_graph *graph, const lobe_pass *pass,
         engine_graph_vulkan_layout(access_at(graph, attachment->access)->state.layout);
     information->loadOp = load_of(attachment->load);
     information->storeOp = store_of(graph, pass, attachment->access);
-    // The clear values of depth and of the first colour channel are the same bytes.
+    // Depth and the first colour channel share the same bytes of the clear value.
     memcpy(information->clearValue.color.float32, attachment->clear, sizeof attachment->clear);
     return attachment_view(graph, attachment->access, &information->imageView);
 }
@@ -125,10 +124,10 @@ static uint32_t colour_count(const lobe_pass *pass) {
 static lobe_result begin_rendering(lobe_graph *graph, const lobe_pass *pass) {
     VkRenderingAttachmentInfo colours[ENGINE_MAXIMUM_COLOUR_ATTACHMENTS], depth;
     lobe_result result = describe_attachment(graph, pass, &pass->depth, &depth);
-    for (uint32_t n = 0; result == LOBE_OK && n < colour_count(pass); n++) {
-        result = describe_attachment(graph, pass, &pass->colour[n], &colours[n]);
+    for (uint32_t i = 0; result == LOBE_OK && i < colour_count(pass); i++) {
+        result = describe_attachment(graph, pass, &pass->colour[i], &colours[i]);
         if (result == LOBE_OK)
-            result = describe_resolve(graph, &pass->resolve[n], &colours[n]);
+            result = describe_resolve(graph, &pass->resolve[i], &colours[i]);
     }
     if (result != LOBE_OK)
         return result;
@@ -140,7 +139,7 @@ static lobe_result begin_rendering(lobe_graph *graph, const lobe_pass *pass) {
         .pColorAttachments = colours,
         .pDepthAttachment = depth.imageView ? &depth : NULL,
     };
-    graph->device->api.vkCmdBeginRendering(graph->commands, &rendering);
+    graph->device->api.vkCmdBeginRendering(graph->frame.commands, &rendering);
     return LOBE_OK;
 }
 
@@ -151,12 +150,12 @@ static lobe_result record_raster(lobe_graph *graph, const lobe_pass *pass) {
     const VkViewport viewport = {
         .width = (float)pass->extent.width, .height = (float)pass->extent.height, .maxDepth = 1};
     const VkRect2D scissor = {.extent = pass->extent};
-    graph->device->api.vkCmdSetViewport(graph->commands, 0, 1, &viewport);
-    graph->device->api.vkCmdSetScissor(graph->commands, 0, 1, &scissor);
+    graph->device->api.vkCmdSetViewport(graph->frame.commands, 0, 1, &viewport);
+    graph->device->api.vkCmdSetScissor(graph->frame.commands, 0, 1, &scissor);
     for (const engine_graph_command *command = pass->first_command, *before = NULL; command;
          before = command, command = command->next)
         record_draw(graph, command, before);
-    graph->device->api.vkCmdEndRendering(graph->commands);
+    graph->device->api.vkCmdEndRendering(graph->frame.commands);
     return LOBE_OK;
 }
 
@@ -164,8 +163,8 @@ static lobe_result record_raster(lobe_graph *graph, const lobe_pass *pass) {
 // Transfers
 
 static VkExtent3D level_extent(const engine_graph_resource *image, uint32_t level) {
-    uint32_t width = image->width >> level, height = image->height >> level;
-    return (VkExtent3D){width ? width : 1, height ? height : 1, 1};
+    return (VkExtent3D){engine_graph_level_extent(image->width, level),
+                        engine_graph_level_extent(image->height, level), 1};
 }
 
 static VkImageSubresourceLayers layers_of(const engine_graph_resource *image,
@@ -179,13 +178,14 @@ static void copy_images(lobe_graph *graph, const engine_graph_command *command) 
     const engine_graph_resource *target = resource_at(graph, command->target_access);
     const engine_dependency_access *from = access_at(graph, command->source_access);
     const engine_dependency_access *to = access_at(graph, command->target_access);
-    for (uint32_t n = 0; n < from->range.level_count; n++) {
-        const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, n),
-                                  .dstSubresource = layers_of(target, &to->range, n),
-                                  .extent = level_extent(source, from->range.first_level + n)};
-        graph->device->api.vkCmdCopyImage(
-            graph->commands, source->object->image, engine_graph_vulkan_layout(from->state.layout),
-            target->object->image, engine_graph_vulkan_layout(to->state.layout), 1, &copy);
+    for (uint32_t i = 0; i < from->range.level_count; i++) {
+        const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, i),
+                                  .dstSubresource = layers_of(target, &to->range, i),
+                                  .extent = level_extent(source, from->range.first_level + i)};
+        graph->device->api.vkCmdCopyImage(graph->frame.commands, source->object->image,
+                                          engine_graph_vulkan_layout(from->state.layout),
+                                          target->object->image,
+                                          engine_graph_vulkan_layout(to->state.layout), 1, &copy);
     }
 }
 
@@ -198,7 +198,7 @@ static void record_copy(lobe_graph *graph, const engine_graph_command *command) 
     }
     const VkBufferCopy copy = {
         .srcOffset = source->offset, .dstOffset = target->offset, .size = source->size};
-    graph->device->api.vkCmdCopyBuffer(graph->commands, source->object->buffer,
+    graph->device->api.vkCmdCopyBuffer(graph->frame.commands, source->object->buffer,
                                        target->object->buffer, 1, &copy);
 }
 
@@ -214,11 +214,11 @@ static void fill_image(lobe_graph *graph, const engine_graph_command *command) {
     memcpy(colour.float32, command->value, sizeof colour.float32);
     const VkClearDepthStencilValue depth = {.depth = command->value[0]};
     if (aspect == VK_IMAGE_ASPECT_DEPTH_BIT)
-        graph->device->api.vkCmdClearDepthStencilImage(graph->commands, target->object->image,
+        graph->device->api.vkCmdClearDepthStencilImage(graph->frame.commands, target->object->image,
                                                        layout, &depth, 1, &range);
     else
-        graph->device->api.vkCmdClearColorImage(graph->commands, target->object->image, layout,
-                                                &colour, 1, &range);
+        graph->device->api.vkCmdClearColorImage(graph->frame.commands, target->object->image,
+                                                layout, &colour, 1, &range);
 }
 
 static void record_fill(lobe_graph *graph, const engine_graph_command *command) {
@@ -229,22 +229,22 @@ static void record_fill(lobe_graph *graph, const engine_graph_command *command) 
         return;
     }
     memcpy(&bits, command->value, sizeof bits);
-    graph->device->api.vkCmdFillBuffer(graph->commands, target->object->buffer, target->offset,
-                                       VK_WHOLE_SIZE, bits);
+    graph->device->api.vkCmdFillBuffer(graph->frame.commands, target->object->buffer,
+                                       target->offset, VK_WHOLE_SIZE, bits);
 }
 
 static void read_back_image(lobe_graph *graph, const engine_graph_command *command) {
     const engine_graph_resource *source = resource_at(graph, command->source_access);
     const engine_dependency_access *access = access_at(graph, command->source_access);
     VkDeviceSize offset = command->read_back_offset;
-    for (uint32_t n = 0; n < access->range.level_count; n++) {
-        VkExtent3D extent = level_extent(source, access->range.first_level + n);
+    for (uint32_t i = 0; i < access->range.level_count; i++) {
+        VkExtent3D extent = level_extent(source, access->range.first_level + i);
         const VkBufferImageCopy copy = {.bufferOffset = offset,
-                                        .imageSubresource = layers_of(source, &access->range, n),
+                                        .imageSubresource = layers_of(source, &access->range, i),
                                         .imageExtent = extent};
-        graph->device->api.vkCmdCopyImageToBuffer(graph->commands, source->object->image,
+        graph->device->api.vkCmdCopyImageToBuffer(graph->frame.commands, source->object->image,
                                                   engine_graph_vulkan_layout(access->state.layout),
-                                                  graph->flight->read_back.buffer, 1, &copy);
+                                                  graph->frame.flight->read_back.buffer, 1, &copy);
         offset += (VkDeviceSize)extent.width * extent.height * access->range.layer_count *
                   lobe_format_size(source->format);
     }
@@ -259,8 +259,8 @@ static void record_read_back(lobe_graph *graph, const engine_graph_command *comm
     const VkBufferCopy copy = {.srcOffset = source->offset,
                                .dstOffset = command->read_back_offset,
                                .size = command->read_back_size};
-    graph->device->api.vkCmdCopyBuffer(graph->commands, source->object->buffer,
-                                       graph->flight->read_back.buffer, 1, &copy);
+    graph->device->api.vkCmdCopyBuffer(graph->frame.commands, source->object->buffer,
+                                       graph->frame.flight->read_back.buffer, 1, &copy);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -287,13 +287,13 @@ static void record_command(lobe_graph *graph, const engine_graph_command *comman
 
 lobe_result engine_graph_record_pass(lobe_graph *graph, lobe_pass *pass) {
     lobe_result result = LOBE_OK;
-    engine_device_begin_label(graph->device, graph->commands, pass->name);
+    engine_device_begin_label(graph->device, graph->frame.commands, pass->name);
     if (pass->kind == LOBE_PASS_RASTER)
         result = record_raster(graph, pass);
     else
         for (const engine_graph_command *command = pass->first_command, *before = NULL; command;
              before = command, command = command->next)
             record_command(graph, command, before);
-    engine_device_end_label(graph->device, graph->commands);
+    engine_device_end_label(graph->device, graph->frame.commands);
     return result;
 }

@@ -31,7 +31,7 @@ static int64_t floor_divide(int64_t value, int64_t divisor) {
     return value / divisor - (value % divisor < 0);
 }
 
-/// Samples of a channel in row `y` of a block: only coordinates that the sampling divides.
+/// Samples of a channel in row `y` of a block: only at coordinates that the sampling rate divides.
 static int64_t samples_in_row(const exr_attr_chlist_entry_t *channel, const exr_block *block,
                               int64_t y) {
     if (y % channel->y_sampling != 0)
@@ -40,7 +40,7 @@ static int64_t samples_in_row(const exr_attr_chlist_entry_t *channel, const exr_
            floor_divide(block->x - 1, channel->x_sampling);
 }
 
-/// What a block unpacks to when its channels are what the header says.
+/// Bytes that a block unpacks to, from the channels in the header.
 static uint64_t unpacked_size(const exr_reader *reader, const exr_block *block) {
     uint64_t size = 0;
     for (int64_t y = block->y; y < block->y + block->height; y++) {
@@ -52,7 +52,7 @@ static uint64_t unpacked_size(const exr_reader *reader, const exr_block *block) 
     return size;
 }
 
-/// Texel (x, y) of the windows' coordinates; NULL outside the display window.
+/// Texel (x, y) in the coordinates of the windows; NULL outside the display window.
 static float *find_texel(const exr_reader *reader, int64_t x, int64_t y) {
     int64_t column = x - reader->display.x, row = y - reader->display.y;
     if (column < 0 || row < 0 || column >= reader->image->width || row >= reader->image->height)
@@ -110,14 +110,15 @@ static exr_result_t prepare_pipeline(exr_reader *reader, const exr_chunk_info_t 
     if (code == EXR_ERR_SUCCESS)
         code = exr_decoding_choose_default_routines(reader->input.context, reader->part,
                                                     &reader->pipeline);
-    // Reading and unpacking is OpenEXRCore's work; sorting out the channels is done here, where
-    // every size has been checked.
+    // OpenEXRCore reads and decompresses; the channels are separated here, where every size has
+    // been checked.
     reader->pipeline.unpack_and_convert_fn = NULL;
     return code;
 }
 
-/// OpenEXRCore 3.1.5 does not compare a block's size in the file with what its own channels need:
-/// a shorter raw block would be read past its end, a longer one written past a buffer.
+/// OpenEXRCore 3.1.5 does not compare a block's size in the file with what its channels need: it
+/// would read past the end of a raw block that is too short, and write past a buffer for one that
+/// is too long.
 static bool is_consistent(const exr_reader *reader, const exr_chunk_info_t *chunk,
                           const exr_block *block) {
     return chunk->unpacked_size == unpacked_size(reader, block) && chunk->packed_size > 0 &&
@@ -179,7 +180,7 @@ static lobe_result decode_tiles(exr_reader *reader) {
     if (code != EXR_ERR_SUCCESS)
         return engine_exr_fail(&reader->input, code);
     if (width < 1 || height < 1)
-        return engine_exr_fail_damaged(&reader->input, "tiles without extent");
+        return engine_exr_fail_damaged(&reader->input, "the size of the tiles is 0");
     for (int64_t row = 0; row * height < reader->data.height; row++) {
         for (int64_t column = 0; column * width < reader->data.width; column++) {
             lobe_result result = decode_tile(reader, (int)column, (int)row, width, height);
@@ -191,7 +192,7 @@ static lobe_result decode_tiles(exr_reader *reader) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What OpenEXRCore cannot unpack
+// What OpenEXRCore cannot decompress
 
 bool engine_exr_is_left_to_openexr(const exr_reader *reader) {
     exr_compression_t compression;
@@ -209,7 +210,7 @@ static void place_openexr_row(void *user, int y, const float *row) {
     }
 }
 
-/// OpenEXR takes each channel once.
+/// OpenEXR reads each channel only once.
 static void spread_grey(const exr_reader *reader) {
     float *texels = reader->image->texels;
     const size_t count = (size_t)reader->image->width * reader->image->height;
@@ -244,7 +245,7 @@ exr_block engine_exr_block_of_window(const exr_attr_box2i_t *window) {
                        (int64_t)window->max.y - window->min.y + 1};
 }
 
-/// Levels begin where the data window does.
+/// Levels start at the origin of the data window.
 static lobe_result choose_level(exr_reader *reader, uint32_t level) {
     int32_t width, height;
     reader->level = (int)level;

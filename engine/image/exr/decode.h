@@ -7,7 +7,7 @@
 
 #include "engine/image/exr/input.h"
 
-/// A block of texels in the coordinates of the windows.
+/// A block of texels, in the coordinates of the windows.
 typedef struct exr_block {
     int64_t x, y, width, height;
 } exr_block;
@@ -22,21 +22,21 @@ typedef struct exr_reader {
     uint32_t level_count; ///< that can be read
     exr_decode_pipeline_t pipeline;
     bool pipeline_started;
-    // Of the level that is being read.
+    // Of the level being read
     int level;
     exr_block data, display;
     lobe_image *image;
 } exr_reader;
 
-/// In the file's own coordinates.
+/// The window as a block, in the file's coordinates.
 exr_block engine_exr_block_of_window(const exr_attr_box2i_t *window);
 
-/// Whether the part's compression (DWAA, DWAB) is one that OpenEXRCore 3.1 knows by name only. Of
-/// such parts the finest level can be read.
+/// Whether the part's compression (DWAA, DWAB) is not implemented in OpenEXRCore 3.1. Of such
+/// parts, the OpenEXR library reads the finest level.
 bool engine_exr_is_left_to_openexr(const exr_reader *reader);
 
-/// Reads a level, below `level_count`, into a new RGBA32_FLOAT image, to free by the caller after
-/// a failure too. Sizes have been checked.
+/// Reads a level, below `level_count`, into a new RGBA32_FLOAT image. The caller frees it, also
+/// after a failure. Sizes must have been checked.
 lobe_result engine_exr_decode_level(exr_reader *reader, uint32_t level, lobe_image *image);
 
 #endif

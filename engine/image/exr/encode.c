@@ -25,8 +25,8 @@ static float load(const lobe_image *image, uint32_t component, size_t texel) {
     return ((const float *)image->texels)[index];
 }
 
-/// Rounds to half. What would become infinite by rounding is clamped and counted; what is
-/// infinite already stays so.
+/// Rounds to half. Finite values that would become infinite are clamped and counted; infinite
+/// values stay infinite.
 static uint16_t round_to_half(float value, size_t *clamped) {
     uint16_t half = engine_half_from_float(value);
     bool overflow = (half & 0x7fffu) == 0x7c00u && isfinite(value);
@@ -55,7 +55,7 @@ static void gather(exr_writer *writer, const exr_channel *channel, const exr_blo
     }
 }
 
-/// A block holds its channels one after the other, each at an address that suits floats.
+/// A block contains its channels one after the other, each aligned for floats.
 static size_t plane_size(const exr_channel *channel, const exr_block *block) {
     return ((size_t)block->height * block->width * sample_size(channel) + 3) & ~(size_t)3;
 }
@@ -95,8 +95,8 @@ static void connect_channels(exr_writer *writer, const exr_block *block) {
     }
 }
 
-/// A block that does not shrink is stored raw, and readers know it by its size. OpenEXRCore 3.1.5
-/// overlooks that a compressed block may come out at just that size.
+/// A block that does not shrink is stored raw, which readers recognise by its size.
+/// OpenEXRCore 3.1.5 does not handle a compressed block that has exactly that size.
 static exr_result_t compress(exr_encode_pipeline_t *pipeline) {
     const exr_writer *writer = pipeline->encoding_user_data;
     exr_result_t code = writer->compress(pipeline);
@@ -149,7 +149,7 @@ static exr_result_t write_scanlines(exr_writer *writer) {
     return code;
 }
 
-/// OpenEXRCore 3.1.5 cuts off tiles at the edges of the finest level alone.
+/// OpenEXRCore 3.1.5 cuts off tiles at the edges of the finest level only.
 static void cut_tile(exr_chunk_info_t *chunk, const exr_block *tile) {
     uint64_t texel = chunk->unpacked_size / ((uint64_t)chunk->width * (uint64_t)chunk->height);
     chunk->width = (int32_t)tile->width;

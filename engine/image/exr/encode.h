@@ -20,13 +20,13 @@ typedef struct exr_channel {
     uint32_t component; ///< of the layer's image
 } exr_channel;
 
-/// A file that is being written into memory.
+/// A file being written into memory.
 typedef struct exr_writer {
     const char *path;
     const lobe_host *host;
     uint32_t width, height; ///< texels of the finest level
     uint32_t level_count;   ///< above 1: MIP levels in tiles
-    exr_channel *channels;  ///< sorted by name, as the format demands
+    exr_channel *channels;  ///< sorted by name, as the format requires
     size_t channel_count;
     engine_bytes output;
     exr_context_t context;
@@ -34,7 +34,7 @@ typedef struct exr_writer {
     bool pipeline_started;
     exr_result_t (*compress)(exr_encode_pipeline_t *pipeline); ///< OpenEXRCore's own
     uint8_t *block;     ///< texels of one block, channel after channel
-    size_t block_size;  ///< bytes there is room for
+    size_t block_size;  ///< capacity of `block` in bytes
     size_t clamped;     ///< values beyond the range of half
     bool out_of_memory; ///< while growing `output`
 } exr_writer;
@@ -42,7 +42,7 @@ typedef struct exr_writer {
 /// Writes all texels, after the header: as scan lines, or level after level as tiles.
 exr_result_t engine_exr_write_texels(exr_writer *writer);
 
-/// Frees what writing texels took; also where nothing was written.
+/// Frees what engine_exr_write_texels allocated, if anything.
 void engine_exr_free_texels(exr_writer *writer);
 
 #endif

@@ -24,7 +24,7 @@ static int64_t input_size(exr_const_context_t context, void *user) {
     return (int64_t)((const exr_input *)user)->size;
 }
 
-static void remember_error(exr_const_context_t context, exr_result_t code, const char *message) {
+static void store_error(exr_const_context_t context, exr_result_t code, const char *message) {
     (void)code;
     void *user = NULL;
     if (context == NULL || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS)
@@ -34,7 +34,7 @@ static void remember_error(exr_const_context_t context, exr_result_t code, const
         snprintf(input->message, sizeof input->message, "%s", message);
 }
 
-/// Messages quote bytes of the file: keep the log's one line to printable ASCII.
+/// Messages quote bytes of the file; the log gets printable ASCII only.
 static void make_printable(char *text) {
     for (; *text != '\0'; text++) {
         if (*text < ' ' || *text > '~')
@@ -42,7 +42,7 @@ static void make_printable(char *text) {
     }
 }
 
-/// OpenEXRCore's decoders also say "out of memory" where a block ends too early.
+/// OpenEXRCore's decoders also report "out of memory" if a block ends too early.
 static bool is_out_of_memory(exr_result_t code, const char *message) {
     return code == EXR_ERR_OUT_OF_MEMORY && strstr(message, "allocate") != NULL;
 }
@@ -52,8 +52,8 @@ lobe_result engine_exr_fail(exr_input *input, exr_result_t code) {
     const char *message =
         input->message[0] != '\0' ? input->message : exr_get_default_error_message(code);
     if (is_out_of_memory(code, message))
-        return lobe_host_fail(input->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to decode it",
-                              input->path);
+        return lobe_host_fail(input->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "%s: out of memory decoding it", input->path);
     bool unsupported = code == EXR_ERR_FEATURE_NOT_IMPLEMENTED;
     return lobe_host_fail(input->host, unsupported ? LOBE_ERROR_UNSUPPORTED : LOBE_ERROR_MALFORMED,
                           "%s: %s OpenEXR file: %s", input->path,
@@ -71,11 +71,12 @@ static lobe_result open_context(exr_input *input) {
         return lobe_host_fail(input->host, LOBE_ERROR_MALFORMED, "%s: not an OpenEXR file",
                               input->path);
     exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    settings.error_handler_fn = remember_error;
+    settings.error_handler_fn = store_error;
     settings.user_data = input;
     settings.read_fn = read_input;
     settings.size_fn = input_size;
-    // A file without its table of blocks was cut off while it was written: say so, do not guess.
+    // A file without its table of blocks was truncated while it was written: report that instead of
+    // reconstructing the table.
     settings.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_result_t code = exr_start_read(&input->context, input->path, &settings);
     return code == EXR_ERR_SUCCESS ? LOBE_OK : engine_exr_fail(input, code);

@@ -5,13 +5,13 @@
 
 #include "engine/image/exr/decode.h"
 
-/// Most bytes that one block of a file may unpack to; real ones stay far below.
+/// Largest number of bytes that a block may decompress to; real files stay far below.
 #define BLOCK_MAXIMUM_SIZE ((uint64_t)1 << 30)
 
 // ---------------------------------------------------------------------------------------------
 // Which channels
 
-/// What a channel is called within the layer; NULL where it belongs to another.
+/// A channel's name within the layer; NULL if it belongs to another layer.
 static const char *name_in_layer(const char *channel, const char *layer) {
     if (layer != NULL) {
         size_t length = strlen(layer);
@@ -31,7 +31,7 @@ static int find_channel(const exr_attr_chlist_t *channels, const char *layer, co
     return -1;
 }
 
-/// The layer's one channel beside alpha; -1 where there are none or several.
+/// The layer's only channel apart from alpha; -1 if there are none or several.
 static int find_only_channel(const exr_attr_chlist_t *channels, const char *layer) {
     int found = -1;
     for (int index = 0; index < channels->num_channels; index++) {
@@ -106,15 +106,15 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
                               "%s: deep OpenEXR data is not supported", reader->input.path);
     if (!find_part(reader, layer, false) && (layer == NULL || !find_part(reader, layer, true))) {
         if (layer != NULL)
-            return lobe_host_fail(reader->input.host, LOBE_ERROR_NOT_FOUND, "%s: has no layer '%s'",
-                                  reader->input.path, layer);
+            return lobe_host_fail(reader->input.host, LOBE_ERROR_NOT_FOUND,
+                                  "%s: there is no layer '%s'", reader->input.path, layer);
         return lobe_host_fail(reader->input.host, LOBE_ERROR_UNSUPPORTED,
-                              "%s: has neither channels R, G, B nor Y", reader->input.path);
+                              "%s: there are neither channels R, G, B nor Y", reader->input.path);
     }
     for (int index = 0; index < reader->channels->num_channels; index++) {
         if (reader->channels->entries[index].x_sampling < 1 ||
             reader->channels->entries[index].y_sampling < 1)
-            return engine_exr_fail_damaged(&reader->input, "a channel without sampling rate");
+            return engine_exr_fail_damaged(&reader->input, "a channel has a sampling rate below 1");
     }
     for (int component = 0; component < 4; component++) {
         int source = reader->sources[component];
@@ -125,7 +125,7 @@ static lobe_result choose_channels(exr_reader *reader, const char *layer) {
     }
     if (find_channel(reader->channels, NULL, "RY") >= 0)
         lobe_host_log(reader->input.host, LOBE_LOG_WARNING,
-                      "%s: colour differences RY and BY are ignored, the image is read as grey",
+                      "%s: the colour differences RY and BY are ignored, the image becomes grey",
                       reader->input.path);
     return LOBE_OK;
 }
@@ -151,7 +151,7 @@ static lobe_result check_window(const exr_reader *reader, const exr_attr_box2i_t
 
 static lobe_result check_sizes(exr_reader *reader) {
     uint64_t block_size = 0;
-    reader->input.message[0] = '\0'; // forget that a part had no name
+    reader->input.message[0] = '\0'; // drop the message about a part without a name
     exr_result_t code =
         exr_get_data_window(reader->input.context, reader->part, &reader->data_window);
     if (code == EXR_ERR_SUCCESS)
@@ -170,7 +170,7 @@ static lobe_result check_sizes(exr_reader *reader) {
     return result;
 }
 
-/// Coarser levels can be told apart from the finest only where it is not cut or padded.
+/// Coarser levels are read only if the display window neither cuts nor pads the finest one.
 static lobe_result count_levels(exr_reader *reader) {
     exr_storage_t storage;
     exr_tile_level_mode_t mode;
@@ -225,11 +225,11 @@ lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *
 }
 
 // ---------------------------------------------------------------------------------------------
-// All of a file
+// The contents of a file
 
 static lobe_result fail_without_memory(const exr_reader *reader) {
     return lobe_host_fail(reader->input.host, LOBE_ERROR_OUT_OF_MEMORY,
-                          "%s: no memory to decode it", reader->input.path);
+                          "%s: out of memory decoding it", reader->input.path);
 }
 
 static lobe_result read_levels(exr_reader *reader, lobe_exr_contents *contents) {
@@ -245,14 +245,14 @@ static lobe_result read_levels(exr_reader *reader, lobe_exr_contents *contents) 
     return result;
 }
 
-/// To its first zero byte, or its end.
+/// Copies up to the first zero byte, or the end.
 static char *copy_string(const lobe_allocator *allocator, const exr_attr_string_t *string) {
     const size_t length = strnlen(string->str, (size_t)string->length);
     char *copy = lobe_allocate(allocator, length + 1, 1);
     return copy ? memcpy(copy, string->str, length) : NULL;
 }
 
-/// False where the attribute is of another type. A text that there is no memory for stays NULL.
+/// False if the attribute has another type. A text is NULL if out of memory.
 static bool copy_attribute(const lobe_allocator *allocator, const exr_attribute_t *source,
                            lobe_exr_attribute *target) {
     *target = (lobe_exr_attribute){0};

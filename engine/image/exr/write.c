@@ -120,8 +120,8 @@ static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameter
     writer->channels = lobe_allocate(lobe_host_allocator(writer->host), 4 * parameters->layer_count,
                                      sizeof *writer->channels);
     if (writer->channels == NULL)
-        return lobe_host_fail(writer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory to encode it",
-                              writer->path);
+        return lobe_host_fail(writer->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "%s: out of memory encoding it", writer->path);
     for (size_t index = 0; index < parameters->layer_count; index++) {
         lobe_result result = add_layer(writer, &parameters->layers[index]);
         if (result != LOBE_OK)
@@ -131,7 +131,7 @@ static lobe_result collect_channels(exr_writer *writer, const lobe_exr_parameter
     for (size_t index = 1; index < writer->channel_count; index++) {
         if (compare_channels(&writer->channels[index - 1], &writer->channels[index]) == 0)
             return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
-                                  "%s: channel '%s' is there twice", writer->path,
+                                  "%s: channel '%s' is given twice", writer->path,
                                   writer->channels[index].name);
     }
     return LOBE_OK;
@@ -231,7 +231,7 @@ static lobe_result add_attribute(const exr_writer *writer, const lobe_exr_attrib
     if (exr_get_attribute_by_name(writer->context, 0, attribute->name, &existing) ==
         EXR_ERR_SUCCESS)
         return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "%s: attribute '%s' is already there", writer->path, attribute->name);
+                              "%s: attribute '%s' exists already", writer->path, attribute->name);
     exr_result_t code = set_attribute(writer->context, attribute);
     return code == EXR_ERR_SUCCESS ? LOBE_OK : fail_from_library(writer, code, attribute->name);
 }
@@ -246,7 +246,7 @@ static lobe_result check_level_count(const exr_writer *writer) {
         return fail_from_library(writer, code, "the levels");
     if (writer->level_count != (uint32_t)count)
         return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "%s: %u levels given, %ux%u texels have %d", writer->path,
+                              "%s: %u levels are given, %ux%u texels have %d", writer->path,
                               writer->level_count, writer->width, writer->height, count);
     return LOBE_OK;
 }

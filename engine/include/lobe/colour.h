@@ -12,21 +12,21 @@
 extern "C" {
 #endif
 
-/// From scene-referred linear RGB (Rec. 709 primaries, white point D65) to pictures for looking at.
+/// From scene-referred linear RGB (Rec. 709 primaries, white point D65) to pictures for a display.
 
-/// The sRGB curve of IEC 61966-2-1: linear below 0.0031308, a power of 2.4 above. Takes [0, 1] to
-/// [0, 1]; what lies outside is clamped, NaN becomes 0.
+/// The sRGB curve of IEC 61966-2-1: linear below 0.0031308, a power of 1/2.4 above. Maps [0, 1] to
+/// [0, 1]; values outside are clamped, NaN becomes 0.
 float lobe_srgb_encode(float linear);
-/// The inverse; takes [0, 1] to [0, 1], clamps likewise.
+/// The inverse; maps [0, 1] to [0, 1] and clamps in the same way.
 float lobe_srgb_decode(float encoded);
 
 /// Luminance of linear RGB, Rec. 709 (rounded to four digits): 0.2126 R + 0.7152 G + 0.0722 B.
 float lobe_luminance(const float rgb[3]);
 
 typedef enum lobe_tone_map {
-    /// Keeps what is at most half of the maximum and rolls off above it, so that no highlight is
-    /// clipped: with m the largest channel, m' = m for m <= 1/2, else m' = 1 - 1/(4 m). All
-    /// channels are scaled by m'/m, which keeps the hue.
+    /// Keeps values up to half of the maximum and rolls off above, so that no highlight is clipped:
+    /// with m the largest channel, m' = m for m <= 1/2, else m' = 1 - 1/(4 m). All channels are
+    /// scaled by m'/m, which keeps the hue.
     LOBE_TONE_MAP_SHOULDER,
     LOBE_TONE_MAP_NONE, ///< clamp each channel to [0, 1]
 } lobe_tone_map;
@@ -37,19 +37,19 @@ typedef struct lobe_display_parameters {
     bool keep_alpha; ///< false: the picture is opaque
 } lobe_display_parameters;
 
-/// Turns a linear RGBA32_FLOAT image into an RGBA8_SRGB picture of the same extent: exposure, tone
-/// map, sRGB curve, rounding to nearest. Negative and NaN channels become 0, infinite ones the
-/// largest there is.
-/// With `keep_alpha`, colour is taken as premultiplied and stored as straight, as PNG wants it.
-/// `parameters` may be NULL. `picture` is overwritten; free it with lobe_image_free.
+/// Converts a linear RGBA32_FLOAT image into an RGBA8_SRGB picture of the same extent: exposure,
+/// tone map, sRGB curve, rounding to nearest. Negative and NaN channels become 0, infinite ones the
+/// largest finite value.
+/// With `keep_alpha`, the colour is premultiplied in `linear` and straight in `picture`, as in PNG.
+/// `parameters` may be NULL: the defaults. `picture` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
                                 const lobe_host *host, lobe_image *picture);
 
-/// Colour of a value [0, 1] for heat maps (clamped; NaN is black), as sRGB-encoded bytes. From
-/// near black over violet, red and orange to pale yellow: equal steps of the value look about
-/// equally large, and lightness alone tells the order, so the map survives colour blindness and
-/// printing in grey.
+/// Colour of a value [0, 1] in heat maps (clamped; NaN is black), as sRGB-encoded bytes: from near
+/// black through violet, red and orange to pale yellow. Equal steps of the value look about equally
+/// large, and lightness increases with the value, so the map still works with colour blindness and
+/// in greyscale print.
 void lobe_heat_colour(float value, uint8_t srgb[3]);
 
 #ifdef __cplusplus

@@ -12,11 +12,11 @@
 extern "C" {
 #endif
 
-/// OpenEXR files: scene-referred linear RGB, several layers of one extent in one file.
+/// OpenEXR files: scene-referred linear RGB, several layers of the same extent in one file.
 
 typedef enum lobe_exr_depth {
     LOBE_EXR_HALF,  ///< 16 bits; finite values beyond +-65504 are clamped, with a warning
-    LOBE_EXR_FLOAT, ///< 32 bits; every value is kept as it is, NaN and infinity too
+    LOBE_EXR_FLOAT, ///< 32 bits; every value is stored unchanged, including NaN and infinity
 } lobe_exr_depth;
 
 typedef struct lobe_exr_layer {
@@ -26,9 +26,9 @@ typedef struct lobe_exr_layer {
     /// A name for each channel of the image; NULL leaves that channel out. All NULL: R, G, B, A
     /// for an image of four channels, X, Y for two, Y for one.
     const char *channels[4];
-    /// One of the formats R/RG/RGBA of 16_FLOAT or 32_FLOAT. In a file of levels: as many images,
-    /// one after the other, the finest first, each half as large as the one before (rounded down,
-    /// at least 1) and of as many channels.
+    /// One of the formats R/RG/RGBA of 16_FLOAT or 32_FLOAT. For a file with MIP levels: an array
+    /// of one image per level, the finest first, each half the size of the previous one (rounded
+    /// down, at least 1), all with the same number of channels.
     const lobe_image *image;
     lobe_exr_depth depth;
 } lobe_exr_layer;
@@ -39,17 +39,17 @@ typedef enum lobe_exr_attribute_type {
     LOBE_EXR_INTEGER,
 } lobe_exr_attribute_type;
 
-/// Something to know about the image, kept in the file's header.
+/// A named value in the file's header.
 typedef struct lobe_exr_attribute {
-    const char *name; ///< 1 to 255 bytes; not one of the format's own, such as "channels"
+    const char *name; ///< 1 to 255 bytes; not an attribute of the format itself, such as "channels"
     lobe_exr_attribute_type type;
     const char *text; ///< UTF-8
     float number;
     int32_t integer;
 } lobe_exr_attribute;
 
-/// How the sphere of directions is laid out on an image (the standard attribute "envmap"). For the
-/// cube: six square faces below one another, +X -X +Y -Y +Z -Z, turned as ImfEnvmap.h shows.
+/// How the sphere of directions is mapped to an image (the standard attribute "envmap"). Cube: six
+/// square faces below each other, +X -X +Y -Y +Z -Z, oriented as in ImfEnvmap.h.
 typedef enum lobe_exr_environment {
     LOBE_EXR_NO_ENVIRONMENT, ///< not an environment, or the file does not say
     LOBE_EXR_LATITUDE_LONGITUDE,
@@ -57,34 +57,36 @@ typedef enum lobe_exr_environment {
 } lobe_exr_environment;
 
 typedef struct lobe_exr_parameters {
-    const lobe_exr_layer *layers; ///< at least one; all images of the same extent
+    const lobe_exr_layer *layers; ///< at least one; all images have the same extent
     size_t layer_count;
     const lobe_exr_attribute *attributes;
     size_t attribute_count;
-    /// 0 means 1; otherwise MIP levels down to a single texel: floor(log2(max(width, height))) + 1.
+    /// 0 means 1; more: all MIP levels down to a single texel, floor(log2(max(width, height))) + 1.
     uint32_t level_count;
     lobe_exr_environment environment;
 } lobe_exr_parameters;
 
 /// Writes one part, ZIP-compressed, with the chromaticities of Rec. 709 (white point D65): scan
-/// lines, or, of several levels, tiles of 64x64 texels. Equal parameters give equal bytes. The file
-/// appears whole or not at all.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, another number of levels,
-/// another format, a channel or attribute twice or without a name), LOBE_ERROR_WRITE,
+/// lines, or tiles of 64x64 texels if there are several levels. Equal parameters give equal bytes.
+/// The file is written completely or not at all.
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, wrong number of levels,
+/// unsupported format, a duplicate or unnamed channel or attribute), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
                            const lobe_host *host);
 
-/// Most texels that lobe_exr_read takes (4 GiB of memory).
+/// Largest number of texels that lobe_exr_read accepts (4 GiB of memory).
 #define LOBE_EXR_MAXIMUM_TEXELS ((uint64_t)1 << 28)
 
 /// Reads one layer into an RGBA32_FLOAT image; half and unsigned integer channels become float.
-/// `layer` NULL: the main layer, of the first part that has one. The image's extent is the display
-/// window; what the data window does not cover is 0 (alpha too), what lies outside is cut off.
+/// `layer` NULL: the main layer of the first part that has one. The image's extent is the display
+/// window: texels that the data window does not cover are 0 (including alpha), and data outside the
+/// display window is cut off.
 ///
-/// A layer's channels are placed so: R, G, B (and A) as they are; else X, Y, Z into R, G, B; else
-/// Y, or the only channel, into R, G and B alike. Without a channel A, alpha is 1. Scan lines and
-/// tiles, single and multi-part files, every compression; of several resolutions the finest.
+/// Channels R, G, B (and A) keep their places; otherwise X, Y, Z become R, G, B; otherwise Y, or
+/// the only channel, becomes all of R, G and B. Without a channel A, alpha is 1. Supports scan
+/// lines and tiles, single and multi-part files, and every compression; reads the finest
+/// resolution.
 ///
 /// `image` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_NOT_FOUND (no file, or no layer of that name), LOBE_ERROR_READ,
@@ -94,33 +96,33 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
 lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
                           lobe_image *image);
 
-/// All that is known of one layer.
+/// Everything lobe reads of one layer.
 typedef struct lobe_exr_contents {
-    /// The finest first, each RGBA32_FLOAT. One only where there are no MIP levels, where the
-    /// data window is not the display window, and of the compressions DWAA and DWAB.
+    /// The finest first, each RGBA32_FLOAT. Only the finest if there are no MIP levels, if the data
+    /// window differs from the display window, or if the compression is DWAA or DWAB.
     lobe_image *levels;
     uint32_t level_count;
     lobe_exr_environment environment;
-    lobe_exr_attribute *attributes; ///< texts, numbers and integers, in the file's order
+    lobe_exr_attribute *attributes; ///< texts, numbers and integers, in the order of the file
     size_t attribute_count;
 } lobe_exr_contents;
 
-/// As lobe_exr_read, with every level, and what the header says. `contents` is overwritten; free it
-/// with lobe_exr_contents_free. The same errors.
+/// Like lobe_exr_read, but with every level and the header's attributes. `contents` is overwritten;
+/// free it with lobe_exr_contents_free. Same errors.
 lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_host *host,
                                    lobe_exr_contents *contents);
 
-/// The same of a whole file in memory, which is needed during the call only. `name` stands for it
-/// in messages.
+/// The same for a file in memory: `data` is the whole file, and is needed only during the call.
+/// `name` is used in messages.
 lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
                                      const char *layer, const lobe_host *host,
                                      lobe_exr_contents *contents);
 
-/// NULL where there is none of this name and type.
+/// NULL if there is none of this name and type.
 const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
                                                   const char *name, lobe_exr_attribute_type type);
 
-/// Frees all and zeroes the structure. NULL is fine.
+/// Frees everything and zeroes the structure. NULL is allowed.
 void lobe_exr_contents_free(lobe_exr_contents *contents);
 
 #ifdef __cplusplus

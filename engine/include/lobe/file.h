@@ -11,34 +11,35 @@
 extern "C" {
 #endif
 
-/// Whole files in memory. All that lobe reads and writes goes through here, so that nothing is
-/// waited for, and a failure leaves neither half a file nor a damaged old one.
+/// Reading and writing whole files. All files that lobe reads and writes go through here: reading
+/// never blocks on a pipe or terminal, and a failed write leaves neither half a file nor a damaged
+/// old one.
 
 /// Largest file that is read, in bytes: 2 GiB.
 #define LOBE_FILE_MAXIMUM_SIZE ((size_t)1 << 31)
 
-/// Reads a regular file to its end. `*data` is for the caller to lobe_release; a zero byte that
-/// `*size` does not count follows the content. On failure `*data` is NULL.
-/// `owner`: the file that refers to this one, named in the log line too; NULL: none.
+/// Reads a regular file to its end. The caller frees `*data` with lobe_release; a zero byte, not
+/// counted in `*size`, follows the content. On failure `*data` is NULL.
+/// `owner`: the file that refers to this one, also named in error messages; NULL: none.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ (no permission, not a regular file),
 /// LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
                            uint8_t **data, size_t *size);
 
-/// Where a host keeps files that are not in the file system: in memory, or in an archive.
+/// Files of a host that are not in the file system but in memory or in an archive.
 typedef struct lobe_file_source {
-    /// Gives the whole content of a file, which must stay until `release`. `path` is as the file
-    /// that refers to it says, put behind that one's folder; "a/../b" stays as it is. On failure
-    /// the code says why, usually LOBE_ERROR_NOT_FOUND or _READ; lobe logs it.
+    /// Returns the whole content of a file, which must stay valid until `release`. `path` is the
+    /// folder of the referring file followed by the path given there; "a/../b" is not simplified.
+    /// On failure return the reason, usually LOBE_ERROR_NOT_FOUND or _READ; lobe logs it.
     lobe_result (*read)(void *user, const char *path, const void **data, size_t *size);
-    /// The content is not needed any more; once for each that was given. NULL: nothing is to do.
+    /// Called once for each content returned, when lobe no longer needs it. NULL: not called.
     void (*release)(void *user, const void *data, size_t size);
-    void *user; ///< handed to both
+    void *user; ///< passed to both
 } lobe_file_source;
 
-/// Writes a file under a temporary name in the same folder, then gives it its name, replacing an
-/// old one. What is not a regular file (a device, a pipe) is written to directly.
-/// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; nothing new is left behind.
+/// Writes a file under a temporary name in the same folder, then renames it, replacing an old file.
+/// Anything but a regular file (a device, a pipe) is written to directly.
+/// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; the temporary file is removed then.
 lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_host *host);
 
 #ifdef __cplusplus

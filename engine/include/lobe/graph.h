@@ -16,34 +16,35 @@ extern "C" {
 
 /// A render graph: the passes of one frame and the resources they read and write.
 ///
-/// Each frame is declared anew: lobe_graph_begin, resources, passes, outputs, then
-/// lobe_graph_execute. Declaring is cheap; pipelines, descriptor sets, memory and retained
-/// resources are kept from frame to frame: one that is declared like the last, whatever it uploads,
-/// takes no memory of the host and makes nothing of Vulkan's, but for views of images of the host
-/// that come without.
-/// The first mistake in a declaration is remembered, its
-/// line (naming pass and resource) goes to the log, later declarations become no-ops, and
-/// compile or execute return its code: call sites need not check each step.
+/// Every frame is declared from scratch: lobe_graph_begin, resources, passes, outputs, then
+/// lobe_graph_execute. Declaring is cheap: pipelines, descriptor sets, memory and retained
+/// resources are kept between frames. A frame declared like the last one, whatever it uploads,
+/// allocates no host memory and creates no Vulkan objects, except views of host images that come
+/// without a view.
+///
+/// Only the first mistake in a declaration counts. One log line names the pass and the resource,
+/// later declarations have no effect, and compile or execute return the code: callers need not
+/// check each step.
 ///
 /// Not thread-safe: one graph, one thread.
 typedef struct lobe_graph lobe_graph;
 
-/// An image of a host with Vulkan of its own, and how such a host's frame gets to the device: both
-/// are defined in lobe/vulkan.h.
+/// An image of a host that uses Vulkan itself, and how such a host submits a frame: both are
+/// defined in lobe/vulkan.h.
 typedef struct lobe_vulkan_image lobe_vulkan_image;
 typedef struct lobe_vulkan_submission lobe_vulkan_submission;
 
 /// A pass being declared; valid until the next lobe_graph_begin.
 typedef struct lobe_pass lobe_pass;
 
-/// A resource at one version of its content. Each write yields a new version; using a version
-/// that was overwritten since is an error (a stale handle). All zero: none.
+/// A resource at one version of its content. Each write returns a new version; using a version that
+/// has been overwritten (a stale handle) is an error. All zero: no resource.
 typedef struct lobe_resource {
     uint32_t index;
     uint32_t version;
 } lobe_resource;
 
-/// Levels and layers of an image. A count of 0 means all from the first on.
+/// Levels and layers of an image. A count of 0 means all from the first one on.
 typedef struct lobe_range {
     uint32_t first_level, level_count;
     uint32_t first_layer, layer_count;
@@ -52,20 +53,22 @@ typedef struct lobe_range {
 typedef enum lobe_filter_mode { LOBE_SAMPLE_NEAREST, LOBE_SAMPLE_LINEAR } lobe_filter_mode;
 typedef enum lobe_wrap_mode { LOBE_WRAP_REPEAT, LOBE_WRAP_MIRROR, LOBE_WRAP_CLAMP } lobe_wrap_mode;
 
-/// How a sampled image is read. All zero: nearest texel, nearest level, repeating.
+/// How a sampled image is read. All zero: nearest texel, nearest level, repeat.
 typedef struct lobe_sampler {
     lobe_filter_mode texels; ///< within a level
     lobe_filter_mode levels; ///< between levels
     lobe_wrap_mode wrap_u, wrap_v;
-    float maximum_anisotropy; ///< [1, 16]; 0: off. Clamped to what the device offers.
+    float maximum_anisotropy; ///< [1, 16]; 0: off. Clamped to the device's limit.
 } lobe_sampler;
 
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph);
-/// Waits for the device to finish the last frame, frees all. Clears the pointer; NULL is fine.
+/// Waits for the device to finish the last frame and frees everything. Clears the pointer; NULL is
+/// allowed.
 void lobe_graph_destroy(lobe_graph **graph);
 
-/// Starts a new frame: forgets the passes of the last, waits for it where it still runs.
-/// Retained resources that the new frame does not declare again are freed when it is compiled.
+/// Starts a new frame: drops the passes of the last one, and waits for it if it is still running
+/// (see lobe_graph_set_frames_in_flight). Retained resources that the new frame does not declare
+/// again are freed when it is compiled.
 void lobe_graph_begin(lobe_graph *graph);
 
 // ---------------------------------------------------------------------------------------------
@@ -75,13 +78,13 @@ typedef struct lobe_image_description {
     const char *name; ///< for errors, dumps and debug labels; for a retained image also its key
     lobe_format format;
     uint32_t width, height; ///< texels, above 0
-    uint32_t layers;        ///< 0 means 1. The shader sees an array where its binding is one.
+    uint32_t layers;        ///< 0 means 1. The shader sees an array if its binding is one.
     uint32_t levels;        ///< MIP levels; 0 means 1; at most floor(log2(max extent)) + 1
-    uint32_t samples;       ///< 0 or 1: no multisampling; else 2 or 4, single level and layer
-    /// Keep the content for the next frame. Passes that write only retained resources are
-    /// skipped while nothing they depend on changes. Where the next frame declares the same name
-    /// and description, it may also start from that content: reading or modifying it before any
-    /// pass has written it (sums over frames). Memory of others is shared (aliased).
+    uint32_t samples;       ///< 0 or 1: no multisampling; else 2 or 4, with one level and one layer
+    /// Keep the content for the next frame. Passes that write only retained resources are skipped
+    /// while nothing they depend on changes. If the next frame declares the same name and
+    /// description, its passes may also read or modify that content before any pass has written it
+    /// (sums over frames). Images that are not retained share memory (aliasing).
     bool retained;
 } lobe_image_description;
 
@@ -91,27 +94,29 @@ typedef struct lobe_buffer_description {
     bool retained;
 } lobe_buffer_description;
 
-/// Declares an image or buffer that passes of this frame write; it has no content before that,
-/// unless it is retained and a former frame left it some.
+/// Declares an image or buffer that passes of this frame write. It has no content before that,
+/// unless it is retained and an earlier frame wrote it.
 lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description);
 lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description);
 
-/// Brings in what the host filled. Reading is all that passes may do with it. The object must
-/// live until the frame has executed. Importing the same object twice gives the same resource.
+/// Imports a texture or buffer; passes may only read it. The object must live until the frame has
+/// executed. Importing the same object twice returns the same resource.
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
 
-/// Brings in an image of the host's Vulkan: passes may draw into it, write it where its usage
-/// allows, and read what it holds. At the end of the frame it is in the layout that the host
-/// wants. Copied. What passes make of its content is made again in every frame.
+/// Imports a Vulkan image of the host. Passes may draw into it, write it as far as its usage
+/// allows, and read it. At the end of the frame it is in the layout that the host asked for.
+/// `image` is copied. Passes that read the content run in every frame, as lobe cannot tell whether
+/// it has changed.
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
-/// Texels of level 0 of any image of this frame; 0 for a buffer or an unknown handle.
+/// Width and height of level 0 of any image of this frame, in texels; 0 for a buffer or an unknown
+/// handle.
 void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
                        uint32_t *height);
 
-/// A small buffer with content for this frame (camera, lights). Copied; at most 4 MiB. A pass
-/// that reads it counts as unchanged while the bytes stay the same.
+/// A small buffer with content for this frame (camera, lights): `size` bytes, at most 4 MiB,
+/// copied. A pass that reads it counts as unchanged while the bytes stay the same.
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data, size_t size);
 
 // ---------------------------------------------------------------------------------------------
@@ -126,7 +131,7 @@ typedef enum lobe_pass_kind {
 lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
 
 /// A resource bound to a variable of the pass's shaders, by the variable's (or block's) name.
-/// Reflection says what kind it is: uniform or storage block, sampled or storage image.
+/// Reflection tells which kind it is: uniform or storage block, sampled or storage image.
 typedef struct lobe_binding {
     const char *name;
     lobe_resource resource;
@@ -134,16 +139,17 @@ typedef struct lobe_binding {
     lobe_sampler sampler; ///< sampled images only
 } lobe_binding;
 
-/// Reads, in all shaders of the pass. A name that none of them has is an error.
+/// Binds a resource for reading in all shaders of the pass. A name that none of them has is an
+/// error.
 void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding);
-/// Writes, with the former content of the range lost; returns the new version. Subresources
-/// outside the range keep their content.
+/// Binds a resource for writing; returns the new version. The range loses its previous content;
+/// subresources outside the range keep theirs.
 lobe_resource lobe_pass_write(lobe_pass *pass, const lobe_binding *binding);
-/// Reads and writes; returns the new version.
+/// Binds a resource for reading and writing; returns the new version.
 lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding);
 
 /// A value for a specialisation constant, by its constant_id. `bits` holds the int, the uint, the
-/// float's bits, or 0 and 1 for bool. An id the shader lacks is ignored.
+/// bits of the float, or 0 or 1 for a bool. An id that the shader does not have is ignored.
 typedef struct lobe_specialisation {
     uint32_t id;
     uint32_t bits;
@@ -151,24 +157,24 @@ typedef struct lobe_specialisation {
 
 typedef struct lobe_dispatch {
     const char *shader; ///< "lobe_reduction.comp"
-    /// Invocations in each dimension; rounded up to whole groups of the shader's local size, so
-    /// the shader must guard its edge. 0 means 1.
+    /// Invocations in each dimension, rounded up to whole groups of the shader's local size: the
+    /// shader must check its bounds. 0 means 1.
     uint32_t threads[3];
     const void *constants;                     ///< push constants, copied
     size_t constants_size;                     ///< bytes, equal to the shader's block; at most 128
     const lobe_specialisation *specialisation; ///< copied
     size_t specialisation_count;
-    const lobe_binding *bindings; ///< reads of this dispatch alone, beside those of the pass
+    const lobe_binding *bindings; ///< read by this dispatch only, in addition to the pass's
     size_t binding_count;
 } lobe_dispatch;
 
-/// Adds a dispatch. Dispatches of one pass must not depend on one another.
+/// Adds a dispatch. Dispatches of one pass must not depend on each other.
 void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch);
 
 typedef enum lobe_load {
     LOBE_LOAD_CLEAR,   ///< start from a constant
-    LOBE_LOAD_KEEP,    ///< start from the former content
-    LOBE_LOAD_DISCARD, ///< start undefined: every texel is drawn
+    LOBE_LOAD_KEEP,    ///< start from the previous content
+    LOBE_LOAD_DISCARD, ///< start undefined: draws cover every texel
 } lobe_load;
 
 typedef struct lobe_attachment {
@@ -178,27 +184,28 @@ typedef struct lobe_attachment {
     float clear[4]; ///< depth uses the first
 } lobe_attachment;
 
-/// Colour output `location` of the fragment shader [0, 3]. All attachments of a pass have one
-/// extent and one sample count. Returns the new version.
+/// Attaches a colour output: `location` of the fragment shader, [0, 3]. All attachments of a pass
+/// have the same extent and sample count. Returns the new version.
 lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
                                const lobe_attachment *attachment);
-/// Where multisampled colour `location` is resolved to (the samples' mean).
+/// Resolves the multisampled colour output `location` (mean of the samples) to `target`. Returns
+/// the new version.
 lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target);
-/// Depth, D32_FLOAT. lobe uses reversed depth: 1 at the near plane, 0 at infinity, and the
-/// greater wins; clear it to 0. Returns the new version.
+/// Attaches depth, D32_FLOAT. lobe uses reversed depth: 1 at the near plane, 0 at infinity, the
+/// greater value is nearer; clear it to 0. Returns the new version.
 lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment);
 
 typedef enum lobe_cull { LOBE_CULL_NONE, LOBE_CULL_BACK, LOBE_CULL_FRONT } lobe_cull;
 typedef enum lobe_blend {
     LOBE_BLEND_OFF,
-    LOBE_BLEND_ALPHA, ///< source alpha over target, premultiplied
+    LOBE_BLEND_ALPHA, ///< source over target, premultiplied alpha
     LOBE_BLEND_ADD,
 } lobe_blend;
 
 typedef struct lobe_draw {
     const char *vertex_shader; ///< "shading/shading.vert". Vertices are read from storage buffers.
     const char *fragment_shader; ///< NULL: depth only
-    lobe_resource indices;       ///< buffer of uint32; none: vertices are drawn in order
+    lobe_resource indices;       ///< buffer of uint32; all zero: vertices are drawn in order
     uint32_t first_index, index_count, instance_count; ///< 0 instances means 1
     lobe_cull cull;                                    ///< counter-clockwise is the front
     bool depth_test, depth_write;
@@ -207,79 +214,86 @@ typedef struct lobe_draw {
     size_t constants_size;
     const lobe_specialisation *specialisation; ///< of both stages, copied
     size_t specialisation_count;
-    const lobe_binding *bindings; ///< reads of this draw alone, beside those of the pass
+    const lobe_binding *bindings; ///< read by this draw only, in addition to the pass's
     size_t binding_count;
 } lobe_draw;
 
-/// Adds a draw of triangles, in order. Clip space is Vulkan's own, without a flip: x to the right,
-/// y *down*, -w to w each; 0 <= z <= w with reversed depth (z = w at the near plane). A projection
-/// for a world with y up therefore negates y. Viewport and scissor are the attachments' extent.
-/// The front of a triangle is where its corners are counter-clockwise as seen in the picture.
+/// Adds a draw of triangles; draws execute in order. Clip space is Vulkan's own, without a flip: x
+/// to the right, y *down*, both in [-w, w]; 0 <= z <= w with reversed depth (z = w at the near
+/// plane). A projection for a world with y up therefore negates y. Viewport and scissor are the
+/// attachments' extent. A triangle faces the front if its corners are counter-clockwise in the
+/// picture.
 void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
 
-/// Transfer passes: copies one image (same extent, format size and range shape) or buffer.
+/// Transfer passes: copies an image (same extent, texel size and number of levels and layers) or a
+/// buffer (same size). Returns the new version of `target`.
 lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range source_range,
                              lobe_resource target, lobe_range target_range);
 /// Transfer passes: fills with a constant. Depth uses the first value; a buffer is filled with the
-/// bits of the first.
+/// bits of the first value. Returns the new version.
 lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
                              const float value[4]);
 
-/// Keeps a pass (and all it depends on) although no output reads what it writes.
+/// Keeps a pass (and everything it depends on) even if no output depends on it.
 void lobe_pass_keep(lobe_pass *pass);
 
-/// Makes the frame fail as a mistake in its declaration does, for whoever finds that a pass cannot
-/// be declared. Only a frame's first failure is logged and counts: its code is returned.
+/// Makes the frame fail as a mistake in its declaration does: for callers that find that they
+/// cannot declare a pass. Only a frame's first failure is logged and counts; returns its code.
 LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
                                              const char *format, ...);
 
 // ---------------------------------------------------------------------------------------------
 // Outputs and execution
 
-/// Marks content as wanted after the frame: what no output depends on is culled.
+/// Marks content as an output of the frame. Passes that no output depends on are culled.
 void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
-/// Marks content as wanted by the host: copied back while executing, see lobe_graph_data.
+/// Marks content as an output that is copied to host memory, see lobe_graph_data.
 void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
 
-/// Validates, culls, orders, places in memory and derives barriers, without running anything;
-/// lobe_graph_execute does it too. Errors: LOBE_ERROR_GRAPH (the log names pass and resource),
+/// Validates, orders and culls the passes, places resources in memory and derives barriers, without
+/// running anything. lobe_graph_execute and lobe_graph_submit do this if it has not been done.
+/// Errors: LOBE_ERROR_GRAPH (the log names pass and resource),
 /// LOBE_ERROR_SHADER, LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY.
 lobe_result lobe_graph_compile(lobe_graph *graph);
 
-/// Compiles where that was not done, records, submits, and waits for the end.
+/// Compiles if necessary, records, submits, and waits for the device to finish.
 lobe_result lobe_graph_execute(lobe_graph *graph);
 
 /// Most frames that may be in flight.
 #define LOBE_MAXIMUM_FRAMES_IN_FLIGHT 4
 
-/// How many submitted frames of this graph the device may have before it, the one being recorded
-/// included; [1, LOBE_MAXIMUM_FRAMES_IN_FLIGHT], else clamped; 1 at first. Holds from the next
-/// begin. Frames of one graph follow one another on the device; the host works ahead of it.
+/// Sets how many frames of this graph may be unfinished at a time, including the one being
+/// recorded: clamped to [1, LOBE_MAXIMUM_FRAMES_IN_FLIGHT]; 1 by default. Takes effect at the next
+/// lobe_graph_begin. The device executes the frames of a graph one after the other; the host works
+/// ahead of it.
 void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
 
-/// Compiles where that was not done, records, and submits without waiting, or records into the
-/// host's command buffer: `submission` says how. lobe_graph_begin waits until fewer frames than
-/// allowed are in flight; of frames in the host's command buffers the host knows itself: the one
-/// that was recorded so many frames before must have been finished when the next is begun. Where a
-/// frame needs other memory than the last (images of another extent, other retained resources), its
-/// compilation waits for the queue. On failure the host's command buffer must not be submitted.
+/// Compiles if necessary, records, and submits without waiting, or records into the host's command
+/// buffer, as `submission` says. lobe_graph_begin waits until fewer frames than allowed are in
+/// flight. It cannot wait for frames in command buffers of the host: with N frames in flight, the
+/// host must make sure that the frame recorded N frames ago has finished before it begins the next.
+/// If a frame needs other memory than the last (images of another extent, other retained
+/// resources), its compilation waits for the queue. After a failure, the host's command buffer must
+/// not be submitted.
 /// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
 /// buffer, or too many).
 lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
 
-/// Waits until the device has finished the frame last submitted: lobe_graph_data has its data,
-/// lobe_graph_describe its times. Where it is in the host's command buffer, the host must have
-/// waited for that itself. Nothing happens where no frame was submitted.
+/// Waits until the device has finished the frame last submitted; then lobe_graph_data has its data
+/// and lobe_graph_describe its times. If the frame is in a command buffer of the host, the host
+/// must have waited for it already. Does nothing if no frame was submitted.
 lobe_result lobe_graph_wait(lobe_graph *graph);
 
-/// The bytes read back from `resource` in the frame just executed, or waited for: levels in order,
-/// within a level layers, rows from top to bottom, tightly packed. Valid until the next begin. NULL
-/// where it was not marked with lobe_graph_read_back. `size` may be NULL.
+/// The bytes read back from `resource` in the frame last executed or waited for: level by level,
+/// within a level layer by layer, rows from top to bottom, tightly packed. Valid until the next
+/// lobe_graph_begin. NULL if `resource` was not marked with lobe_graph_read_back. `size` may be
+/// NULL.
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
-/// Forgets that retained content is up to date (its memory stays): all its passes run again.
+/// Marks all retained content as out of date, so that the passes that write it run again. The
+/// memory stays.
 void lobe_graph_invalidate(lobe_graph *graph);
-/// The same for all whose names do not begin with `prefix`.
+/// The same for all retained resources whose names do not begin with `prefix`.
 void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
 
 // ---------------------------------------------------------------------------------------------
@@ -287,7 +301,7 @@ void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
 
 typedef enum lobe_pass_state {
     LOBE_PASS_RUN,
-    LOBE_PASS_CULLED,  ///< nothing wanted depends on it
+    LOBE_PASS_CULLED,  ///< no output depends on it
     LOBE_PASS_SKIPPED, ///< its retained results are still valid
 } lobe_pass_state;
 
@@ -295,9 +309,10 @@ typedef struct lobe_pass_report {
     const char *name;
     lobe_pass_kind kind;
     lobe_pass_state state;
-    double milliseconds; ///< device time, from timestamps; 0 where it did not run
-    /// What it must move, whatever the device's caches do: every level and layer that it declares
-    /// to read, and to write, once each. A pass that modifies does both; a shader may fetch less.
+    double milliseconds; ///< device time, from timestamps; 0 if it did not run
+    /// Memory traffic that the declaration implies, without caches: every level and layer that the
+    /// pass declares to read, and to write, counted once each. Modifying counts as both. A shader
+    /// may fetch less.
     uint64_t read_bytes, written_bytes;
 } lobe_pass_report;
 
@@ -305,8 +320,8 @@ typedef struct lobe_graph_report {
     const lobe_pass_report *passes; ///< in order of execution, then those that did not run
     size_t pass_count;
     double milliseconds; ///< device time of the whole frame, first to last timestamp
-    /// CPU time of the calling thread to compile the frame and to record its commands; waiting does
-    /// not count.
+    /// CPU time that the calling thread spent compiling the frame and recording its commands;
+    /// waiting does not count.
     double host_milliseconds;
     uint64_t transient_bytes; ///< memory of transient resources, aliased
     uint64_t transient_bytes_without_aliasing;
@@ -314,11 +329,11 @@ typedef struct lobe_graph_report {
     uint32_t barrier_count; ///< image and buffer barriers recorded
 } lobe_graph_report;
 
-/// About the frame last compiled or executed; valid until the next begin.
+/// Report on the frame last compiled or executed; valid until the next lobe_graph_begin.
 const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph);
 
-/// The compiled graph as text or as Graphviz, for the caller to lobe_release; NULL without memory.
-/// Shows passes (run, culled, skipped), resources, barriers, memory with and without aliasing.
+/// The compiled graph as text or as Graphviz: passes (run, culled, skipped), resources, barriers,
+/// memory with and without aliasing. The caller frees it with lobe_release; NULL if out of memory.
 char *lobe_graph_dump_text(const lobe_graph *graph);
 char *lobe_graph_dump_graphviz(const lobe_graph *graph);
 

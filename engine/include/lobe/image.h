@@ -11,8 +11,8 @@
 extern "C" {
 #endif
 
-/// Texel formats, for images in host memory and on the device alike. Channels are stored in
-/// order, little-endian. `_SRGB` holds colour encoded with the sRGB curve (alpha linear).
+/// Texel formats, for images in host memory and on the device. Channels are stored in order,
+/// little-endian. `_SRGB`: colour is encoded with the sRGB curve, alpha is linear.
 typedef enum lobe_format {
     LOBE_FORMAT_NONE = 0,
     LOBE_FORMAT_R8_UNORM,
@@ -27,7 +27,7 @@ typedef enum lobe_format {
     LOBE_FORMAT_R32_FLOAT,
     LOBE_FORMAT_RG32_FLOAT,
     LOBE_FORMAT_RGBA32_FLOAT,
-    LOBE_FORMAT_BGRA8_UNORM, ///< as displays want it
+    LOBE_FORMAT_BGRA8_UNORM, ///< common for displays
     LOBE_FORMAT_BGRA8_SRGB,
     LOBE_FORMAT_D32_FLOAT, ///< depth, device images only
     LOBE_FORMAT_COUNT
@@ -41,7 +41,7 @@ uint32_t lobe_format_channels(lobe_format format);
 const char *lobe_format_name(lobe_format format);
 
 /// A two-dimensional image in host memory: rows from top to bottom, tightly packed. A host may fill
-/// one itself; of one that lobe is to free, the texels must come from lobe_allocate.
+/// one in itself; if lobe is to free it, the texels must come from lobe_allocate.
 typedef struct lobe_image {
     lobe_format format;
     uint32_t width;  ///< texels
@@ -49,7 +49,7 @@ typedef struct lobe_image {
     void *texels;    ///< width * height * lobe_format_size(format) bytes, owned by the image
 } lobe_image;
 
-/// Largest width or height that any lobe image may have, in texels.
+/// Largest width or height of any image in lobe, in texels.
 #define LOBE_IMAGE_MAXIMUM_EXTENT 65535u
 
 /// Allocates zeroed texels. `image` is overwritten; free it with lobe_image_free.
@@ -58,7 +58,7 @@ typedef struct lobe_image {
 lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
                                 uint32_t height, const lobe_host *host);
 
-/// Frees the texels and zeroes the structure. NULL and an already freed image are fine.
+/// Frees the texels and zeroes the structure. NULL and an already freed image are allowed.
 void lobe_image_free(lobe_image *image);
 
 #ifdef __cplusplus

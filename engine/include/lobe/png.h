@@ -12,21 +12,21 @@
 extern "C" {
 #endif
 
-/// Writes an RGBA8_SRGB or RGBA8_UNORM image as it is, as RGB where every texel is opaque, else as
-/// RGBA. Equal images give equal bytes. The file appears whole or not at all.
+/// Writes an RGBA8_SRGB or RGBA8_UNORM image without conversion: as RGB if every texel is opaque,
+/// else as RGBA. Equal images give equal bytes. The file is written completely or not at all.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_host *host);
 
-/// Makes in memory what lobe_png_write would write. `*data` is for the caller to lobe_release;
-/// `name` is for messages. On failure `*data` is NULL. Errors: those of lobe_png_write but
+/// Encodes in memory what lobe_png_write would write. The caller frees `*data` with lobe_release;
+/// `name` is used in messages. On failure `*data` is NULL. Errors: those of lobe_png_write except
 /// LOBE_ERROR_WRITE.
 lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_host *host,
                             uint8_t **data, size_t *size);
 
-/// Reads any PNG: into RGBA16_UNORM where it has 16 bits a channel, else into RGBA8_SRGB. Grey is
-/// spread to R, G and B, palettes are looked up, missing alpha is opaque. Values are as stored: of
-/// colour chunks such as gAMA nothing is applied. `image` is overwritten; free it with
+/// Reads any PNG file: into RGBA16_UNORM if it has 16 bits per channel, else into RGBA8_SRGB. Grey
+/// is copied to R, G and B, palettes are expanded, missing alpha is opaque. Values are as stored:
+/// colour chunks such as gAMA are not applied. `image` is overwritten; free it with
 /// lobe_image_free.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ, LOBE_ERROR_MALFORMED (damaged or truncated),
 /// LOBE_ERROR_LIMIT (too large), LOBE_ERROR_OUT_OF_MEMORY.

@@ -17,25 +17,27 @@
 extern "C" {
 #endif
 
-/// lobe inside a program that has Vulkan of its own: its device, its images, its semaphores. The
-/// one header of lobe that speaks of Vulkan; lobe/lobe.h does not bring it.
+/// lobe inside a program that uses Vulkan itself, with that program's device, images and
+/// semaphores. This is the only header of lobe that includes Vulkan; lobe/lobe.h does not include
+/// it.
 ///
-/// lobe refers to no function of Vulkan by name: it asks the host's vkGetInstanceProcAddr for them,
-/// or, where the host gives none, that of libvulkan.so.1, which it loads. Instance, device and
-/// queue must come from that same loader. A host that links a loader statically therefore gives its
-/// vkGetInstanceProcAddr; one that links libvulkan, or loads it as volk does, need not. Layers see
-/// what lobe does as they see what the host does.
+/// lobe refers to no function of Vulkan by name: it gets them from the host's vkGetInstanceProcAddr
+/// or, if the host gives none, from that of libvulkan.so.1, which it loads. Instance, device and
+/// queue must come from that same loader. A host that links a loader statically must therefore give
+/// its vkGetInstanceProcAddr; one that links libvulkan, or loads it as volk does, need not. Layers
+/// see lobe's calls as they see the host's.
 
 // ---------------------------------------------------------------------------------------------
 // What lobe needs of a device
 
-/// The version of Vulkan that instance and device must offer, and VkApplicationInfo ask for.
+/// The Vulkan version that instance and device must support, and that VkApplicationInfo must
+/// request.
 #define LOBE_VULKAN_API_VERSION VK_API_VERSION_1_3
 
 /// See "Devices".
 typedef struct lobe_vulkan_device lobe_vulkan_device;
 
-/// Features in the form in which devices are asked for them.
+/// Features in the form that device creation takes.
 typedef struct lobe_vulkan_features {
     VkPhysicalDeviceFeatures2 core;
     VkPhysicalDeviceVulkan11Features vulkan_1_1;
@@ -43,151 +45,152 @@ typedef struct lobe_vulkan_features {
     VkPhysicalDeviceVulkan13Features vulkan_1_3;
 } lobe_vulkan_features;
 
-/// The features that lobe requires or makes use of, as a list: `required` says which, `present` is
-/// false. Static storage.
+/// The features that lobe requires (`required`) or uses if present; `present` is always false here.
+/// Static storage.
 const lobe_device_feature *lobe_vulkan_feature_list(size_t *count);
 
-/// Where the functions below take a lobe_vulkan_device, they read its `get_instance_proc_addr`,
-/// `instance` and `physical_device` only: the device need not have been made.
+/// Of a lobe_vulkan_device, the functions below read only `get_instance_proc_addr`, `instance` and
+/// `physical_device`: the device need not exist yet.
 
-/// Turns on whatever of that list the device has, in structures chained for
-/// VkDeviceCreateInfo.pNext (`features->core` is the first). A host turns on what it needs itself
-/// beside these, and may append its own structures to `features->vulkan_1_3.pNext`. The structures
-/// point to one another: they must stay where they are.
+/// Enables every feature of that list that the device has, in structures chained for
+/// VkDeviceCreateInfo.pNext (`features->core` is the first). A host may enable further features in
+/// them, and may append its own structures to `features->vulkan_1_3.pNext`. The structures point to
+/// each other and must not be moved.
 void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_features *features);
 
-/// A device extension that lobe makes use of.
+/// A device extension that lobe uses.
 typedef struct lobe_vulkan_extension {
     const char *name;
     const char *use; ///< what lobe does with it
     bool required;
 } lobe_vulkan_extension;
 
-/// Static storage. At present there are recommended ones alone.
+/// Static storage. At present, all of them are optional.
 const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count);
 
-/// Most names that lobe_vulkan_extensions_fill gives.
+/// Largest number of names that lobe_vulkan_extensions_fill returns.
 #define LOBE_VULKAN_MAXIMUM_EXTENSIONS 4
-/// The names of those the device has, for VkDeviceCreateInfo.ppEnabledExtensionNames; returns how
-/// many. Static storage. There are none without memory, which `allocator` gives for the call; NULL:
-/// the C library's.
+/// The names of those extensions that the device has, for
+/// VkDeviceCreateInfo.ppEnabledExtensionNames; returns their number. The names have static storage.
+/// Returns 0 if out of memory; `allocator` (NULL: the C library's) is used during the call only.
 uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
                                      const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]);
 
-/// The first queue family that serves lobe: one with both graphics and compute. UINT32_MAX where
-/// the device has none.
+/// The first queue family that lobe can use: one with both graphics and compute. UINT32_MAX if the
+/// device has none.
 uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host);
 
-/// Says in words what lobe requires and a device lacks, one thing a line: "feature
-/// synchronization2 (barriers of the render graph)". `enabled`: what the host turned on, or is
-/// about to, as for lobe_vulkan_device; NULL: what the device itself offers is looked at.
-/// Returns how many things are missing; 0: the device serves. `text` is cut to `size` bytes with
-/// the zero at its end, and may be NULL where `size` is 0.
+/// Describes what lobe requires and a device lacks, one requirement per line: "feature
+/// synchronization2 (barriers of the render graph)". `enabled`: what the host enabled or is going
+/// to enable, as for lobe_vulkan_device; NULL: everything the device supports. Returns the number
+/// of missing requirements; 0: lobe can use the device. `text` is cut to `size` bytes including the
+/// terminating zero, and may be NULL if `size` is 0.
 size_t lobe_vulkan_missing(const lobe_vulkan_device *host, const VkPhysicalDeviceFeatures2 *enabled,
                            char *text, size_t size);
 
 // ---------------------------------------------------------------------------------------------
 // Devices
 
-/// A device with the queue that lobe submits to.
+/// A device and the queue that lobe submits to.
 struct lobe_vulkan_device {
     /// The loader that all handles come from. NULL: libvulkan.so.1.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
-    VkInstance instance; ///< made for LOBE_VULKAN_API_VERSION or later
+    VkInstance instance; ///< created for LOBE_VULKAN_API_VERSION or later
     VkPhysicalDevice physical_device;
     VkDevice device;
     uint32_t queue_family; ///< with graphics and compute; images and buffers of lobe belong to it
     VkQueue queue;         ///< of that family
-    /// What was turned on when the device was created: the structures of VkDeviceCreateInfo, with
-    /// pEnabledFeatures, where that was used, in `features`. All that lobe requires must be on.
-    /// Structures of other extensions are passed over. Needed during the call only.
+    /// What was enabled when the device was created: the structures of VkDeviceCreateInfo; if it
+    /// used pEnabledFeatures, those in `features`. Everything lobe requires must be enabled.
+    /// Structures of other extensions are ignored. Needed during the call only.
     const VkPhysicalDeviceFeatures2 *features;
-    const char *const *extensions; ///< device extensions that were turned on; during the call only
+    const char *const *extensions; ///< enabled device extensions; needed during the call only
     uint32_t extension_count;
     bool debug_utils; ///< the instance has VK_EXT_debug_utils: lobe names its objects and passes
-    /// Where the driver is to get the host's memory for all that lobe makes of Vulkan, from
-    /// whatever thread lobe is called from; copied. NULL: wherever it likes. lobe's own structures
-    /// come from the allocator of the log in the parameters.
+    /// Host memory for the driver, for every Vulkan object that lobe creates; called from any
+    /// thread that calls lobe. Copied. NULL: the driver's own. lobe's own structures come from the
+    /// allocator of the host in the parameters.
     const VkAllocationCallbacks *allocation_callbacks;
-    /// Called around each use of the queue, so that host and lobe can share it: nobody else may
-    /// use the queue in between. Called from whatever thread lobe is called from, and never nested.
-    /// Both or neither; NULL: the host uses the queue only where lobe is not being called.
+    /// Called around each use of the queue, so that host and lobe can share it: nobody else may use
+    /// the queue in between. Called from any thread that calls lobe, never nested. Set both or
+    /// neither; NULL: the host never uses the queue during a call to lobe.
     void (*lock_queue)(void *user);
     void (*unlock_queue)(void *user);
-    void *user; ///< handed to both
+    void *user; ///< passed to both
 };
 
-/// Makes a lobe device of a host's. lobe_device_destroy waits for lobe's submissions and frees
-/// what is lobe's; instance, device and queue stay as they are, and must live until then.
-/// `parameters` may be NULL; `select`, `validation` and
-/// `get_instance_proc_addr` are the host's business and must be empty.
+/// Creates a lobe device on a device of the host. lobe_device_destroy waits for lobe's submissions
+/// and frees lobe's objects; instance, device and queue stay the host's and must live until then.
+/// `parameters` may be NULL; its `select`, `validation` and `get_instance_proc_addr` must be empty,
+/// as these are the host's choice.
 /// Validation messages go to the host's messenger; lobe_device_validation_count stays 0.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (a handle or the features are missing, one callback without
-/// the other), LOBE_ERROR_NO_DEVICE (the log line says what the device or its loader lacks).
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (a handle or the features are missing, only one of the
+/// callbacks is set), LOBE_ERROR_NO_DEVICE (the log says what the device or its loader lacks).
 lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
                                       const lobe_device_parameters *parameters,
                                       lobe_device **device);
 
-/// The handles of any lobe device, for a host that makes images on it or submits to its queue.
-/// `features` and `extensions` are empty; `lock_queue`, `unlock_queue` and `user` must be called
-/// around the host's use of the queue. All belong to the device and live as long.
+/// The handles of any lobe device, for a host that creates images on it or submits to its queue.
+/// `features` and `extensions` are empty; the host must call `lock_queue` and `unlock_queue` with
+/// `user` around its use of the queue. Everything belongs to the device and is valid as long as it.
 void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles);
 
 // ---------------------------------------------------------------------------------------------
 // Images
 
-/// An image of the host's that a frame draws into or reads: see lobe_graph_import_image and
-/// lobe_render_target. It must be alive until the device has finished the frame, and belong to the
-/// queue family of the lobe device (or be shared by all).
+/// An image of the host that a frame draws into or reads: see lobe_graph_import_image and
+/// lobe_render_target. It must live until the device has finished the frame, and belong to the
+/// queue family of the lobe device (or use concurrent sharing).
 struct lobe_vulkan_image {
     const char *name;        ///< for errors, dumps and labels; copied; NULL: "host image"
-    VkImage image;           ///< two-dimensional, one sample a texel
-    VkFormat format;         ///< one of which lobe_vulkan_format knows the name
+    VkImage image;           ///< two-dimensional, one sample per texel
+    VkFormat format;         ///< one that lobe_vulkan_format knows
     uint32_t width, height;  ///< texels of level 0
     uint32_t layers, levels; ///< 0 means 1
-    VkImageUsageFlags usage; ///< it was created with; must allow what passes do with it
-    /// What it is in when the frame starts. UNDEFINED: its content is not needed. The host's work
-    /// on the image must be done by then: ordered before by the submission's semaphores, or by
-    /// coming earlier in the queue or in the command buffer, where lobe waits for all of it.
+    VkImageUsageFlags usage; ///< that it was created with; must allow what passes do with it
+    /// Its layout when the frame starts. UNDEFINED: its content is not needed. The host's earlier
+    /// work on the image must be ordered before the frame: by the submission's semaphores, or by
+    /// coming earlier in the queue or in the command buffer, in which case lobe waits for all of
+    /// it.
     VkImageLayout layout;
-    /// What to leave it in, ready for the host's use of it in these stages, with these kinds of
-    /// access. UNDEFINED: GENERAL. Stages and access of 0: all, where a semaphore does not say.
+    /// Its layout after the frame (UNDEFINED: GENERAL), and the stages and kinds of access in which
+    /// the host uses it next. Stages of 0: all stages and accesses.
     VkImageLayout final_layout;
     VkPipelineStageFlags2 final_stages;
     VkAccessFlags2 final_access;
-    /// Two-dimensional, of level 0 of layer 0, in the image's format and with all its usages; alive
-    /// as long as the image must be. VK_NULL_HANDLE: lobe makes one in every frame.
+    /// A two-dimensional view of level 0 of layer 0, in the image's format and with all its usages;
+    /// must live as long as the image. VK_NULL_HANDLE: lobe creates one in every frame.
     VkImageView view;
 };
 
-/// lobe's name of a format; LOBE_FORMAT_NONE where it has none.
+/// lobe's equivalent of a format; LOBE_FORMAT_NONE if there is none.
 lobe_format lobe_vulkan_format(VkFormat format);
 
 // ---------------------------------------------------------------------------------------------
 // Submission
 
-/// A moment that the queue waits for, or makes known.
+/// A semaphore that the queue waits for, or signals.
 typedef struct lobe_vulkan_semaphore {
     VkSemaphore semaphore;
-    uint64_t value;               ///< of a timeline semaphore; a binary one has none
-    VkPipelineStageFlags2 stages; ///< that wait, or have to be done; 0: all
+    uint64_t value;               ///< of a timeline semaphore; ignored for a binary one
+    VkPipelineStageFlags2 stages; ///< that wait, or that must have finished; 0: all
 } lobe_vulkan_semaphore;
 
-/// Most semaphores that one submission waits for, and that it signals.
+/// Largest number of semaphores that one submission can wait for, and that it can signal.
 #define LOBE_VULKAN_MAXIMUM_SEMAPHORES 8
 
-/// How a frame gets to the device: see lobe_graph_submit. All zero: lobe submits it to the
-/// device's queue.
+/// How a frame is submitted, see lobe_graph_submit. All zero: lobe submits it to the device's
+/// queue, without semaphores.
 struct lobe_vulkan_submission {
     const lobe_vulkan_semaphore *waits;
     const lobe_vulkan_semaphore *signals;
     uint32_t wait_count, signal_count;
-    /// Where given, the frame is recorded here and the host submits it: a primary command buffer
-    /// in recording state, outside of any rendering, of the queue family of the lobe device; there
-    /// are no semaphores then. Bound pipelines, descriptors and dynamic state are lost. The host
-    /// submits it to lobe's queue before the next frame of the same graph is begun and before it
-    /// changes textures or buffers that the frame reads; once only.
+    /// If set, lobe records the frame into this command buffer, and the host submits it. It must be
+    /// a primary command buffer of the lobe device's queue family, in recording state and outside
+    /// of a rendering; there must be no semaphores then. Bound pipelines, descriptors and dynamic
+    /// state are lost. The host submits it to lobe's queue, exactly once, before it begins the next
+    /// frame of the same graph and before it changes textures or buffers that the frame reads.
     VkCommandBuffer commands;
 };
 

@@ -1,5 +1,5 @@
-// A host's allocator: what lobe asks it for and gives back to it, and what happens where it has
-// nothing to give, in all that needs no device.
+// The host's allocator: what lobe allocates and frees, and what happens if an allocation fails, in
+// everything that needs no device.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -20,8 +20,8 @@
 
 static void expect_zeroes(const unsigned char *bytes, size_t count) {
     assert_int_equal((uintptr_t)bytes % 16, 0);
-    for (size_t n = 0; n < count; n++)
-        assert_int_equal(bytes[n], 0);
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(bytes[i], 0);
 }
 
 static void check_blocks(const lobe_allocator *allocator) {
@@ -30,8 +30,8 @@ static void check_blocks(const lobe_allocator *allocator) {
     memset(bytes, 7, 100);
     bytes = lobe_reallocate(allocator, bytes, 1000, 1);
     assert_int_equal((uintptr_t)bytes % 16, 0);
-    for (int n = 0; n < 100; n++)
-        assert_int_equal(bytes[n], 7);
+    for (int i = 0; i < 100; i++)
+        assert_int_equal(bytes[i], 7);
     bytes[999] = 1;
     bytes = lobe_reallocate(NULL, bytes, 3, 1);
     assert_int_equal(bytes[2], 7);
@@ -67,12 +67,12 @@ static void sizes_beyond_all_are_refused(void **state) {
     counting_allocator counting;
     counting_allocator_start(&counting);
     const lobe_allocator *const allocators[] = {NULL, &counting.allocator};
-    for (int n = 0; n < 2; n++) {
-        assert_null(lobe_allocate(allocators[n], SIZE_MAX, 1));
-        assert_null(lobe_allocate(allocators[n], SIZE_MAX / 4, 8));
-        assert_null(lobe_allocate(allocators[n], SIZE_MAX - 8, 1));
-        char *block = lobe_copy_text(allocators[n], "kept");
-        assert_null(lobe_reallocate(allocators[n], block, SIZE_MAX / 2, 3));
+    for (int i = 0; i < 2; i++) {
+        assert_null(lobe_allocate(allocators[i], SIZE_MAX, 1));
+        assert_null(lobe_allocate(allocators[i], SIZE_MAX / 4, 8));
+        assert_null(lobe_allocate(allocators[i], SIZE_MAX - 8, 1));
+        char *block = lobe_copy_text(allocators[i], "kept");
+        assert_null(lobe_reallocate(allocators[i], block, SIZE_MAX / 2, 3));
         assert_string_equal(block, "kept");
         lobe_release(block);
     }
@@ -92,22 +92,22 @@ static void a_block_that_cannot_grow_is_kept(void **state) {
     assert_nothing_left(&counting);
 }
 
-/// A block remembers where it came from, whatever it is asked to grow by.
+/// A block remembers its allocator, whichever allocator a reallocation names.
 static void allocators_do_not_mix(void **state) {
     (void)state;
     counting_allocator countings[2];
     char *blocks[2];
-    for (int n = 0; n < 2; n++) {
-        counting_allocator_start(&countings[n]);
-        blocks[n] = lobe_copy_text(&countings[n].allocator, "text");
+    for (int i = 0; i < 2; i++) {
+        counting_allocator_start(&countings[i]);
+        blocks[i] = lobe_copy_text(&countings[i].allocator, "text");
     }
-    for (int n = 0; n < 2; n++)
-        blocks[n] = lobe_reallocate(&countings[1 - n].allocator, blocks[n], 50 + (size_t)n, 1);
+    for (int i = 0; i < 2; i++)
+        blocks[i] = lobe_reallocate(&countings[1 - i].allocator, blocks[i], 50 + (size_t)i, 1);
     assert_int_equal(countings[1].bytes, countings[0].bytes + 1);
-    for (int n = 0; n < 2; n++) {
-        lobe_release(blocks[n]);
-        assert_int_equal(countings[n].taken, 2);
-        assert_nothing_left(&countings[n]);
+    for (int i = 0; i < 2; i++) {
+        lobe_release(blocks[i]);
+        assert_int_equal(countings[i].taken, 2);
+        assert_nothing_left(&countings[i]);
     }
 }
 
@@ -118,8 +118,8 @@ static lobe_result make_image(lobe_format format, uint32_t width, uint32_t heigh
                               const lobe_host *host, lobe_image *image) {
     lobe_result result = lobe_image_allocate(image, format, width, height, host);
     const size_t size = result ? 0 : (size_t)width * height * lobe_format_size(format);
-    for (size_t n = 0; n < size; n++)
-        ((uint8_t *)image->texels)[n] = (uint8_t)(n % 59);
+    for (size_t i = 0; i < size; i++)
+        ((uint8_t *)image->texels)[i] = (uint8_t)(i % 59);
     return result;
 }
 
@@ -147,8 +147,8 @@ static lobe_result work_with_exr(void *user, const lobe_host *host) {
     lobe_image levels[3] = {0}, read = {0};
     lobe_exr_contents contents = {0};
     lobe_result result = LOBE_OK;
-    for (uint32_t n = 0; result == LOBE_OK && n < 3; n++)
-        result = make_image(LOBE_FORMAT_RGBA16_FLOAT, 4u >> n, 4u >> n, host, &levels[n]);
+    for (uint32_t i = 0; result == LOBE_OK && i < 3; i++)
+        result = make_image(LOBE_FORMAT_RGBA16_FLOAT, 4u >> i, 4u >> i, host, &levels[i]);
     const lobe_exr_layer layers[2] = {{.image = levels}, {.name = "again", .image = levels}};
     const lobe_exr_attribute attribute = {.name = "maker", .type = LOBE_EXR_TEXT, .text = "us"};
     const lobe_exr_parameters parameters = {.layers = layers,
@@ -159,8 +159,8 @@ static lobe_result work_with_exr(void *user, const lobe_host *host) {
     result = result ? result : lobe_exr_write(path, &parameters, host);
     result = result ? result : lobe_exr_read(path, "again", host, &read);
     result = result ? result : lobe_exr_read_contents(path, NULL, host, &contents);
-    for (int n = 0; n < 3; n++)
-        lobe_image_free(&levels[n]);
+    for (int i = 0; i < 3; i++)
+        lobe_image_free(&levels[i]);
     lobe_image_free(&read);
     lobe_exr_contents_free(&contents);
     return result;
@@ -187,7 +187,7 @@ static lobe_result work_with_profile(void *user, const lobe_host *host) {
     lobe_profile *profile;
     lobe_profile_summary summary;
     lobe_result result = lobe_profile_create(host, &profile);
-    for (int n = 0; result == LOBE_OK && n < 20; n++)
+    for (int i = 0; result == LOBE_OK && i < 20; i++)
         result = lobe_profile_add(profile, &report);
     result = result ? result : lobe_profile_statistics(profile, &summary);
     lobe_profile_destroy(&profile);
@@ -196,7 +196,7 @@ static lobe_result work_with_profile(void *user, const lobe_host *host) {
 
 static void png_files_say_where_memory_ends(void **state) {
     (void)state;
-    // libpng takes its memory there too, and zlib's with it.
+    // libpng allocates there too, and so does zlib.
     assert_true(fail_each_allocation(work_with_png, NULL) > 20);
 }
 

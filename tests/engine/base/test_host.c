@@ -35,7 +35,7 @@ static void nobody_need_listen(void **state) {
     assert_int_equal(lobe_host_fail(&deaf, LOBE_ERROR_READ, "unheard"), LOBE_ERROR_READ);
 }
 
-/// A name in a file must neither forge a second line nor steer a terminal.
+/// A name from a file must neither forge a second line nor control a terminal.
 static void a_message_is_one_line_without_control_characters(void **state) {
     (void)state;
     log_recorder recorder;

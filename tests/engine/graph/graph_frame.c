@@ -2,12 +2,12 @@
 
 #include <stdio.h>
 
-#define EXTENT 32 ///< texels; of levels 0
+#define EXTENT 32 ///< texels of level 0
 #define LEVELS 6
 #define COUNT  64 ///< floats in a buffer
 
 // ---------------------------------------------------------------------------------------------
-// What lasts
+// Objects of all frames
 
 static const float triangle[] = {-1, -1, -1, 3, 3, -1};
 
@@ -17,9 +17,9 @@ lobe_result graph_frame_open(lobe_device *device, graph_frame *frame) {
     const uint32_t indices[] = {0, 1, 2};
     *frame = (graph_frame){.device = device};
     lobe_result result = lobe_graph_create(device, &frame->graph);
-    for (int n = 0; result == LOBE_OK && n < GRAPH_FRAME_TEXTURES; n++)
+    for (int i = 0; result == LOBE_OK && i < GRAPH_FRAME_TEXTURES; i++)
         result = lobe_texture_create(device, &(lobe_texture_parameters){.image = &image},
-                                     &frame->textures[n]);
+                                     &frame->textures[i]);
     if (result == LOBE_OK)
         result = lobe_buffer_create(
             device, &(lobe_buffer_parameters){.size = sizeof triangle, .data = triangle},
@@ -33,8 +33,8 @@ lobe_result graph_frame_open(lobe_device *device, graph_frame *frame) {
 
 void graph_frame_close(graph_frame *frame) {
     lobe_graph_destroy(&frame->graph);
-    for (int n = 0; n < GRAPH_FRAME_TEXTURES; n++)
-        lobe_texture_destroy(&frame->textures[n]);
+    for (int i = 0; i < GRAPH_FRAME_TEXTURES; i++)
+        lobe_texture_destroy(&frame->textures[i]);
     lobe_buffer_destroy(&frame->vertices);
     lobe_buffer_destroy(&frame->indices);
 }
@@ -49,15 +49,15 @@ static lobe_resource add_buffers(graph_frame *frame) {
         uint32_t count;
     } constants = {1, COUNT};
     float values[COUNT];
-    for (int n = 0; n < COUNT; n++)
-        values[n] = frame->time + (float)n;
+    for (int i = 0; i < COUNT; i++)
+        values[i] = frame->time + (float)i;
     lobe_resource last = lobe_graph_upload(frame->graph, "values", values, sizeof values);
-    for (int n = 0; n < 16; n++) {
+    for (int i = 0; i < 16; i++) {
         char name[32];
-        snprintf(name, sizeof name, "buffer %d", n);
+        snprintf(name, sizeof name, "buffer %d", i);
         lobe_resource target = lobe_graph_buffer(
             frame->graph, &(lobe_buffer_description){
-                              .name = name, .size = sizeof values, .retained = n % 3 == 0});
+                              .name = name, .size = sizeof values, .retained = i % 3 == 0});
         lobe_pass *pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_COMPUTE, name);
         lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = last});
         last = lobe_pass_write(pass, &(lobe_binding){.name = "target_block", .resource = target});
@@ -84,7 +84,7 @@ static lobe_resource halve(graph_frame *frame, lobe_resource chain, uint32_t lev
     return chain;
 }
 
-/// The level 0 is filled anew in every frame.
+/// Level 0 is filled in every frame.
 static lobe_resource build_chain(graph_frame *frame, const char *name, bool retained) {
     lobe_resource chain =
         lobe_graph_image(frame->graph, &(lobe_image_description){.name = name,
@@ -111,11 +111,11 @@ static lobe_resource sum_textures(graph_frame *frame) {
                                                                  .retained = true});
     lobe_pass *pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_TRANSFER, "no sum");
     sum = lobe_pass_fill(pass, sum, (lobe_range){0}, (float[4]){frame->time});
-    for (int n = 0; n < GRAPH_FRAME_TEXTURES; n++) {
+    for (int i = 0; i < GRAPH_FRAME_TEXTURES; i++) {
         pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_COMPUTE, "sum");
         lobe_pass_read(pass, &(lobe_binding){.name = "sample_image",
                                              .resource = lobe_graph_import_texture(
-                                                 frame->graph, frame->textures[n])});
+                                                 frame->graph, frame->textures[i])});
         sum = lobe_pass_modify(pass, &(lobe_binding){.name = "sum", .resource = sum});
         lobe_pass_dispatch(
             pass, &(lobe_dispatch){.shader = "graph_accumulate.comp", .threads = {EXTENT, EXTENT}});
@@ -134,14 +134,14 @@ static void draw_triangles(graph_frame *frame, lobe_pass *pass) {
     const lobe_binding vertices = {.name = "vertex_block",
                                    .resource =
                                        lobe_graph_import_buffer(frame->graph, frame->vertices)};
-    for (int n = 0; n < 8; n++)
+    for (int i = 0; i < 8; i++)
         lobe_pass_draw(pass, &(lobe_draw){.vertex_shader = "graph_triangle.vert",
                                           .fragment_shader = "graph_triangle.frag",
-                                          .indices = n % 2 ? lobe_graph_import_buffer(
+                                          .indices = i % 2 ? lobe_graph_import_buffer(
                                                                  frame->graph, frame->indices)
                                                            : (lobe_resource){0},
                                           .index_count = 3,
-                                          .depth_test = n % 4 > 1,
+                                          .depth_test = i % 4 > 1,
                                           .constants = &constants,
                                           .constants_size = 20,
                                           .bindings = &vertices,
@@ -159,10 +159,10 @@ static lobe_resource declare_target(graph_frame *frame, lobe_format format, uint
 /// Every other pass is multisampled and resolved.
 static lobe_resource draw_all(graph_frame *frame) {
     lobe_resource last = {0};
-    for (uint32_t n = 0; n < 12; n++) {
+    for (uint32_t i = 0; i < 12; i++) {
         char name[32];
-        snprintf(name, sizeof name, "triangles %u", n);
-        const uint32_t samples = n % 2 ? 4 : 1;
+        snprintf(name, sizeof name, "triangles %u", i);
+        const uint32_t samples = i % 2 ? 4 : 1;
         lobe_pass *pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_RASTER, name);
         lobe_resource colour = declare_target(frame, LOBE_FORMAT_RGBA32_FLOAT, samples);
         colour = lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = colour});
@@ -174,7 +174,7 @@ static lobe_resource draw_all(graph_frame *frame) {
         lobe_graph_output(frame->graph, colour);
         last = colour;
     }
-    for (int n = 0; n < 5; n++) {
+    for (int i = 0; i < 5; i++) {
         lobe_pass *pass = lobe_graph_add_pass(frame->graph, LOBE_PASS_TRANSFER, "copy");
         lobe_resource copy = declare_target(frame, LOBE_FORMAT_RGBA32_FLOAT, 1);
         last = lobe_pass_copy(pass, last, (lobe_range){0}, copy, (lobe_range){0});

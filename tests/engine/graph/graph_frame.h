@@ -4,12 +4,12 @@
 #include <lobe/device.h>
 #include <lobe/vulkan.h>
 
-/// A frame such as a renderer declares, of everything that a graph has: compute passes along MIP
+/// A frame like a renderer's, with everything that a graph supports: compute passes along MIP
 /// chains and from buffer to buffer, sums over frames, raster passes of many draws, transfers; on
 /// imported, retained and transient images and buffers, with uploads and data that is read back.
-/// Images are small: what the host does is looked at, not what the device does.
+/// Images are small: the tests look at the work of the host, not of the device.
 
-#define GRAPH_FRAME_PASSES   50 ///< that run; what is read back comes on top
+#define GRAPH_FRAME_PASSES   50 ///< that run, without those that read back
 #define GRAPH_FRAME_TEXTURES 4
 
 typedef struct graph_frame {
@@ -17,8 +17,8 @@ typedef struct graph_frame {
     lobe_graph *graph;
     lobe_texture *textures[GRAPH_FRAME_TEXTURES];
     lobe_buffer *vertices, *indices;
-    const lobe_vulkan_image *target; ///< where one more pass draws; NULL: none
-    float time;                      ///< uploaded: what depends on it is computed anew
+    const lobe_vulkan_image *target; ///< one more pass draws into it; NULL: none
+    float time;                      ///< uploaded; passes that depend on it run again
     lobe_resource mean;              ///< read back: a buffer of 64 floats, `time` + 16 + n
 } graph_frame;
 

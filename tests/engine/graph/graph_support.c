@@ -74,9 +74,9 @@ lobe_resource graph_fixture_add(graph_fixture *fixture, const char *name, lobe_r
 
 lobe_pass_state graph_fixture_state(const graph_fixture *fixture, const char *pass) {
     const lobe_graph_report *report = lobe_graph_describe(fixture->graph);
-    for (size_t n = 0; n < report->pass_count; n++)
-        if (strcmp(report->passes[n].name, pass) == 0)
-            return report->passes[n].state;
+    for (size_t i = 0; i < report->pass_count; i++)
+        if (strcmp(report->passes[i].name, pass) == 0)
+            return report->passes[i].state;
     fail_msg("no pass '%s' was reported", pass);
     return LOBE_PASS_CULLED;
 }

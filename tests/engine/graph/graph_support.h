@@ -12,12 +12,12 @@ typedef struct graph_fixture {
     lobe_graph *graph;
 } graph_fixture;
 
-/// For cmocka: a fresh fixture before each test. Tearing down fails where the validation layer
-/// complained, or memory was not given back.
+/// For cmocka: a new fixture for each test. Closing fails if the validation layer complained, or if
+/// memory was not freed.
 int graph_fixture_open(void **state);
 int graph_fixture_close(void **state);
 
-/// A buffer without former content, and an image with one level and layer.
+/// A buffer without content, and an image with one level and one layer.
 lobe_resource graph_fixture_buffer(graph_fixture *fixture, const char *name, size_t size);
 lobe_resource graph_fixture_image(graph_fixture *fixture, const char *name, lobe_format format,
                                   uint32_t width, uint32_t height);
@@ -30,10 +30,10 @@ lobe_resource graph_fixture_count(graph_fixture *fixture, const char *pass, lobe
 lobe_resource graph_fixture_add(graph_fixture *fixture, const char *pass, lobe_resource source,
                                 lobe_resource target, float offset, uint32_t count);
 
-/// What was done with a pass of the frame; fails the test where there is none of that name.
+/// The state of a pass of the frame; fails the test if there is none of that name.
 lobe_pass_state graph_fixture_state(const graph_fixture *fixture, const char *pass);
 
-/// Executes and asserts that this works.
+/// Executes, and asserts that this succeeds.
 void graph_fixture_execute(graph_fixture *fixture);
 /// Executes and asserts that this fails with `expected` and exactly one error line, which contains
 /// all of `words` (up to the first NULL).

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "engine/graph/graph.h"
+#include "engine/graph/state.h"
 #include "tests/engine/graph/graph_support.h"
 
 static const float *read_floats(graph_fixture *fixture, lobe_resource resource, size_t count) {
@@ -22,8 +22,8 @@ static void compute_fills_a_buffer(void **state) {
     lobe_graph_read_back(fixture->graph, numbers, (lobe_range){0});
     graph_fixture_execute(fixture);
     const float *data = read_floats(fixture, numbers, 1000);
-    for (int n = 0; n < 1000; n++)
-        assert_true(data[n] == 3.0f * (float)n);
+    for (int i = 0; i < 1000; i++)
+        assert_true(data[i] == 3.0f * (float)i);
 }
 
 static void passes_see_what_passes_before_wrote(void **state) {
@@ -31,7 +31,7 @@ static void passes_see_what_passes_before_wrote(void **state) {
     lobe_graph_begin(fixture->graph);
     lobe_resource numbers = graph_fixture_buffer(fixture, "first", 64 * sizeof(float));
     numbers = graph_fixture_count(fixture, "count", numbers, 1.0f, 64);
-    for (int n = 0; n < 10; n++) {
+    for (int i = 0; i < 10; i++) {
         lobe_resource next = graph_fixture_buffer(fixture, "next", 64 * sizeof(float));
         numbers = graph_fixture_add(fixture, "add", numbers, next, 1.0f, 64);
     }
@@ -44,14 +44,14 @@ static void passes_see_what_passes_before_wrote(void **state) {
     assert_true(report->transient_bytes < report->transient_bytes_without_aliasing);
 }
 
-/// A buffer may be overwritten once all that read it have done so.
+/// A buffer may be overwritten once all its readers have run.
 static void a_buffer_is_used_again(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource a = graph_fixture_buffer(fixture, "a", 64 * sizeof(float));
     lobe_resource b = graph_fixture_buffer(fixture, "b", 64 * sizeof(float));
     a = graph_fixture_count(fixture, "count", a, 1.0f, 64);
-    for (int n = 0; n < 4; n++) {
+    for (int i = 0; i < 4; i++) {
         b = graph_fixture_add(fixture, "forth", a, b, 1.0f, 64);
         a = graph_fixture_add(fixture, "back", b, a, 1.0f, 64);
     }
@@ -118,10 +118,10 @@ static void levels_are_made_from_levels(void **state) {
     const float *texels = read_floats(fixture, image, 3 * (256 + 64 + 16 + 4 + 1));
     for (uint32_t level = 0; level < 5; level++)
         for (uint32_t layer = 0; layer < 3; layer++)
-            for (uint32_t n = 0; n < 256u >> (2 * level); n++, texels++) {
+            for (uint32_t i = 0; i < 256u >> (2 * level); i++, texels++) {
                 float scale = (float)(1 << level), offset = 0.5f * (scale - 1.0f);
-                float x = scale * (float)(n % (16 >> level)) + offset;
-                float y = scale * (float)(n / (16 >> level)) + offset;
+                float x = scale * (float)(i % (16 >> level)) + offset;
+                float y = scale * (float)(i / (16 >> level)) + offset;
                 assert_float_equal(*texels, x + 100.0f * y + 10000.0f * (float)layer, 1e-2);
             }
 }
@@ -143,27 +143,27 @@ static void a_range_can_be_read_back(void **state) {
     assert_float_equal(read_floats(fixture, image, 4)[0], 20050.5, 1e-2);
 }
 
-/// Two dispatches of one pass, with bindings of their own for what they read.
+/// Two dispatches of one pass, each with its own bindings for reading.
 static void dispatches_have_their_own_bindings(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource source[2], target[2];
     lobe_pass *pass;
-    for (int n = 0; n < 2; n++)
-        source[n] = graph_fixture_count(
+    for (int i = 0; i < 2; i++)
+        source[i] = graph_fixture_count(
             fixture, "count", graph_fixture_buffer(fixture, "source", 256 * sizeof(float)),
-            (float)(n + 1), 256);
+            (float)(i + 1), 256);
     target[0] = graph_fixture_buffer(fixture, "target", 256 * sizeof(float));
     pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "add");
     target[0] = lobe_pass_modify(pass, &(lobe_binding){.name = "target_block",
                                                        .resource = graph_fixture_count(
                                                            fixture, "zero", target[0], 0.0f, 256)});
-    for (uint32_t n = 0; n < 2; n++) {
+    for (uint32_t i = 0; i < 2; i++) {
         const struct {
             float offset;
             uint32_t first, count;
-        } constants = {0.5f, 128 * n, 128};
-        const lobe_binding binding = {.name = "source_block", .resource = source[n]};
+        } constants = {0.5f, 128 * i, 128};
+        const lobe_binding binding = {.name = "source_block", .resource = source[i]};
         lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_add_part.comp",
                                                   .threads = {128},
                                                   .constants = &constants,
@@ -203,9 +203,9 @@ static void uploads_and_imports_are_read(void **state) {
     graph_fixture *fixture = *state;
     float uploaded[64], held[64];
     lobe_buffer *buffer = NULL;
-    for (int n = 0; n < 64; n++) {
-        uploaded[n] = (float)n;
-        held[n] = (float)(-n);
+    for (int i = 0; i < 64; i++) {
+        uploaded[i] = (float)i;
+        held[i] = (float)(-i);
     }
     assert_int_equal(
         lobe_buffer_create(fixture->device,
@@ -239,8 +239,8 @@ static lobe_texture *make_texture(graph_fixture *fixture, uint32_t width, uint32
     lobe_image image;
     assert_int_equal(lobe_image_allocate(&image, LOBE_FORMAT_R32_FLOAT, width, height, NULL),
                      LOBE_OK);
-    for (uint32_t n = 0; n < width * height; n++)
-        ((float *)image.texels)[n] = (float)n;
+    for (uint32_t i = 0; i < width * height; i++)
+        ((float *)image.texels)[i] = (float)i;
     assert_int_equal(lobe_texture_create(
                          fixture->device,
                          &(lobe_texture_parameters){.name = "texture", .image = &image}, &texture),
@@ -249,7 +249,7 @@ static lobe_texture *make_texture(graph_fixture *fixture, uint32_t width, uint32
     return texture;
 }
 
-/// Sampled by a shader and copied from, in turn: the layout changes and comes back.
+/// Sampled by a shader and copied from, alternately: the layout changes back and forth.
 static void textures_are_sampled_and_copied(void **state) {
     graph_fixture *fixture = *state;
     lobe_texture *texture = make_texture(fixture, 8, 8);
@@ -276,7 +276,7 @@ static void textures_are_sampled_and_copied(void **state) {
     lobe_texture_destroy(&texture);
 }
 
-/// One pass reads one image both sampled and in place: one layout must do for both.
+/// One pass reads one image both sampled and as a storage image: one layout must allow both.
 static void one_pass_reads_one_image_in_two_ways(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -300,7 +300,7 @@ static void fills_and_copies(void **state) {
     lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_RGBA32_FLOAT, 5, 3);
     lobe_resource depth = graph_fixture_image(fixture, "depth", LOBE_FORMAT_D32_FLOAT, 5, 3);
     lobe_resource other = graph_fixture_image(fixture, "other", LOBE_FORMAT_RGBA32_FLOAT, 5, 3);
-    // Seven bytes: fills work in words.
+    // Seven bytes, although fills write words.
     lobe_resource buffer = graph_fixture_buffer(fixture, "buffer", 7);
     lobe_resource twin = graph_fixture_buffer(fixture, "twin", 7);
     lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill");
@@ -338,15 +338,15 @@ static void copies_between_levels(void **state) {
     assert_true(read_floats(fixture, small, 16)[0] == 50.5f);
 }
 
-/// A row of images, two of them alive at a time, each in memory that others had before.
+/// A series of images, two of them alive at a time, each in memory that others used before.
 static void images_share_memory(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_R32_FLOAT, 64, 64);
     image = paint(fixture, image, 64, 64, 1);
-    for (int n = 0; n < 12; n++) {
-        // Sizes differ, so that places overlap in part.
-        uint32_t height = 64 + 32 * (uint32_t)(n % 3);
+    for (int i = 0; i < 12; i++) {
+        // Sizes differ, so that places overlap partially.
+        uint32_t height = 64 + 32 * (uint32_t)(i % 3);
         lobe_resource next = lobe_graph_image(
             fixture->graph,
             &(lobe_image_description){
@@ -362,8 +362,8 @@ static void images_share_memory(void **state) {
     lobe_graph_read_back(fixture->graph, image, (lobe_range){0});
     graph_fixture_execute(fixture);
     const float *texels = read_floats(fixture, image, 64 * 128);
-    for (int n = 0; n < 64 * 64; n++)
-        assert_true(texels[n] == 4096.0f * (float)(n % 64 + 100 * (n / 64)));
+    for (int i = 0; i < 64 * 64; i++)
+        assert_true(texels[i] == 4096.0f * (float)(i % 64 + 100 * (i / 64)));
     const lobe_graph_report *report = lobe_graph_describe(fixture->graph);
     assert_true(4 * report->transient_bytes < report->transient_bytes_without_aliasing);
 }
@@ -384,8 +384,8 @@ static void a_cube_is_read(void **state) {
     lobe_graph_read_back(fixture->graph, faces, (lobe_range){0});
     graph_fixture_execute(fixture);
     const float *data = read_floats(fixture, faces, 6);
-    for (int n = 0; n < 6; n++)
-        assert_int_equal((int)data[n] / 10000, n);
+    for (int i = 0; i < 6; i++)
+        assert_int_equal((int)data[i] / 10000, i);
 }
 
 static void what_no_output_needs_does_not_run(void **state) {
@@ -437,9 +437,9 @@ static void passes_are_timed(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_report report = timed_frame(fixture, 1 << 21);
     double sum = 0.0;
-    for (size_t n = 0; n < report.pass_count; n++) {
-        assert_true(report.passes[n].milliseconds > 0.01);
-        sum += report.passes[n].milliseconds;
+    for (size_t i = 0; i < report.pass_count; i++) {
+        assert_true(report.passes[i].milliseconds > 0.01);
+        sum += report.passes[i].milliseconds;
     }
     assert_true(report.milliseconds >= sum * 0.999);
     assert_true(report.milliseconds < 60e3);
@@ -448,17 +448,17 @@ static void passes_are_timed(void **state) {
 static void a_still_frame_allocates_nothing(void **state) {
     graph_fixture *fixture = *state;
     timed_frame(fixture, 1 << 16);
-    // Whoever plans memory anew loses the mark.
+    // The mark is lost if memory is planned again.
     const uint32_t mark = 12345;
-    fixture->graph->transients.requests[0].first = mark;
-    const VkDescriptorPool pool = fixture->graph->flight->descriptors;
-    const VkQueryPool timestamps = fixture->graph->flight->timestamps;
+    fixture->graph->kept.transients.requests[0].first = mark;
+    const VkDescriptorPool pool = fixture->graph->frame.flight->descriptors;
+    const VkQueryPool timestamps = fixture->graph->frame.flight->timestamps;
     timed_frame(fixture, 1 << 16);
-    assert_int_equal(fixture->graph->transients.requests[0].first, mark);
-    assert_ptr_equal(fixture->graph->flight->descriptors, pool);
-    assert_ptr_equal(fixture->graph->flight->timestamps, timestamps);
+    assert_int_equal(fixture->graph->kept.transients.requests[0].first, mark);
+    assert_ptr_equal(fixture->graph->frame.flight->descriptors, pool);
+    assert_ptr_equal(fixture->graph->frame.flight->timestamps, timestamps);
     timed_frame(fixture, 1 << 17);
-    assert_int_not_equal(fixture->graph->transients.requests[0].first, mark);
+    assert_int_not_equal(fixture->graph->kept.transients.requests[0].first, mark);
 }
 
 static void compiling_runs_nothing(void **state) {

@@ -23,7 +23,7 @@ static int count_of(const char *text, const char *part) {
     return count;
 }
 
-/// An upload, retained levels made one from the other, a transient that reads them, a pass that
+/// An upload, retained levels made from each other, a transient that reads them, and a pass that
 /// nothing needs.
 static void declare(graph_fixture *fixture) {
     lobe_graph_begin(fixture->graph);

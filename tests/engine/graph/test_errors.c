@@ -204,7 +204,7 @@ static void format_that_cannot_be_stored_to(void **state) {
     GRAPH_EXPECT(fixture, LOBE_ERROR_UNSUPPORTED, "'depth'", "D32_FLOAT");
 }
 
-/// A device of its own, with little memory.
+/// On its own device, with little memory.
 static void memory_is_exhausted(void **state) {
     (void)state;
     graph_fixture small = {0};
@@ -224,7 +224,7 @@ static void memory_is_exhausted(void **state) {
         lobe_graph_output(small.graph, filled_image(&small, description));
         GRAPH_EXPECT(&small, LOBE_ERROR_OUT_OF_DEVICE_MEMORY, "large", "67108864");
     }
-    // The graph is as good as before.
+    // The graph still works.
     small.recorder.errors = 0;
     lobe_graph_begin(small.graph);
     lobe_graph_output(small.graph, filled(&small, "small", 256));
@@ -238,26 +238,26 @@ static void memory_is_exhausted(void **state) {
 
 static void calls_for_other_kinds_of_pass(void **state) {
     graph_fixture *fixture = *state;
-    for (int n = 0; n < 8; n++) {
+    for (int i = 0; i < 8; i++) {
         fixture->recorder.errors = 0;
-        lobe_pass_kind kind = n < 2   ? LOBE_PASS_RASTER
-                              : n < 6 ? LOBE_PASS_COMPUTE
+        lobe_pass_kind kind = i < 2   ? LOBE_PASS_RASTER
+                              : i < 6 ? LOBE_PASS_COMPUTE
                                       : LOBE_PASS_TRANSFER;
         lobe_pass *pass = begin_with(fixture, kind);
         lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_R32_FLOAT, 4, 4);
-        if (n == 0)
+        if (i == 0)
             lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_paint.comp"});
-        else if (n == 1)
+        else if (i == 1)
             lobe_pass_fill(pass, image, (lobe_range){0}, (const float[4]){0});
-        else if (n == 2)
+        else if (i == 2)
             lobe_pass_draw(pass, &(lobe_draw){.vertex_shader = "graph_triangle.vert"});
-        else if (n == 3)
+        else if (i == 3)
             lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = image});
-        else if (n == 4)
+        else if (i == 4)
             lobe_pass_depth(pass, &(lobe_attachment){.resource = image});
-        else if (n == 5)
+        else if (i == 5)
             lobe_pass_copy(pass, image, (lobe_range){0}, image, (lobe_range){0});
-        else if (n == 6)
+        else if (i == 6)
             lobe_pass_resolve(pass, 0, image);
         else
             lobe_pass_read(pass, &(lobe_binding){.name = "x", .resource = image});
@@ -279,24 +279,24 @@ static void raster_without_attachments(void **state) {
 
 static void copies_that_do_not_match(void **state) {
     graph_fixture *fixture = *state;
-    for (int n = 0; n < 6; n++) {
+    for (int i = 0; i < 6; i++) {
         fixture->recorder.errors = 0;
         lobe_pass *pass = begin_with(fixture, LOBE_PASS_TRANSFER);
         lobe_image_description description = {
             .name = "source", .format = LOBE_FORMAT_R32_FLOAT, .width = 4, .height = 4};
         lobe_resource source = filled_image(fixture, description);
         description.name = "target";
-        if (n == 0)
+        if (i == 0)
             description.width = 5;
-        if (n == 1)
+        if (i == 1)
             description.format = LOBE_FORMAT_RG32_FLOAT;
-        if (n == 2)
+        if (i == 2)
             description.format = LOBE_FORMAT_D32_FLOAT;
-        if (n == 3)
+        if (i == 3)
             description.layers = 2;
-        if (n == 4)
+        if (i == 4)
             description.levels = 2;
-        lobe_resource target = n == 5 ? graph_fixture_buffer(fixture, "target", 64)
+        lobe_resource target = i == 5 ? graph_fixture_buffer(fixture, "target", 64)
                                       : lobe_graph_image(fixture->graph, &description);
         lobe_pass_copy(pass, source, (lobe_range){0}, target, (lobe_range){0});
         GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", "'source'", "'target'");
@@ -320,7 +320,7 @@ static void execution_twice(void **state) {
     GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "twice");
 }
 
-/// Everything after the first mistake is quiet, and usable.
+/// Everything after the first mistake is silent and safe.
 static void later_calls_do_nothing(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -338,7 +338,7 @@ static void later_calls_do_nothing(void **state) {
     assert_int_equal(lobe_graph_compile(fixture->graph), LOBE_ERROR_GRAPH);
     GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'odd'");
     assert_null(lobe_graph_data(fixture->graph, numbers, NULL));
-    // The next frame starts afresh.
+    // The next frame starts without the error.
     fixture->recorder.errors = 0;
     lobe_graph_begin(fixture->graph);
     graph_fixture_execute(fixture);
@@ -347,7 +347,7 @@ static void later_calls_do_nothing(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Shaders
 
-/// A right use of graph_add.comp, to be spoiled.
+/// A correct use of graph_add.comp, for tests to break.
 typedef struct add_use {
     const char *source_name, *target_name, *extra_name, *shader;
     size_t source_size, constants_size;
@@ -475,11 +475,11 @@ static void no_shader(void **state) {
 static void block_larger_than_the_buffer(void **state) {
     graph_fixture *fixture = *state;
     const uint32_t count = 0;
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         fixture->recorder.errors = 0;
         lobe_pass *pass = begin_with(fixture, LOBE_PASS_COMPUTE);
         lobe_resource settings =
-            lobe_graph_upload(fixture->graph, "settings", &count, n == 0 ? 4 : 1);
+            lobe_graph_upload(fixture->graph, "settings", &count, i == 0 ? 4 : 1);
         lobe_pass_read(pass, &(lobe_binding){.name = "settings_block", .resource = settings});
         lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_settings.comp"});
         lobe_pass_keep(pass);
@@ -559,25 +559,25 @@ static lobe_resource attachment(graph_fixture *fixture, const char *name, lobe_f
 static void attachments_that_do_not_fit(void **state) {
     graph_fixture *fixture = *state;
     const lobe_format colour = LOBE_FORMAT_RGBA8_UNORM, depth = LOBE_FORMAT_D32_FLOAT;
-    for (int n = 0; n < 6; n++) {
+    for (int i = 0; i < 6; i++) {
         fixture->recorder.errors = 0;
         lobe_pass *pass = begin_with(fixture, LOBE_PASS_RASTER);
         lobe_resource first = attachment(fixture, "first", colour, 8, 1);
         lobe_attachment odd = {0};
         lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = first});
-        if (n == 0) // another extent
+        if (i == 0) // another extent
             odd.resource = attachment(fixture, "odd", colour, 9, 1);
-        if (n == 1) // another sample count
+        if (i == 1) // another sample count
             odd.resource = attachment(fixture, "odd", colour, 8, 4);
-        if (n == 2) // depth as colour
+        if (i == 2) // depth as colour
             odd.resource = attachment(fixture, "odd", depth, 8, 1);
-        if (n == 3) // colour as depth
+        if (i == 3) // colour as depth
             odd.resource = attachment(fixture, "odd", colour, 8, 1);
-        if (n == 4) // depth of another extent
+        if (i == 4) // depth of another extent
             odd.resource = attachment(fixture, "odd", depth, 4, 1);
-        if (n == 5) // no image
+        if (i == 5) // no image
             odd.resource = graph_fixture_buffer(fixture, "odd", 256);
-        if (n == 3 || n == 4)
+        if (i == 3 || i == 4)
             lobe_pass_depth(pass, &odd);
         else
             lobe_pass_colour(pass, 1, &odd);
@@ -587,37 +587,37 @@ static void attachments_that_do_not_fit(void **state) {
 
 static void attachment_slots(void **state) {
     graph_fixture *fixture = *state;
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         fixture->recorder.errors = 0;
         lobe_pass *pass = begin_with(fixture, LOBE_PASS_RASTER);
         lobe_attachment first = {.resource =
                                      attachment(fixture, "first", LOBE_FORMAT_R8_UNORM, 8, 1)};
         lobe_attachment second = {.resource =
                                       attachment(fixture, "second", LOBE_FORMAT_R8_UNORM, 8, 1)};
-        if (n == 0)
+        if (i == 0)
             lobe_pass_colour(pass, 4, &first);
-        if (n == 1) {
+        if (i == 1) {
             lobe_pass_colour(pass, 0, &first);
             lobe_pass_colour(pass, 0, &second);
         }
-        if (n == 2)
+        if (i == 2)
             lobe_pass_colour(
                 pass, 0, &(lobe_attachment){.resource = first.resource, .load = LOBE_LOAD_KEEP});
-        GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", n == 2 ? "'first'" : "location");
+        GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", i == 2 ? "'first'" : "location");
     }
 }
 
 static void resolves_that_do_not_fit(void **state) {
     graph_fixture *fixture = *state;
     const lobe_format colour = LOBE_FORMAT_RGBA8_UNORM;
-    for (int n = 0; n < 4; n++) {
+    for (int i = 0; i < 4; i++) {
         fixture->recorder.errors = 0;
         lobe_pass *pass = begin_with(fixture, LOBE_PASS_RASTER);
-        lobe_resource samples = attachment(fixture, "samples", colour, 8, n == 0 ? 1 : 4);
+        lobe_resource samples = attachment(fixture, "samples", colour, 8, i == 0 ? 1 : 4);
         lobe_resource target =
-            attachment(fixture, "odd", n == 1 ? LOBE_FORMAT_R8_UNORM : colour, n == 2 ? 4 : 8, 1);
+            attachment(fixture, "odd", i == 1 ? LOBE_FORMAT_R8_UNORM : colour, i == 2 ? 4 : 8, 1);
         lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = samples});
-        lobe_pass_resolve(pass, n == 3 ? 1 : 0, target);
+        lobe_pass_resolve(pass, i == 3 ? 1 : 0, target);
         GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", "'odd'");
     }
 }

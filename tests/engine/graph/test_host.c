@@ -1,4 +1,4 @@
-// Frames of a host with Vulkan of its own: into its images, by its semaphores or in its command
+// Frames of a host that uses Vulkan itself: into its images, with its semaphores or in its command
 // buffers, several in flight.
 
 #include "tests/engine/support/cmocka_all.h"
@@ -49,7 +49,7 @@ static host_image picture(fixture *f) {
     return host_image_create(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, SIZE, SIZE, all_usages);
 }
 
-/// The image as passes get it, to be left ready for copies.
+/// The image as passes get it; the frame leaves it ready for copies.
 static lobe_vulkan_image lend(const host_image *image, VkImageLayout layout) {
     return (lobe_vulkan_image){.image = image->image,
                                .format = image->format,
@@ -112,7 +112,7 @@ static void a_frame_draws_into_the_hosts_image(void **state) {
     host_image_destroy(&f->host, &image);
 }
 
-/// Clears the host's image to green by its own commands.
+/// Clears the host's image to green, with commands of the host.
 static void fill_green(const host_image *image, VkCommandBuffer commands) {
     host_barrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     host_clear(commands, image, (float[]){0, 1, 0.25f, 1});
@@ -139,9 +139,9 @@ static void a_frame_reads_the_hosts_image(void **state) {
     VkCommandBuffer commands = host_begin(&f->host);
     fill_green(&image, commands);
     host_finish(&f->host, commands);
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         lobe_graph_begin(f->graph);
-        lobe_vulkan_image lent = lend(&image, n ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+        lobe_vulkan_image lent = lend(&image, i ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
                                                 : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         lobe_resource source = lobe_graph_import_image(f->graph, &lent);
         lobe_resource copy =
@@ -156,13 +156,13 @@ static void a_frame_reads_the_hosts_image(void **state) {
         check(f, lobe_graph_execute(f->graph));
         const float *texels = lobe_graph_data(f->graph, copy, NULL);
         assert_memory_equal(texels, ((float[]){0, 1, 0.25f, 1}), 16);
-        // What the host may have done to it in between nobody knows.
+        // The host may have changed it in between.
         assert_int_equal(lobe_graph_describe(f->graph)->passes[0].state, LOBE_PASS_RUN);
     }
     host_image_destroy(&f->host, &image);
 }
 
-/// Given back as promised although no pass used it.
+/// Returned in the final layout although no pass uses it.
 static void an_unused_image_changes_its_layout(void **state) {
     fixture *f = *state;
     host_image image = picture(f);
@@ -200,15 +200,16 @@ static void mistakes_are_named(void **state) {
     host_image image = picture(f);
     lobe_vulkan_image lent = lend(&image, VK_IMAGE_LAYOUT_UNDEFINED);
     lent.name = "canvas";
-    // Nothing to keep.
+    // No content to keep.
     lobe_graph_begin(f->graph);
     draw_half(f, lobe_graph_import_image(f->graph, &lent), LOBE_LOAD_KEEP, 0.5f);
     assert_refused(f, LOBE_ERROR_GRAPH, "canvas");
-    // Not made for it.
+    // Not created with the usage.
     lent.usage &= ~(VkImageUsageFlags)VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     lobe_graph_begin(f->graph);
     draw_half(f, lobe_graph_import_image(f->graph, &lent), LOBE_LOAD_CLEAR, 0.5f);
-    assert_refused(f, LOBE_ERROR_GRAPH, "'canvas' was not created with a usage for drawing colour");
+    assert_refused(f, LOBE_ERROR_GRAPH,
+                   "'canvas' was not created with the usage 'colour attachment'");
     // Twice.
     lobe_graph_begin(f->graph);
     lobe_graph_import_image(f->graph, &lent);
@@ -220,7 +221,7 @@ static void mistakes_are_named(void **state) {
     lobe_graph_begin(f->graph);
     lobe_graph_import_image(f->graph, &lent);
     assert_int_equal(lobe_graph_execute(f->graph), LOBE_ERROR_UNSUPPORTED);
-    // None at all.
+    // No image.
     lent.image = VK_NULL_HANDLE;
     lobe_graph_begin(f->graph);
     lobe_graph_import_image(f->graph, &lent);
@@ -316,7 +317,7 @@ static void a_frame_is_recorded_between_the_hosts_commands(void **state) {
     lent.final_access = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     draw_half(f, lobe_graph_import_image(f->graph, &lent), LOBE_LOAD_KEEP, 0.5f);
     check(f, lobe_graph_submit(f->graph, &(lobe_vulkan_submission){.commands = commands}));
-    // Without a barrier of the host's: one column of texels is overwritten.
+    // Without a barrier by the host: one column of texels is overwritten.
     const VkImageSubresourceLayers layers = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     const VkImageCopy copy = {layers, {0, 0, 0}, layers, {SIZE - 2, 0, 0}, {1, SIZE, 1}};
     host_image white = picture(f);
@@ -339,8 +340,8 @@ static void a_frame_is_recorded_between_the_hosts_commands(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Frames in flight
 
-/// A frame that passes its colour through an upload and a transient image, of another size for
-/// each third frame; so memory is replaced while frames are in flight.
+/// A frame that passes its colour through an upload and a transient image, whose size changes every
+/// third frame, so that memory is replaced while frames are in flight.
 static void declare_frame(fixture *f, const host_image *target, uint32_t number) {
     const uint32_t extent = SIZE << number / 3 % 2;
     lobe_graph_begin(f->graph);
@@ -368,22 +369,22 @@ static void frames_in_flight_keep_apart(void **state) {
     host_image images[FRAMES];
     for (uint32_t count = 1; count <= 3; count++) {
         lobe_graph_set_frames_in_flight(f->graph, count);
-        for (uint32_t n = 0; n < FRAMES; n++) {
-            images[n] = picture(f);
-            declare_frame(f, &images[n], n);
+        for (uint32_t i = 0; i < FRAMES; i++) {
+            images[i] = picture(f);
+            declare_frame(f, &images[i], i);
             check(f, lobe_graph_submit(f->graph, &(lobe_vulkan_submission){0}));
         }
         check(f, lobe_graph_wait(f->graph));
-        for (uint32_t n = 0; n < FRAMES; n++) {
+        for (uint32_t i = 0; i < FRAMES; i++) {
             float texels[SIZE][SIZE][4];
-            host_read(&f->host, &images[n], texels, sizeof texels);
-            assert_float_equal(texels[SIZE - 2][1][0], (float)n, 0);
-            host_image_destroy(&f->host, &images[n]);
+            host_read(&f->host, &images[i], texels, sizeof texels);
+            assert_float_equal(texels[SIZE - 2][1][0], (float)i, 0);
+            host_image_destroy(&f->host, &images[i]);
         }
     }
 }
 
-/// The second of two submitted frames does not begin before the first is allowed to.
+/// Two frames are submitted; the second does not begin before the first may.
 static void a_second_frame_is_submitted_while_the_first_waits(void **state) {
     fixture *f = *state;
     host_image first = picture(f), second = picture(f);
@@ -416,9 +417,9 @@ static void a_second_frame_is_submitted_while_the_first_waits(void **state) {
 // Shaders
 
 static const engine_shader_code *test_shader(const char *name) {
-    for (size_t n = 0; n < engine_test_shaders_count; n++)
-        if (!strcmp(engine_test_shaders[n].name, name))
-            return &engine_test_shaders[n];
+    for (size_t i = 0; i < engine_test_shaders_count; i++)
+        if (!strcmp(engine_test_shaders[i].name, name))
+            return &engine_test_shaders[i];
     fail_msg("no shader '%s'", name);
     return NULL;
 }
@@ -448,7 +449,7 @@ static void hosts_add_shaders(void **state) {
     lobe_shader shader = {"own.comp", code->words, code->size};
     check(f, lobe_device_add_shader(f->device, &shader));
     assert_float_equal(run_count(f, "own.comp"), 6, 0);
-    // Another of the same name takes its place, a broken one does not.
+    // A shader of the same name replaces it, a broken one does not.
     check(f, lobe_device_add_shader(f->device, &shader));
     assert_float_equal(run_count(f, "own.comp"), 6, 0);
     static const uint32_t nonsense[8] = {1, 2, 3};

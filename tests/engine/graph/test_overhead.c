@@ -1,11 +1,10 @@
-// Frames that are declared like the one before take no memory of the host, and make nothing of
-// Vulkan's.
+// Frames declared like the one before allocate no host memory and create no Vulkan objects.
 
 #include "tests/engine/support/cmocka_all.h"
 
 #include <stdlib.h>
 
-#include "engine/base/host_clock.h"
+#include "engine/graph/report.h"
 #include "tests/engine/graph/graph_frame.h"
 #include "tests/engine/support/counting_allocator.h"
 #include "tests/engine/support/host_device.h"
@@ -17,11 +16,11 @@
 #define STEADY   6 ///< frames that are counted
 
 // ---------------------------------------------------------------------------------------------
-// A function that the linker puts before the C library's
+// A function that the linker calls instead of the C library's
 
 static int sorted;
 
-/// It takes memory of its own for more than a few items.
+/// qsort allocates for more than a few items.
 void __real_qsort(void *items, size_t count, size_t size,
                   int (*compare)(const void *, const void *));
 void __wrap_qsort(void *items, size_t count, size_t size,
@@ -75,20 +74,20 @@ static void run_frame(graph_frame *frame, float time) {
 static uint32_t count_passes(const lobe_graph *graph, lobe_pass_state state) {
     const lobe_graph_report *report = lobe_graph_describe(graph);
     uint32_t count = 0;
-    for (size_t n = 0; n < report->pass_count; n++)
-        count += report->passes[n].state == state;
+    for (size_t i = 0; i < report->pass_count; i++)
+        count += report->passes[i].state == state;
     return count;
 }
 
-/// Each frame's time is `step` after that of the one before.
+/// The time of each frame is `step` after that of the previous one.
 static void check_steady(fixture *f, float step) {
     graph_frame *frame = &f->frame;
     float time = 1.0f;
-    for (int n = 0; n < SETTLING; n++, time += step)
+    for (int i = 0; i < SETTLING; i++, time += step)
         run_frame(frame, time);
     f->counting.taken = 0;
     sorted = faults.made = 0;
-    for (int n = 0; n < STEADY; n++, time += step)
+    for (int i = 0; i < STEADY; i++, time += step)
         run_frame(frame, time);
     if (f->counting.taken || sorted || faults.made)
         fail_msg("%zu allocations, %d calls of qsort and %d objects in %d frames",
@@ -152,10 +151,10 @@ static void images_of_the_host_with_views_take_nothing(void **state) {
 static void what_lies_the_same_way_is_kept(void **state) {
     fixture *f = *state;
     lobe_graph *graph = f->frame.graph;
-    for (int n = 0; n < SETTLING + STEADY; n++) {
-        if (n == SETTLING)
+    for (int i = 0; i < SETTLING + STEADY; i++) {
+        if (i == SETTLING)
             faults.made = 0;
-        const float half = (float)(n / 2);
+        const float half = (float)(i / 2);
         lobe_graph_begin(graph);
         lobe_resource kept = lobe_graph_buffer(
             graph, &(lobe_buffer_description){.name = "kept", .size = 16, .retained = true});
@@ -167,7 +166,7 @@ static void what_lies_the_same_way_is_kept(void **state) {
         copy = lobe_pass_copy(pass, kept, (lobe_range){0}, copy, (lobe_range){0});
         lobe_graph_read_back(graph, copy, (lobe_range){0});
         assert_int_equal(lobe_graph_execute(graph), LOBE_OK);
-        assert_int_equal(count_passes(graph, LOBE_PASS_SKIPPED), n % 2);
+        assert_int_equal(count_passes(graph, LOBE_PASS_SKIPPED), i % 2);
         assert_true(*(const float *)lobe_graph_data(graph, copy, NULL) == half);
     }
     assert_int_equal(faults.made, 0);
@@ -176,9 +175,9 @@ static void what_lies_the_same_way_is_kept(void **state) {
 static void the_times_of_the_host_are_its_own(void **state) {
     fixture *f = *state;
     const lobe_graph_report *report = lobe_graph_describe(f->frame.graph);
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         double start = engine_host_milliseconds();
-        run_frame(&f->frame, (float)n);
+        run_frame(&f->frame, (float)i);
         assert_true(report->host_milliseconds > 0.0);
         assert_true(report->host_milliseconds < engine_host_milliseconds() - start);
     }

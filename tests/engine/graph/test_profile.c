@@ -38,7 +38,7 @@ static void median_and_percentile_of_a_known_series(void **state) {
     (void)state;
     lobe_profile_summary summary;
     // 1 to 100, shuffled: the powers of 2 modulo 101.
-    for (int n = 0, value = 1; n < 100; n++, value = value * 2 % 101)
+    for (int i = 0, value = 1; i < 100; i++, value = value * 2 % 101)
         add(&(lobe_pass_report){.name = "a", .milliseconds = value}, 1, 2 * value);
     assert_int_equal(lobe_profile_statistics(profile, &summary), LOBE_OK);
     assert_int_equal(summary.frame.runs, 100);
@@ -82,7 +82,7 @@ static void passes_of_one_name_are_summed(void **state) {
     assert_float_equal(summary.passes[1].share, 0.5, 1e-12);
 }
 
-/// Frames in which a pass is skipped, or which came before it, tell nothing of its time.
+/// Frames in which a pass is skipped, or from before it existed, do not count for its time.
 static void a_pass_is_judged_by_the_frames_it_ran_in(void **state) {
     (void)state;
     lobe_profile_summary summary;
@@ -93,7 +93,7 @@ static void a_pass_is_judged_by_the_frames_it_ran_in(void **state) {
     };
     add(&passes[1], 1, 10);
     add(passes, 3, 40);
-    for (int n = 0; n < 18; n++) {
+    for (int i = 0; i < 18; i++) {
         lobe_pass_report still[] = {passes[0], passes[1]};
         still[0].state = LOBE_PASS_SKIPPED;
         add(still, 2, 10);

@@ -14,7 +14,7 @@ typedef struct triangle_constants {
 
 /// Covers the lower left half of the picture; y points down. Counter-clockwise as seen.
 static const float half_picture[] = {-1, -1, -1, 1, 1, 1};
-/// Covers all of it.
+/// Covers the whole picture.
 static const float whole_picture[] = {-1, -1, -1, 3, 3, -1};
 
 static void draw(graph_fixture *fixture, lobe_pass *pass, const char *fragment_shader,
@@ -63,13 +63,13 @@ static void a_triangle_covers_its_half(void **state) {
     assert_memory_equal(texel(fixture, colour, 4, 12, 2), ((float[]){0, 0, 1, 1}), 16);
 }
 
-/// Returns whether the half picture, counter-clockwise, is drawn.
+/// Whether the triangle that covers half the picture, counter-clockwise, is drawn.
 static bool survives(graph_fixture *fixture, lobe_cull cull, bool mirrored) {
     float vertices[6];
     memcpy(vertices, half_picture, sizeof vertices);
     if (mirrored)
-        for (int n = 0; n < 3; n++)
-            vertices[2 * n] = -vertices[2 * n];
+        for (int i = 0; i < 3; i++)
+            vertices[2 * i] = -vertices[2 * i];
     lobe_graph_begin(fixture->graph);
     lobe_resource colour = picture(fixture, "colour", 0);
     lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "triangle");
@@ -115,7 +115,7 @@ static void the_greater_depth_wins(void **state) {
     assert_true(texel(fixture, depth, 1, 12, 2)[0] == 0.5f);
 }
 
-/// First depth alone, then colour where the depth is the one found.
+/// First depth only, then colour where the depth is equal.
 static void a_depth_pass_comes_first(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -259,17 +259,17 @@ static void one_level_of_one_layer_is_drawn_to(void **state) {
     assert_true(texel(fixture, image, 4, 12, 2)[0] == 0);
 }
 
-/// Two passes draw to one attachment, a third keeps it without drawing.
+/// Two passes draw to one attachment, a third loads it without drawing.
 static void content_is_kept_between_passes(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
     lobe_resource colour = picture(fixture, "colour", 0);
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "add");
         colour = lobe_pass_colour(
             pass, 0,
-            &(lobe_attachment){.resource = colour, .load = n ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
-        if (n < 2)
+            &(lobe_attachment){.resource = colour, .load = i ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+        if (i < 2)
             draw(fixture, pass, "graph_triangle.frag", whole_picture,
                  &(triangle_constants){{1, 2, 3, 4}, 0}, (lobe_draw){.blend = LOBE_BLEND_ADD});
     }

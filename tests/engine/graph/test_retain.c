@@ -12,7 +12,7 @@ static lobe_resource retained(graph_fixture *fixture, const char *name, size_t s
         fixture->graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
 }
 
-/// What the frames of these tests differ in.
+/// Where the frames of these tests differ.
 typedef struct chain {
     float source[COUNT], other[COUNT]; ///< uploads
     float offset;                      ///< of the first pass
@@ -66,9 +66,9 @@ static void unchanged_passes_are_skipped(void **state) {
     const chain frame = {.source = {0, 5}};
     assert_true(run_chain(fixture, &frame) == 7.0f);
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_RUN);
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         assert_true(run_chain(fixture, &frame) == 7.0f);
-        // What only a skipped pass needed is culled, and takes no memory.
+        // A pass that only a skipped pass needs is culled, and its resources take no memory.
         assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
                       LOBE_PASS_SKIPPED);
     }
@@ -84,7 +84,7 @@ static void only_dependents_of_a_change_run_again(void **state) {
     frame.source[1] = 6.0f;
     assert_true(run_chain(fixture, &frame) == 8.0f);
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
-    // A push constant counts as well as content.
+    // A push constant counts like content.
     frame.offset = 100.0f;
     assert_true(run_chain(fixture, &frame) == 108.0f);
     assert_states(fixture, LOBE_PASS_RUN, LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
@@ -104,7 +104,7 @@ static void invalidation_runs_all_again(void **state) {
     run_chain(fixture, &frame);
     assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED,
                   LOBE_PASS_SKIPPED);
-    // After the declaration it counts, too.
+    // Invalidation after the declaration counts, too.
     declare_chain(fixture, &frame);
     lobe_graph_invalidate(fixture->graph);
     graph_fixture_execute(fixture);
@@ -136,15 +136,15 @@ static void what_is_not_declared_again_is_freed(void **state) {
 
 static void another_size_means_another_resource(void **state) {
     graph_fixture *fixture = *state;
-    for (int n = 0; n < 4; n++) {
-        size_t size = n < 2 ? BYTES : 2 * BYTES;
+    for (int i = 0; i < 4; i++) {
+        size_t size = i < 2 ? BYTES : 2 * BYTES;
         lobe_graph_begin(fixture->graph);
         lobe_resource kept = retained(fixture, "kept", size);
         kept = graph_fixture_count(fixture, "count", kept, 1.0f, COUNT);
         lobe_graph_output(fixture->graph, kept);
         graph_fixture_execute(fixture);
         assert_int_equal(graph_fixture_state(fixture, "count"),
-                         n % 2 ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+                         i % 2 ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
     }
 }
 
@@ -156,9 +156,9 @@ static void imports_count_by_their_content(void **state) {
     assert_int_equal(lobe_buffer_create(fixture->device, &parameters, &buffer), LOBE_OK);
     const lobe_pass_state expected[] = {LOBE_PASS_RUN, LOBE_PASS_SKIPPED, LOBE_PASS_RUN,
                                         LOBE_PASS_SKIPPED};
-    for (int n = 0; n < 4; n++) {
-        data[0] = (float)n;
-        if (n == 2)
+    for (int i = 0; i < 4; i++) {
+        data[0] = (float)i;
+        if (i == 2)
             assert_int_equal(lobe_buffer_update(buffer, data), LOBE_OK);
         lobe_graph_begin(fixture->graph);
         lobe_resource kept = retained(fixture, "kept", BYTES);
@@ -166,9 +166,9 @@ static void imports_count_by_their_content(void **state) {
                                  kept, 1, COUNT);
         lobe_graph_read_back(fixture->graph, kept, (lobe_range){0});
         graph_fixture_execute(fixture);
-        assert_int_equal(graph_fixture_state(fixture, "add"), expected[n]);
+        assert_int_equal(graph_fixture_state(fixture, "add"), expected[i]);
         const float *result = lobe_graph_data(fixture->graph, kept, NULL);
-        assert_true(result[0] == (n < 2 ? 2.0f : 3.0f));
+        assert_true(result[0] == (i < 2 ? 2.0f : 3.0f));
     }
     lobe_buffer_destroy(&buffer);
 }
@@ -198,16 +198,16 @@ static lobe_resource declare_levels(graph_fixture *fixture, float value) {
     return image;
 }
 
-/// Layouts of each level are remembered from frame to frame.
+/// The layout of each level is kept between frames.
 static void levels_are_retained(void **state) {
     graph_fixture *fixture = *state;
     const float values[] = {3.0f, 3.0f, 3.0f, 4.0f, 4.0f};
-    for (int n = 0; n < 5; n++) {
-        bool same = n > 0 && values[n] == values[n - 1];
-        lobe_resource image = declare_levels(fixture, values[n]);
+    for (int i = 0; i < 5; i++) {
+        bool same = i > 0 && values[i] == values[i - 1];
+        lobe_resource image = declare_levels(fixture, values[i]);
         graph_fixture_execute(fixture);
         const float *texel = lobe_graph_data(fixture->graph, image, NULL);
-        assert_true(texel[0] == values[n]);
+        assert_true(texel[0] == values[i]);
         assert_int_equal(graph_fixture_state(fixture, "base"),
                          same ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
         assert_int_equal(graph_fixture_state(fixture, "halve"),
@@ -215,30 +215,30 @@ static void levels_are_retained(void **state) {
     }
 }
 
-/// Content of an earlier version that the memory no longer holds is made again, and then also
-/// what comes after it.
+/// Content of an earlier version that is no longer in memory is written again, and so is everything
+/// after it.
 static void overwritten_content_is_made_again(void **state) {
     graph_fixture *fixture = *state;
     const float offsets[] = {1.0f, 1.0f, 2.0f, 2.0f};
-    for (int n = 0; n < 4; n++) {
+    for (int i = 0; i < 4; i++) {
         lobe_graph_begin(fixture->graph);
         lobe_resource kept = retained(fixture, "kept", BYTES);
         kept = graph_fixture_count(fixture, "early", kept, 1.0f, COUNT);
         lobe_resource seen = graph_fixture_buffer(fixture, "seen", BYTES);
-        seen = graph_fixture_add(fixture, "look", kept, seen, offsets[n], COUNT);
+        seen = graph_fixture_add(fixture, "look", kept, seen, offsets[i], COUNT);
         lobe_resource copy = retained(fixture, "copy", BYTES);
         copy = graph_fixture_add(fixture, "hold", seen, copy, 0.0f, COUNT);
         kept = graph_fixture_count(fixture, "late", kept, 10.0f, COUNT);
         lobe_graph_read_back(fixture->graph, copy, (lobe_range){0});
         lobe_graph_read_back(fixture->graph, kept, (lobe_range){0});
         graph_fixture_execute(fixture);
-        bool again = n % 2 == 0;
+        bool again = i % 2 == 0;
         assert_int_equal(graph_fixture_state(fixture, "early"),
                          again ? LOBE_PASS_RUN : LOBE_PASS_SKIPPED);
         assert_int_equal(graph_fixture_state(fixture, "late"),
                          again ? LOBE_PASS_RUN : LOBE_PASS_SKIPPED);
         const float *held = lobe_graph_data(fixture->graph, copy, NULL);
-        assert_true(held[7] == 7.0f + offsets[n]);
+        assert_true(held[7] == 7.0f + offsets[i]);
         const float *late = lobe_graph_data(fixture->graph, kept, NULL);
         assert_true(late[7] == 70.0f);
     }
@@ -271,16 +271,16 @@ static lobe_resource accumulate(graph_fixture *fixture, bool start) {
 static void sums_run_over_frames(void **state) {
     graph_fixture *fixture = *state;
     lobe_resource sum;
-    for (int n = 0; n < 5; n++) {
-        sum = accumulate(fixture, n == 0);
-        if (n == 4)
+    for (int i = 0; i < 5; i++) {
+        sum = accumulate(fixture, i == 0);
+        if (i == 4)
             lobe_graph_read_back(fixture->graph, sum, (lobe_range){0});
         graph_fixture_execute(fixture);
         assert_int_equal(graph_fixture_state(fixture, "accumulate"), LOBE_PASS_RUN);
     }
     const float *texels = lobe_graph_data(fixture->graph, sum, NULL);
     assert_true(texels[63] == 107.5f);
-    // To start again, the whole chain runs, although it is that of the first frame.
+    // To start again, the whole chain runs, although it is the same as in the first frame.
     accumulate(fixture, true);
     graph_fixture_execute(fixture);
     assert_int_equal(graph_fixture_state(fixture, "start"), LOBE_PASS_RUN);
@@ -294,7 +294,7 @@ static void a_sum_needs_a_start(void **state) {
 
 static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
     graph_fixture *fixture = *state;
-    for (int n = 0; n < 2; n++) {
+    for (int i = 0; i < 2; i++) {
         lobe_graph_begin(fixture->graph);
         lobe_resource kept = retained(fixture, "kept", BYTES);
         lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill");
@@ -302,11 +302,11 @@ static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
         lobe_pass_keep(pass);
         graph_fixture_execute(fixture);
         assert_int_equal(graph_fixture_state(fixture, "fill"),
-                         n ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
+                         i ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
     }
 }
 
-/// A frame that fails leaves what was kept as it was.
+/// A frame that fails does not change retained content.
 static void a_failed_frame_changes_nothing(void **state) {
     graph_fixture *fixture = *state;
     const chain frame = {.source = {0, 5}};
@@ -320,7 +320,7 @@ static void a_failed_frame_changes_nothing(void **state) {
                   LOBE_PASS_SKIPPED);
 }
 
-/// Anything that a draw does differently makes another picture.
+/// Any change to a draw makes its pass run again.
 static void raster_passes_are_compared(void **state) {
     graph_fixture *fixture = *state;
     static const float vertices[] = {-1, -1, -1, 3, 3, -1};
@@ -330,8 +330,8 @@ static void raster_passes_are_compared(void **state) {
                          {.index_count = 3, .cull = LOBE_CULL_BACK},
                          {.index_count = 3, .cull = LOBE_CULL_BACK, .blend = LOBE_BLEND_ADD}};
     const float constants[5] = {1, 1, 1, 1, 0};
-    for (int n = 0; n < 7; n++) {
-        lobe_draw draw = draws[n < 5 ? n : 4];
+    for (int i = 0; i < 7; i++) {
+        lobe_draw draw = draws[i < 5 ? i : 4];
         lobe_graph_begin(fixture->graph);
         lobe_resource picture = lobe_graph_image(
             fixture->graph, &(lobe_image_description){.name = "picture",
@@ -345,7 +345,7 @@ static void raster_passes_are_compared(void **state) {
                                        .resource = lobe_graph_upload(fixture->graph, "vertices",
                                                                      vertices, sizeof vertices)});
         picture = lobe_pass_colour(
-            pass, 0, &(lobe_attachment){.resource = picture, .clear = {n == 6 ? 1.0f : 0.0f}});
+            pass, 0, &(lobe_attachment){.resource = picture, .clear = {i == 6 ? 1.0f : 0.0f}});
         draw.vertex_shader = "graph_triangle.vert";
         draw.fragment_shader = "graph_triangle.frag";
         draw.constants = constants;
@@ -353,7 +353,7 @@ static void raster_passes_are_compared(void **state) {
         lobe_pass_draw(pass, &draw);
         lobe_graph_output(fixture->graph, picture);
         graph_fixture_execute(fixture);
-        bool same = n == 1 || n == 3 || n == 5;
+        bool same = i == 1 || i == 3 || i == 5;
         assert_int_equal(graph_fixture_state(fixture, "draw"),
                          same ? LOBE_PASS_SKIPPED : LOBE_PASS_RUN);
     }

@@ -6,9 +6,9 @@
 
 static const lobe_pass_report *report_of(const graph_fixture *fixture, const char *name) {
     const lobe_graph_report *report = lobe_graph_describe(fixture->graph);
-    for (size_t n = 0; n < report->pass_count; n++)
-        if (strcmp(report->passes[n].name, name) == 0)
-            return &report->passes[n];
+    for (size_t i = 0; i < report->pass_count; i++)
+        if (strcmp(report->passes[i].name, name) == 0)
+            return &report->passes[i];
     fail_msg("no pass '%s'", name);
     return NULL;
 }
@@ -66,7 +66,7 @@ static void ranges_count_their_texels(void **state) {
     assert_traffic(fixture, "copy", 3 * 2 * 8, 3 * 2 * 8);
 }
 
-/// Two bindings of one image are one reading of it.
+/// Two bindings of one image count as one read.
 static void what_is_bound_twice_counts_once(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -83,7 +83,7 @@ static void what_is_bound_twice_counts_once(void **state) {
     assert_traffic(fixture, "twice", 16 * 8 * 4, 16 * 8 * 4);
 }
 
-/// What a pass modifies it reads and writes; what it clears it only writes; of samples all count.
+/// Modifying counts as read and written, clearing only as written; all samples count.
 static void attachments_count_as_they_load(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);

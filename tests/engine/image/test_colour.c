@@ -91,7 +91,7 @@ static void the_shoulder_keeps_darks_and_never_clips(void **state) {
     int last = 0;
     for (float value = 0.1f; value < 8.0f; value *= 1.3f) {
         display((float[4]){value, 0.5f * value, 0.0f, 1.0f}, NULL, left);
-        assert_true(left[0] > last); // still told apart
+        assert_true(left[0] > last); // still distinct
         last = left[0];
     }
     // 8 goes to 1 - 1/32, and the other channels keep their share of it

@@ -12,7 +12,7 @@ static void formats_have_size_channels_and_name(void **state) {
     assert_int_equal(lobe_format_size(LOBE_FORMAT_NONE), 0);
     assert_int_equal(lobe_format_channels(LOBE_FORMAT_NONE), 0);
     for (int format = LOBE_FORMAT_NONE + 1; format < LOBE_FORMAT_COUNT; format++) {
-        // The names say it all: channels, then bits a channel.
+        // The names give the channels, then the bits per channel.
         const char *name = lobe_format_name((lobe_format)format);
         size_t channels = strcspn(name, "0123456789");
         size_t bits = strtoul(name + channels, NULL, 10);

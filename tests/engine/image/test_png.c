@@ -200,7 +200,7 @@ static void absurd_extents_are_refused_before_memory_is_taken(void **state) {
     write_raw(path, 1, PNG_COLOR_TYPE_GRAY, 70000, 2, row, 70000 / 8);
     expect_read_error(path, LOBE_ERROR_LIMIT);
     // The header of a 60000 x 60000 image before the rest of a small one: libpng checks the
-    // header's checksum, so it is made anew.
+    // header's checksum, so it is computed again.
     uint8_t start[33] = {0x89, 'P', 'N',  'G',  '\r', '\n', 0x1a, '\n', 0,    0,
                          0,    13,  'I',  'H',  'D',  'R',  0,    0,    0xea, 0x60,
                          0,    0,   0xea, 0x60, 8,    6,    0,    0,    0};

@@ -1,7 +1,7 @@
 #ifndef TESTS_ENGINE_SUPPORT_CMOCKA_ALL_H
 #define TESTS_ENGINE_SUPPORT_CMOCKA_ALL_H
 
-// cmocka.h wants these before it.
+// cmocka.h needs these before it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -9,7 +9,7 @@
 
 #include "tests/engine/support/log_recorder.h"
 
-/// Stands before each block.
+/// Precedes each block.
 typedef struct block_label {
     alignas(16) const counting_allocator *owner;
     size_t size;
@@ -26,7 +26,7 @@ static void *allocate(void *user, size_t size) {
     counting->blocks++;
     counting->bytes += size;
     counting->mistakes += size == 0;
-    // What was there before must not matter.
+    // Callers must not depend on the previous content.
     return memset(label + 1, 0xa5, size);
 }
 

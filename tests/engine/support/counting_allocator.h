@@ -6,28 +6,28 @@
 
 #include <lobe/host.h>
 
-/// A host's allocator that keeps the books, and fails when it is told to.
+/// A host's allocator that counts its blocks, and fails on demand.
 typedef struct counting_allocator {
-    lobe_allocator allocator;     ///< hand this to lobe
-    _Atomic size_t blocks, bytes; ///< taken and not given back
-    _Atomic size_t taken;         ///< calls so far; set to 0 to count anew
-    _Atomic size_t mistakes;      ///< blocks of somebody else, or given back as of another size
-    size_t failing;               ///< the call that gets nothing; 0: none
+    lobe_allocator allocator;     ///< pass this to lobe
+    _Atomic size_t blocks, bytes; ///< allocated and not freed
+    _Atomic size_t taken;         ///< allocations so far; set to 0 to restart
+    _Atomic size_t mistakes;      ///< frees of foreign blocks, or with the wrong size
+    size_t failing;               ///< the allocation that fails; 0: none
 } counting_allocator;
 
-/// Starts or restarts; it must stay where it is.
+/// Starts or restarts; the structure must not be moved.
 void counting_allocator_start(counting_allocator *counting);
 
-/// Asserts that all has come back, as it was taken.
+/// Asserts that everything was freed, with the right sizes.
 void assert_nothing_left(const counting_allocator *counting);
 
-/// Something to do with memory of the log's allocator, which is all given back in the end. Returns
-/// the first failure.
+/// Work that allocates with the allocator of `host` and frees everything in the end. Returns the
+/// first failure.
 typedef lobe_result (*counted_work)(void *user, const lobe_host *host);
 
-/// Does it once with as much memory as it likes, then once for each time that it asked for some,
-/// which then fails. Asserts that it says so by its code and one line each time, and gives back all
-/// that it got. Returns how often it asked.
+/// Does the work once, then once more for each of its allocations, which then fails. Asserts that
+/// the work returns the error, logs one line and frees everything each time. Returns the number of
+/// allocations.
 size_t fail_each_allocation(counted_work work, void *user);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <openexr.h>
 
-/// OpenEXR files of all kinds that lobe reads but does not write, made with OpenEXRCore.
+/// OpenEXR files of kinds that lobe reads but does not write, made with OpenEXRCore.
 
 typedef struct exr_fixture_channel {
     const char *name;
@@ -15,7 +15,7 @@ typedef struct exr_fixture_channel {
 } exr_fixture_channel;
 
 typedef struct exr_fixture_part {
-    const char *name; ///< NULL in a file of one part
+    const char *name; ///< NULL in a file with one part
     exr_attr_box2i_t data_window, display_window;
     exr_compression_t compression;
     int tile_width, tile_height; ///< 0: scan lines
@@ -28,7 +28,7 @@ typedef struct exr_fixture_part {
 /// number, exact in all types; other levels hold the negative of it (0 in unsigned channels).
 float exr_fixture_value(int channel, int x, int y);
 
-/// Fails the test where the file cannot be written.
+/// Fails the test if the file cannot be written.
 void exr_fixture_write(const char *path, const exr_fixture_part *parts, int count);
 
 #endif

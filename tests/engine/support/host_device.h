@@ -8,10 +8,10 @@
 /// The loader of every device that the tests open; NULL: libvulkan's. vulkan_faults.c sets its own.
 extern PFN_vkGetInstanceProcAddr test_vulkan_loader;
 
-/// A program with Vulkan of its own, under the validation layer, that lets lobe use its device.
+/// A program that uses Vulkan itself, under the validation layer, and lets lobe use its device.
 typedef struct host_device {
     log_recorder recorder;     ///< of lobe
-    lobe_vulkan_device vulkan; ///< made with all that lobe recommends, but no callbacks
+    lobe_vulkan_device vulkan; ///< with everything that lobe can use, but no callbacks
     lobe_vulkan_features features;
     const char *extensions[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
     VkDebugUtilsMessengerEXT messenger;
@@ -20,17 +20,17 @@ typedef struct host_device {
     char last_mistake[16384];
 } host_device;
 
-/// Asserts that all works. The structure must stay where it is.
+/// Asserts that everything succeeds. The structure must not be moved.
 void host_device_open(host_device *host);
-/// The same without the validation layer, whose books grow with each call.
+/// The same without the validation layer, whose memory grows with each call.
 void host_device_open_unvalidated(host_device *host);
-/// Asserts that the validation layer had nothing to say.
+/// Asserts that the validation layer reported nothing.
 void host_device_close(host_device *host);
 
-/// Imports it, and asserts that this works.
+/// Imports it, and asserts that this succeeds.
 lobe_device *host_device_import(host_device *host);
 
-/// An image with memory of its own.
+/// An image with its own memory.
 typedef struct host_image {
     VkImage image;
     VkDeviceMemory memory;
@@ -46,7 +46,7 @@ void host_image_destroy(const host_device *host, host_image *image);
 VkCommandBuffer host_begin(const host_device *host);
 /// Ends, submits, waits and frees it.
 void host_finish(const host_device *host, VkCommandBuffer commands);
-/// Makes all that came before visible to all that follows, and changes the layout of an image
+/// Makes everything before visible to everything after, and changes the layout of an image
 /// (colour or depth, by its format).
 void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayout from,
                   VkImageLayout to);

@@ -3,15 +3,15 @@
 
 #include <lobe/host.h>
 
-/// A log that keeps what it is told, for tests to look at.
+/// A log that counts its messages and keeps the last ones.
 typedef struct log_recorder {
-    lobe_host host; ///< hand this to lobe
+    lobe_host host; ///< pass this to lobe
     int errors, warnings, notices;
     char last_error[1024];
     char last_warning[1024];
 } log_recorder;
 
-/// Starts or restarts; the recorder must stay where it is.
+/// Starts or restarts; the recorder must not be moved.
 void log_recorder_start(log_recorder *recorder);
 
 #endif

@@ -6,19 +6,19 @@
 /// A folder for the files of a test.
 typedef struct temporary_folder {
     char path[128];
-    char file[512]; ///< what temporary_folder_file gave last
+    char file[512]; ///< the last path from temporary_folder_file
 } temporary_folder;
 
-/// Fails the test where no folder can be made.
+/// Fails the test if the folder cannot be created.
 void temporary_folder_create(temporary_folder *folder);
 /// The path of a file in it; valid until the next call.
 const char *temporary_folder_file(temporary_folder *folder, const char *name);
-/// Files in it, hidden ones too.
+/// The number of files in it, including hidden ones.
 size_t temporary_folder_count(const temporary_folder *folder);
 /// Removes the files and the folder.
 void temporary_folder_remove(const temporary_folder *folder);
 
-/// The folder of a test that runs IN_TEST_FOLDER, of its own each.
+/// The folder of a test that runs IN_TEST_FOLDER; each test has its own.
 extern temporary_folder test_folder;
 
 int test_folder_setup(void **state);

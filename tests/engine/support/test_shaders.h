@@ -9,10 +9,10 @@
 extern const engine_shader_code engine_test_shaders[];
 extern const size_t engine_test_shaders_count;
 
-/// Makes them known to a device.
+/// Adds them to a device.
 lobe_result add_test_shaders(lobe_device *device);
 
-/// A device with validation that knows the test shaders. `pipeline_cache` may be NULL.
+/// A device with validation and the test shaders. `pipeline_cache` may be NULL.
 lobe_result open_device_with_test_shaders(const lobe_host *host, const char *pipeline_cache,
                                           lobe_device **device);
 

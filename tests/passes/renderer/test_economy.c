@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/graph/graph.h"
+#include "engine/graph/state.h"
 #include "passes/maps/level_reduction.h"
 #include "scenes/scene/scene.h"
 #include "shaders/interface/mixture.h"
@@ -161,9 +161,9 @@ static void a_constant_material_builds_nothing(void **state) {
 /// Layers of the mixture in the graph of the last frame.
 static uint32_t mixture_layers(fixture *f) {
     const lobe_graph *graph = lobe_renderer_graph(f->renderer);
-    for (uint32_t i = 0; i < graph->dependencies.resource_count; i++) {
-        if (strncmp(graph->resources[i].name, "mixture of", 10) == 0)
-            return graph->resources[i].layers;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        if (strncmp(graph->frame.resources[i].name, "mixture of", 10) == 0)
+            return graph->frame.resources[i].layers;
     }
     return 0;
 }
@@ -457,8 +457,8 @@ static void instances_share_what_they_can(void **state) {
         assert_int_equal(count_passes(graph, "lobe_clustering", LOBE_PASS_RUN),
                          cases[i].clusterings);
         size_t filtered_images = 0;
-        for (uint32_t j = 0; j < graph->dependencies.resource_count; j++)
-            filtered_images += strncmp(graph->resources[j].name, "filtered image", 14) == 0;
+        for (uint32_t j = 0; j < graph->frame.dependencies.resource_count; j++)
+            filtered_images += strncmp(graph->frame.resources[j].name, "filtered image", 14) == 0;
         assert_int_equal(filtered_images, 1);
         lobe_frame_free(&frame);
     }
@@ -472,9 +472,9 @@ static void instances_share_what_they_can(void **state) {
 /// The first draw of the shading pass in the last frame.
 static const engine_graph_command *shading_draw(fixture *f) {
     const lobe_graph *graph = lobe_renderer_graph(f->renderer);
-    for (uint32_t i = 0; i < graph->dependencies.pass_count; i++) {
-        if (strcmp(graph->passes[i]->name, "shading") == 0)
-            return graph->passes[i]->first_command;
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        if (strcmp(graph->frame.passes[i]->name, "shading") == 0)
+            return graph->frame.passes[i]->first_command;
     }
     fail_msg("there is no shading pass");
     return NULL;

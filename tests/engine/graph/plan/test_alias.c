@@ -10,12 +10,12 @@ static uint32_t next_random(uint32_t *seed) {
 static void assert_sound(const engine_alias_request *requests, size_t count, uint64_t shared,
                          uint64_t separate) {
     assert_true(shared <= separate);
-    for (size_t n = 0; n < count; n++) {
-        const engine_alias_request *a = &requests[n];
+    for (size_t i = 0; i < count; i++) {
+        const engine_alias_request *a = &requests[i];
         assert_int_equal(a->offset % a->alignment, 0);
         assert_true(a->offset + a->size <= shared);
-        for (size_t m = 0; m < n; m++) {
-            const engine_alias_request *b = &requests[m];
+        for (size_t j = 0; j < i; j++) {
+            const engine_alias_request *b = &requests[j];
             bool together = a->first <= b->last && b->first <= a->last;
             bool overlap = a->offset < b->offset + b->size && b->offset < a->offset + a->size;
             assert_false(together && overlap);
@@ -23,15 +23,15 @@ static void assert_sound(const engine_alias_request *requests, size_t count, uin
     }
 }
 
-/// Bytes alive at once can never be undercut.
+/// The block is never smaller than the bytes alive at one position.
 static uint64_t largest_sum(const engine_alias_request *requests, size_t count,
                             uint32_t positions) {
     uint64_t largest = 0;
     for (uint32_t position = 0; position < positions; position++) {
         uint64_t sum = 0;
-        for (size_t n = 0; n < count; n++)
-            if (requests[n].first <= position && position <= requests[n].last)
-                sum += requests[n].size;
+        for (size_t i = 0; i < count; i++)
+            if (requests[i].first <= position && position <= requests[i].last)
+                sum += requests[i].size;
         largest = sum > largest ? sum : largest;
     }
     return largest;
@@ -44,9 +44,9 @@ static void random_requests_never_overlap(void **state) {
     uint32_t seed = 12;
     for (int round = 0; round < 300; round++) {
         size_t count = next_random(&seed) % 60;
-        for (size_t n = 0; n < count; n++) {
+        for (size_t i = 0; i < count; i++) {
             uint32_t first = next_random(&seed) % 40;
-            requests[n] = (engine_alias_request){.size = 1 + next_random(&seed) % 100000,
+            requests[i] = (engine_alias_request){.size = 1 + next_random(&seed) % 100000,
                                                  .alignment = 1u << next_random(&seed) % 17,
                                                  .first = first,
                                                  .last = first + next_random(&seed) % 8};
@@ -61,9 +61,9 @@ static void a_chain_needs_two_places(void **state) {
     (void)state;
     engine_alias_request requests[10];
     uint64_t shared, separate;
-    for (uint32_t n = 0; n < 10; n++)
-        requests[n] =
-            (engine_alias_request){.size = 1000, .alignment = 256, .first = n, .last = n + 1};
+    for (uint32_t i = 0; i < 10; i++)
+        requests[i] =
+            (engine_alias_request){.size = 1000, .alignment = 256, .first = i, .last = i + 1};
     assert_true(engine_alias_plan(NULL, requests, 10, &shared, &separate));
     assert_sound(requests, 10, shared, separate);
     assert_int_equal(shared, 1024 + 1000);

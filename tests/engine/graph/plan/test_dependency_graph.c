@@ -5,7 +5,7 @@
 
 #include "engine/graph/plan/dependency_graph.h"
 
-// States as some device might have them.
+// States of an imaginary device.
 #define STAGE_A 1
 #define STAGE_B 2
 #define STAGE_C 4
@@ -85,23 +85,23 @@ static void compile(void) {
     assert_true(engine_dependency_link(&graph));
     assert_true(engine_dependency_order(&graph));
     assert_true(engine_dependency_cull(&graph));
-    engine_dependency_lifetimes(&graph);
-    assert_true(engine_dependency_barriers(&graph));
+    engine_dependency_find_lifetimes(&graph);
+    assert_true(engine_dependency_derive_barriers(&graph));
 }
 
 /// The hazards between two passes, as bits.
 static uint32_t hazards(uint32_t from, uint32_t to) {
-    for (uint32_t n = 0; n < graph.edge_count; n++)
-        if (graph.edges[n].from == from && graph.edges[n].to == to)
-            return graph.edges[n].hazards;
+    for (uint32_t i = 0; i < graph.edge_count; i++)
+        if (graph.edges[i].from == from && graph.edges[i].to == to)
+            return graph.edges[i].hazards;
     return 0;
 }
 
 static void assert_running(const char *expected) {
     char names[256] = "";
-    for (uint32_t n = 0; n < graph.running_count; n++) {
-        strcat(names, n ? " " : "");
-        strcat(names, graph.passes[graph.running[n]].name);
+    for (uint32_t i = 0; i < graph.running_count; i++) {
+        strcat(names, i ? " " : "");
+        strcat(names, graph.passes[graph.running[i]].name);
     }
     assert_string_equal(names, expected);
 }
@@ -168,7 +168,7 @@ static void levels_are_apart(void **state) {
     assert_int_equal(hazards(base, half), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(half, quarter), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(base, quarter), 0);
-    // Who looks at level 0 only does not need the others.
+    // A pass that reads only level 0 does not need the others.
     assert_int_equal(hazards(base, view), ENGINE_HAZARD_READ_AFTER_WRITE);
     assert_int_equal(hazards(quarter, view), 0);
     assert_running("base view");
@@ -187,7 +187,7 @@ static void layers_are_apart(void **state) {
     assert_running("a b");
 }
 
-/// Two halves of a resource by two passes, one of which wrote before a third overwrote both.
+/// Two passes write half of a resource each; one of them wrote before a third overwrote both.
 static void a_range_has_several_sources(void **state) {
     (void)state;
     lobe_resource x = transient("x", 2);
@@ -210,16 +210,16 @@ static void a_range_has_several_sources(void **state) {
 static void order_is_that_of_declaration_where_it_can_be(void **state) {
     (void)state;
     char names[8][8];
-    for (int n = 0; n < 8; n++) {
-        snprintf(names[n], sizeof names[n], "%d", n);
-        lobe_resource x = transient(names[n], 1);
-        wants(writes(pass_of(names[n]), x));
+    for (int i = 0; i < 8; i++) {
+        snprintf(names[i], sizeof names[i], "%d", i);
+        lobe_resource x = transient(names[i], 1);
+        wants(writes(pass_of(names[i]), x));
     }
     compile();
     assert_running("0 1 2 3 4 5 6 7");
 }
 
-/// Passes may be declared before those they need, as long as the accesses come in order.
+/// Passes may be added before those they need, as long as the accesses are added in order.
 static void a_pass_waits_for_what_it_needs(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1), y = transient("y", 1);
@@ -265,7 +265,7 @@ static void an_explicit_order_can_close_a_cycle(void **state) {
     assert_fault(ENGINE_FAULT_CYCLE, "'a'", "'x'");
 }
 
-/// Whatever the accesses, an order that is given back respects every edge.
+/// For any accesses, the order respects every edge.
 static void every_edge_is_respected(void **state) {
     (void)state;
     uint32_t seed = 1;
@@ -273,20 +273,20 @@ static void every_edge_is_respected(void **state) {
         engine_dependency_graph_reset(&graph);
         lobe_resource resources[6];
         uint32_t passes[12];
-        for (int n = 0; n < 6; n++)
-            resources[n] = transient("r", 3);
-        for (int n = 0; n < 12; n++)
-            passes[n] = pass_of("p");
-        for (int n = 0; n < 6; n++)
-            resources[n] = writes(passes[n], resources[n]);
-        for (int n = 6; n < 12; n++)
-            for (int m = 0; m < 4; m++) {
+        for (int i = 0; i < 6; i++)
+            resources[i] = transient("r", 3);
+        for (int i = 0; i < 12; i++)
+            passes[i] = pass_of("p");
+        for (int i = 0; i < 6; i++)
+            resources[i] = writes(passes[i], resources[i]);
+        for (int i = 6; i < 12; i++)
+            for (int j = 0; j < 4; j++) {
                 seed = seed * 1664525u + 1013904223u;
                 uint32_t which = (seed >> 8) % 6, level = (seed >> 16) % 3;
                 if (seed >> 31)
-                    resources[which] = writes_level(passes[n], resources[which], level);
+                    resources[which] = writes_level(passes[i], resources[which], level);
                 else
-                    reads_level(passes[n], resources[which], level);
+                    reads_level(passes[i], resources[which], level);
             }
         if (!engine_dependency_link(&graph)) {
             assert_true(graph.fault.kind == ENGINE_FAULT_CONFLICT ||
@@ -295,10 +295,10 @@ static void every_edge_is_respected(void **state) {
         }
         assert_true(engine_dependency_order(&graph));
         uint32_t place[12];
-        for (uint32_t n = 0; n < 12; n++)
-            place[graph.order[n]] = n;
-        for (uint32_t n = 0; n < graph.edge_count; n++)
-            assert_true(place[graph.edges[n].from] < place[graph.edges[n].to]);
+        for (uint32_t i = 0; i < 12; i++)
+            place[graph.order[i]] = i;
+        for (uint32_t i = 0; i < graph.edge_count; i++)
+            assert_true(place[graph.edges[i].from] < place[graph.edges[i].to]);
     }
 }
 
@@ -323,15 +323,15 @@ static void versions_of_the_future_are_refused(void **state) {
     lobe_resource future = {x.index, 7}, foreign = {99, 1}, none = {0};
     uint32_t a = pass_of("a");
     lobe_resource wrong[] = {future, foreign, none};
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         graph.fault = (engine_dependency_fault){0};
-        assert_int_equal(access_of(a, &wrong[n], (lobe_range){0}, ENGINE_ACCESS_READ, read_in_b),
+        assert_int_equal(access_of(a, &wrong[i], (lobe_range){0}, ENGINE_ACCESS_READ, read_in_b),
                          ENGINE_DEPENDENCY_NONE);
-        assert_fault(ENGINE_FAULT_UNKNOWN_RESOURCE, "'a'", n == 0 ? "x" : "");
+        assert_fault(ENGINE_FAULT_UNKNOWN_RESOURCE, "'a'", i == 0 ? "x" : "");
     }
 }
 
-/// A pass may name either version for what it does not write itself.
+/// A pass may name either version of what it does not write itself.
 static void a_pass_may_use_the_version_it_started_from(void **state) {
     (void)state;
     lobe_resource x = transient("x", 3);
@@ -356,9 +356,9 @@ static void ranges_are_checked(void **state) {
     lobe_resource x =
         resource_of((engine_dependency_resource){.name = "x", .levels = 2, .layers = 3});
     uint32_t a = pass_of("a");
-    for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         graph.fault = (engine_dependency_fault){0};
-        assert_int_equal(access_of(a, &x, wrong[n], ENGINE_ACCESS_WRITE, written_in_a),
+        assert_int_equal(access_of(a, &x, wrong[i], ENGINE_ACCESS_WRITE, written_in_a),
                          ENGINE_DEPENDENCY_NONE);
         assert_fault(ENGINE_FAULT_RANGE, "'a'", "'x'");
     }
@@ -398,7 +398,7 @@ static void an_output_is_not_overwritten(void **state) {
     uint32_t a = pass_of("a"), b = pass_of("b"), c = pass_of("c");
     x = writes_level(a, x, 0);
     wants(x);
-    x = writes_level(b, x, 1); // adds to it: fine
+    x = writes_level(b, x, 1); // adds to it: allowed
     x = writes_level(c, x, 0);
     assert_false(engine_dependency_link(&graph));
     assert_fault(ENGINE_FAULT_OVERWRITTEN, "'c'", "'x'");
@@ -462,7 +462,7 @@ static void what_nothing_wants_is_culled(void **state) {
     assert_int_equal(graph.passes[c].position, 1);
 }
 
-/// Whoever only overwrites needs no former content.
+/// A pass that only overwrites needs no previous content.
 static void overwritten_content_is_not_wanted(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1);
@@ -487,10 +487,10 @@ static void kept_passes_run(void **state) {
     assert_running("a b c");
 }
 
-/// What retained resources hold after the passes of the graph have run.
+/// Content of retained resources after the passes of the graph have run.
 static void record(uint32_t resource, engine_stamp *stamps) {
-    for (uint32_t n = 0; n < graph.running_count; n++)
-        for (uint32_t a = graph.passes[graph.running[n]].first_access; a != ENGINE_DEPENDENCY_NONE;
+    for (uint32_t i = 0; i < graph.running_count; i++)
+        for (uint32_t a = graph.passes[graph.running[i]].first_access; a != ENGINE_DEPENDENCY_NONE;
              a = graph.accesses[a].next)
             for (uint32_t s = 0; s < engine_access_size(&graph.accesses[a]); s++)
                 if (graph.accesses[a].resource == resource &&
@@ -501,7 +501,7 @@ static void record(uint32_t resource, engine_stamp *stamps) {
                 }
 }
 
-/// import -> base (level 0) -> half (level 1), kept; half -> look -> seen, wanted.
+/// import -> base (level 0) -> half (level 1), retained; half -> look -> seen, an output.
 static void retained_frame(engine_stamp *stamps, uint64_t content, uint64_t half_signature) {
     engine_dependency_graph_reset(&graph);
     lobe_resource given = resource_of(
@@ -533,9 +533,9 @@ static void valid_content_stops_demand(void **state) {
     assert_running("look");
     assert_int_equal(graph.passes[0].state, LOBE_PASS_SKIPPED);
     assert_int_equal(graph.passes[1].state, LOBE_PASS_SKIPPED);
-    retained_frame(stamps, 100, 22); // half does something else now
+    retained_frame(stamps, 100, 22); // half does something else
     assert_running("half look");
-    retained_frame(stamps, 101, 22); // other content brought in
+    retained_frame(stamps, 101, 22); // other content is imported
     assert_running("base half look");
     stamps[1] = ENGINE_STAMP_NONE; // level 1 was lost
     retained_frame(stamps, 101, 22);
@@ -545,21 +545,21 @@ static void valid_content_stops_demand(void **state) {
 static void ranges_kinds_and_shapes_are_part_of_the_stamp(void **state) {
     (void)state;
     engine_stamp stamps[6];
-    for (int n = 0; n < 6; n++) {
+    for (int i = 0; i < 6; i++) {
         engine_dependency_graph_reset(&graph);
         lobe_resource given = resource_of((engine_dependency_resource){
-            .name = "given", .levels = 2, .imported = true, .identity = n == 1 ? 8 : 7});
+            .name = "given", .levels = 2, .imported = true, .identity = i == 1 ? 8 : 7});
         lobe_resource x = resource_of(
-            (engine_dependency_resource){.name = "x", .levels = 2, .identity = n == 2 ? 1 : 2});
+            (engine_dependency_resource){.name = "x", .levels = 2, .identity = i == 2 ? 1 : 2});
         uint32_t a = pass_of("a");
-        graph.passes[a].signature = n == 3 ? 5 : 6;
-        reads_level(a, given, n == 4 ? 1 : 0);
-        x = writes_level(a, x, n == 5 ? 1 : 0);
+        graph.passes[a].signature = i == 3 ? 5 : 6;
+        reads_level(a, given, i == 4 ? 1 : 0);
+        x = writes_level(a, x, i == 5 ? 1 : 0);
         wants(x);
         compile();
-        stamps[n] = graph.passes[a].stamp;
-        for (int m = 0; m < n; m++)
-            assert_true(stamps[m] != stamps[n]);
+        stamps[i] = graph.passes[a].stamp;
+        for (int j = 0; j < i; j++)
+            assert_true(stamps[j] != stamps[i]);
     }
 }
 
@@ -582,7 +582,7 @@ static void lifetimes_span_first_to_last_use(void **state) {
     assert_int_equal(graph.resources[x.index].first_position, 0);
     assert_int_equal(graph.resources[x.index].last_position, 2);
     assert_int_equal(graph.resources[y.index].first_position, 1);
-    // Outputs live on to the end of the frame.
+    // Outputs live until the end of the frame.
     assert_int_equal(graph.resources[z.index].last_position, 3);
     assert_int_equal(graph.resources[unused.index].first_position, ENGINE_DEPENDENCY_NONE);
 }
@@ -592,10 +592,10 @@ static void lifetimes_span_first_to_last_use(void **state) {
 
 static const engine_dependency_barrier *only_barrier(uint32_t position, uint32_t resource) {
     const engine_dependency_barrier *found = NULL;
-    for (uint32_t n = 0; n < graph.barrier_count; n++)
-        if (graph.barriers[n].position == position && graph.barriers[n].resource == resource) {
+    for (uint32_t i = 0; i < graph.barrier_count; i++)
+        if (graph.barriers[i].position == position && graph.barriers[i].resource == resource) {
             assert_null(found);
-            found = &graph.barriers[n];
+            found = &graph.barriers[i];
         }
     return found;
 }
@@ -620,10 +620,10 @@ static void readers_share_one_barrier(void **state) {
     lobe_resource x = transient("x", 1);
     uint32_t a = pass_of("a");
     x = writes(a, x);
-    for (int n = 0; n < 3; n++) {
+    for (int i = 0; i < 3; i++) {
         lobe_resource y = transient("y", 1);
         uint32_t reader = pass_of("reader");
-        access_of(reader, &x, (lobe_range){0}, ENGINE_ACCESS_READ, n == 1 ? read_in_c : read_in_b);
+        access_of(reader, &x, (lobe_range){0}, ENGINE_ACCESS_READ, i == 1 ? read_in_c : read_in_b);
         wants(writes(reader, y));
     }
     compile();
@@ -652,7 +652,7 @@ static void every_hazard_of_a_buffer_has_its_barrier(void **state) {
     wants(x);
     compile();
     assert_running("a b c");
-    assert_null(only_barrier(0, x.index)); // nothing was there before
+    assert_null(only_barrier(0, x.index)); // it had no content
     const engine_dependency_barrier *read = only_barrier(1, x.index);
     assert_int_equal(read->from.access, WRITE);
     assert_int_equal(read->to.stages, STAGE_B);
@@ -681,7 +681,7 @@ static void only_the_levels_concerned_are_moved(void **state) {
                      ENGINE_LAYOUT_SAMPLED);
 }
 
-/// Sampled in one way and read in place in another by one pass: one layout for both.
+/// One pass reads it both sampled and as a storage image: one layout for both.
 static void reads_of_one_pass_agree_on_a_layout(void **state) {
     (void)state;
     lobe_resource x = transient("x", 2), y = transient("y", 1);
@@ -731,7 +731,7 @@ static void retained_content_keeps_its_layout(void **state) {
     assert_null(only_barrier(0, x.index));
 }
 
-/// A resource that moves into memory where another lay waits for the other's last uses.
+/// A resource in memory that another used waits for the last uses of that other one.
 static void shared_memory_is_waited_for(void **state) {
     (void)state;
     lobe_resource x = transient("x", 1), y = transient("y", 1), z = transient("z", 1);
@@ -742,12 +742,12 @@ static void shared_memory_is_waited_for(void **state) {
     reads(c, y);
     z = writes(c, z);
     wants(z);
-    // z lies where x lay, y elsewhere.
+    // z uses the memory of x; y is elsewhere.
     const uint64_t offsets[] = {0, 64, 32};
-    for (int n = 0; n < 3; n++) {
-        graph.resources[n].placed = true;
-        graph.resources[n].offset = offsets[n];
-        graph.resources[n].size = n == 1 ? 64 : 48;
+    for (int i = 0; i < 3; i++) {
+        graph.resources[i].placed = true;
+        graph.resources[i].offset = offsets[i];
+        graph.resources[i].size = i == 1 ? 64 : 48;
     }
     graph.resources[1].block = 1;
     compile();

@@ -20,7 +20,7 @@ static uint32_t smaller(uint32_t extent) {
     return extent > 1 ? extent / 2 : 1;
 }
 
-/// Values that tell level, place and channel apart, with noise that hardly compresses.
+/// Values that identify level, position and channel, with noise that hardly compresses.
 static uint32_t make_levels(uint32_t width, uint32_t height, lobe_image *levels) {
     uint32_t seed = 7;
     for (uint32_t level = 0;; level++) {
@@ -119,7 +119,7 @@ static void the_header_is_read_back(void **state) {
     free_levels(levels, count);
 }
 
-/// What another program finds.
+/// What another program reads.
 static void the_file_is_a_cube_of_levels_for_others(void **state) {
     (void)state;
     lobe_image levels[MOST_LEVELS];
@@ -215,7 +215,7 @@ static void wrong_levels_are_refused(void **state) {
     (void)state;
     lobe_image levels[MOST_LEVELS], other;
     uint32_t count = make_levels(8, 8, levels);
-    expect_refused(levels, count - 1, "3 levels given, 8x8 texels have 4");
+    expect_refused(levels, count - 1, "3 levels are given, 8x8 texels have 4");
     other = levels[2];
     levels[2] = levels[1];
     expect_refused(levels, count, "4x4 texels on level 2 instead of 2x2");
@@ -227,7 +227,7 @@ static void wrong_levels_are_refused(void **state) {
     free_levels(levels, count);
 }
 
-/// Cut off anywhere, the file is refused with one line; contents stay empty.
+/// Truncated anywhere, the file is rejected with one log line; contents stay empty.
 static void cut_off_files_are_refused(void **state) {
     (void)state;
     lobe_image levels[MOST_LEVELS];

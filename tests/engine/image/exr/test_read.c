@@ -119,13 +119,13 @@ static void lossy_compression_is_read_too(void **state) {
     lobe_image_free(&image);
 }
 
-/// Smooth, so that little is lost: a lossy file must hold it to a few hundredths.
+/// Smooth, so that lossy compression is off by a few hundredths at most.
 static float smooth_value(int channel, int x, int y) {
     return 1.0f + 0.5f * sinf(0.05f * (float)x * (float)(channel + 1)) +
            0.3f * cosf(0.07f * (float)y);
 }
 
-/// OpenEXRCore 3.1 writes no DWAA and DWAB either, the C interface of the older library does.
+/// OpenEXRCore 3.1 cannot write DWAA and DWAB either; the C interface of the older library can.
 static void write_dwa(const char *path, int compression, int channels, bool tiled) {
     enum { LEFT = -3, TOP = 5, WIDTH = 70, HEIGHT = 300 };
     ImfHeader *header = ImfNewHeader();
@@ -233,11 +233,12 @@ static void the_display_window_frames_the_image(void **state) {
     (void)state;
     exr_fixture_part part = plain_part(1, 1);
     part.display_window = window(0, 0, 30, 40);
-    part.data_window = window(-5, 10, 20, 60); // reaches out on two sides, short on the others
+    part.data_window =
+        window(-5, 10, 20, 60); // beyond the display window on two sides, inside on the others
     expect_read(&part, 1, NULL, &part, rgb_of_bgr);
     part.tile_width = part.tile_height = 16;
     expect_read(&part, 1, NULL, &part, rgb_of_bgr);
-    part.data_window = window(100, 100, 110, 110); // nothing of it is to be seen
+    part.data_window = window(100, 100, 110, 110); // all outside the display window
     expect_read(&part, 1, NULL, &part, rgb_of_bgr);
     part.display_window = window(-7, -9, 5, 3);
     part.data_window = window(-7, -9, 5, 3);
@@ -370,7 +371,8 @@ static void absurd_windows_are_refused(void **state) {
     set_window(&content, "displayWindow", 0, 0, 65535, 15);
     save(path, &content, content.size);
     expect_file_error(path, NULL, LOBE_ERROR_LIMIT);
-    set_window(&content, "displayWindow", 0, 0, 65534, 65534); // each extent is fine, not the area
+    set_window(&content, "displayWindow", 0, 0, 65534,
+               65534); // each extent is allowed, the area is not
     save(path, &content, content.size);
     expect_file_error(path, NULL, LOBE_ERROR_LIMIT);
     set_window(&content, "displayWindow", 0, 0, 15, 15);
@@ -419,7 +421,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state) {
     }
 }
 
-/// Whatever is changed, there is an image or one line, and never a crash.
+/// Any change results in an image or one log line, never in a crash.
 static void expect_order(const char *path) {
     log_recorder recorder;
     log_recorder_start(&recorder);

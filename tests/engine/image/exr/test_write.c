@@ -18,7 +18,7 @@ static uint32_t random_bits(uint32_t *state) {
     return *state >> 8 | *state << 24;
 }
 
-/// Floats of any bits: subnormal, infinite and NaN ones too.
+/// Floats with arbitrary bits, including subnormal, infinite and NaN values.
 static lobe_image make_noise(lobe_format format, uint32_t width, uint32_t height, uint32_t seed) {
     lobe_image image;
     assert_int_equal(lobe_image_allocate(&image, format, width, height, NULL), LOBE_OK);
@@ -28,7 +28,7 @@ static lobe_image make_noise(lobe_format format, uint32_t width, uint32_t height
     return image;
 }
 
-/// Finite radiance of all magnitudes that half has.
+/// Finite radiance of all magnitudes in the range of half.
 static lobe_image make_radiance(uint32_t width, uint32_t height) {
     lobe_image image;
     uint32_t seed = 5;
@@ -74,7 +74,7 @@ static void floats_survive_bit_by_bit(void **state) {
     }
 }
 
-/// Blocks that compress badly come close to their raw size, now and then to just that size.
+/// Blocks that compress badly come close to their raw size, and sometimes have exactly that size.
 static void blocks_that_do_not_shrink_survive(void **state) {
     (void)state;
     const char *path = temporary_folder_file(&test_folder, "block.exr");
@@ -156,7 +156,7 @@ static void expect_layer(const char *path, const char *layer, const lobe_image *
     uint32_t channels = lobe_format_channels(source->format);
     for (size_t index = 0; index < (size_t)source->width * source->height; index++) {
         for (int component = 0; component < 4; component++) {
-            float expected = 1.0f; // alpha that is not there
+            float expected = 1.0f; // missing alpha
             if (components[component] >= 0)
                 expected = ((float *)source->texels)[index * channels + components[component]];
             assert_memory_equal((float *)read.texels + 4 * index + component, &expected, 4);
@@ -379,7 +379,7 @@ static void what_cannot_be_written_leaves_the_old(void **state) {
         assert_non_null(strstr(recorder.last_error, paths[index]));
     }
     assert_int_equal(temporary_folder_count(&test_folder), 0);
-    // A file that is there stays as it was when a later one is refused.
+    // An existing file is unchanged if writing over it fails.
     const char *path = temporary_folder_file(&test_folder, "old.exr");
     assert_int_equal(lobe_file_write(path, "old", 3, NULL), LOBE_OK);
     assert_int_equal(write_layers(path, NULL, 0, NULL), LOBE_ERROR_INVALID_ARGUMENT);

@@ -1,7 +1,6 @@
-#include "engine/graph/record/flight.h"
+#include "engine/graph/store/store.h"
 
 #include "engine/device/vulkan_check.h"
-#include "engine/graph/store/object.h"
 
 static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *flight) {
     lobe_device *device = graph->device;
@@ -33,9 +32,9 @@ static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *fligh
 }
 
 lobe_result engine_graph_create_flights(lobe_graph *graph) {
-    graph->flight = graph->flights;
-    graph->flight_count = 1;
-    return create_commands(graph, graph->flight);
+    graph->frame.flight = graph->kept.flights;
+    graph->kept.flight_count = 1;
+    return create_commands(graph, graph->frame.flight);
 }
 
 void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) {
@@ -48,27 +47,27 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
 
 lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
-    if (graph->flight->busy) {
-        // In turn, so that the next one is the oldest.
-        uint32_t index = (uint32_t)(graph->flight - graph->flights);
-        graph->flight = &graph->flights[(index + 1) % graph->flight_count];
+    if (graph->frame.flight->busy) {
+        // Taken in turn, so that the next one is the oldest.
+        uint32_t index = (uint32_t)(graph->frame.flight - graph->kept.flights);
+        graph->frame.flight = &graph->kept.flights[(index + 1) % graph->kept.flight_count];
     }
-    // Of a frame that the host submitted itself it knows that it is done.
-    if (graph->flight->submission)
-        result = engine_device_wait(graph->device, graph->flight->submission);
+    // If the host submitted the frame itself, it guarantees that the frame has finished.
+    if (graph->frame.flight->submission)
+        result = engine_device_wait(graph->device, graph->frame.flight->submission);
     if (result != LOBE_OK)
         return result;
-    engine_graph_retire_flight(graph, graph->flight);
-    return create_commands(graph, graph->flight);
+    engine_graph_retire_flight(graph, graph->frame.flight);
+    return create_commands(graph, graph->frame.flight);
 }
 
 lobe_result engine_graph_finish_flights(lobe_graph *graph) {
     bool busy = false;
-    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        busy = busy || graph->flights[n].busy;
+    for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        busy = busy || graph->kept.flights[i].busy;
     const lobe_result result = busy ? engine_device_wait_queue(graph->device) : LOBE_OK;
-    for (uint32_t n = 0; busy && result == LOBE_OK && n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        engine_graph_retire_flight(graph, &graph->flights[n]);
+    for (uint32_t i = 0; busy && result == LOBE_OK && i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        engine_graph_retire_flight(graph, &graph->kept.flights[i]);
     return result;
 }
 
@@ -77,9 +76,9 @@ void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
         count = 1;
     if (count > LOBE_MAXIMUM_FRAMES_IN_FLIGHT)
         count = LOBE_MAXIMUM_FRAMES_IN_FLIGHT;
-    if (count < graph->flight_count)
+    if (count < graph->kept.flight_count)
         (void)engine_graph_finish_flights(graph);
-    graph->flight_count = count;
+    graph->kept.flight_count = count;
 }
 
 static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
@@ -94,6 +93,6 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
 }
 
 void engine_graph_free_flights(lobe_graph *graph) {
-    for (uint32_t n = 0; n < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; n++)
-        free_flight(graph, &graph->flights[n]);
+    for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        free_flight(graph, &graph->kept.flights[i]);
 }

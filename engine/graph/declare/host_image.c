@@ -1,15 +1,13 @@
-#include "engine/graph/declare/host.h"
+#include "engine/graph/declare/declare.h"
 
 #include <lobe/vulkan.h>
 
-#include "engine/graph/declare/declare.h"
-#include "engine/graph/record/descriptor.h"
 #include "engine/resource/format.h"
 
 lobe_format lobe_vulkan_format(VkFormat format) {
-    for (int n = LOBE_FORMAT_NONE + 1; n < LOBE_FORMAT_COUNT; n++)
-        if (engine_format_vulkan((lobe_format)n) == format)
-            return (lobe_format)n;
+    for (int i = LOBE_FORMAT_NONE + 1; i < LOBE_FORMAT_COUNT; i++)
+        if (engine_format_vulkan((lobe_format)i) == format)
+            return (lobe_format)i;
     return LOBE_FORMAT_NONE;
 }
 
@@ -17,8 +15,8 @@ lobe_format lobe_vulkan_format(VkFormat format) {
 // Declaration
 
 static bool is_imported(const lobe_graph *graph, VkImage image) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++)
-        if (graph->resources[n].host && graph->resources[n].host->image == image)
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if (graph->frame.resources[i].host && graph->frame.resources[i].host->image == image)
             return true;
     return false;
 }
@@ -26,18 +24,18 @@ static bool is_imported(const lobe_graph *graph, VkImage image) {
 static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const char *name) {
     if (!image->image || image->width == 0 || image->height == 0)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                        "host image '%s': a handle and an extent are needed (%ux%u)", name,
+                        "host image '%s': needs a handle and an extent above 0 (%ux%u)", name,
                         image->width, image->height);
     else if (lobe_vulkan_format(image->format) == LOBE_FORMAT_NONE)
-        lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED, "host image '%s': VkFormat %d is unknown",
-                        name, (int)image->format);
+        lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED,
+                        "host image '%s': VkFormat %d is not supported", name, (int)image->format);
     else if (is_imported(graph, image->image))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
                         name);
-    return graph->result == LOBE_OK;
+    return graph->frame.result == LOBE_OK;
 }
 
-/// Without a better word of the host's, whatever it does comes after all of lobe's work.
+/// If the host does not say how it uses the image next, assumes any use.
 static engine_access_state state_after(const lobe_vulkan_image *image) {
     bool all = image->final_stages == 0;
     return (engine_access_state){
@@ -49,10 +47,10 @@ static engine_access_state state_after(const lobe_vulkan_image *image) {
 
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {
     const char *name = image->name ? image->name : "host image";
-    if (!engine_graph_may_declare(graph, name) || !check_image(graph, image, name))
+    if (!engine_graph_can_declare(graph, name) || !check_image(graph, image, name))
         return (lobe_resource){0};
-    lobe_vulkan_image *kept = engine_arena_copy(&graph->arena, image, sizeof *image);
-    name = engine_arena_copy_text(&graph->arena, name);
+    lobe_vulkan_image *kept = engine_arena_copy(&graph->frame.arena, image, sizeof *image);
+    name = engine_arena_copy_text(&graph->frame.arena, name);
     if (!kept || !name) {
         engine_graph_fail_memory(graph);
         return (lobe_resource){0};
@@ -73,7 +71,7 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
         .levels = resource.levels,
         .layers = resource.layers,
         .borrowed = true,
-        // What it holds now nobody knows.
+        // A new stamp in every frame: its content is unknown.
         .identity = engine_device_stamp(graph->device),
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
@@ -87,32 +85,24 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
 
 static const char *missing_usage(VkImageUsageFlags missing) {
     if (missing & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)
-        return "drawing colour into it";
+        return "colour attachment";
     if (missing & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)
-        return "drawing depth into it";
+        return "depth attachment";
     if (missing & VK_IMAGE_USAGE_SAMPLED_BIT)
-        return "sampling it";
+        return "sampled";
     if (missing & VK_IMAGE_USAGE_STORAGE_BIT)
         return "storage";
-    return missing & VK_IMAGE_USAGE_TRANSFER_SRC_BIT ? "copying from it" : "copying to it";
+    return missing & VK_IMAGE_USAGE_TRANSFER_SRC_BIT ? "transfer source" : "transfer destination";
 }
 
 lobe_result engine_graph_check_host_images(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        const engine_graph_resource *resource = &graph->resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        const engine_graph_resource *resource = &graph->frame.resources[i];
         VkFlags missing = resource->host ? resource->usage & ~resource->host->usage : 0;
         if (missing)
             return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                                   "host image '%s' was not created with a usage for %s",
+                                   "host image '%s' was not created with the usage '%s'",
                                    resource->name, missing_usage(missing));
     }
     return LOBE_OK;
-}
-
-VkImageLayout engine_graph_layout_of(const engine_graph_resource *resource, engine_layout layout) {
-    if (layout == ENGINE_LAYOUT_LENT)
-        return resource->host->layout;
-    if (layout != ENGINE_LAYOUT_RETURNED)
-        return engine_graph_vulkan_layout(layout);
-    return resource->host->final_layout ? resource->host->final_layout : VK_IMAGE_LAYOUT_GENERAL;
 }

@@ -1,4 +1,4 @@
-#include "engine/graph/store/object.h"
+#include "engine/graph/store/store.h"
 
 #include <string.h>
 
@@ -27,7 +27,7 @@ lobe_result engine_graph_create_object(lobe_device *device, const engine_graph_r
                                        VkMemoryRequirements *requirements) {
     if (resource->is_image)
         return create_image(device, resource, object, requirements);
-    // Fills work in words of four bytes.
+    // Fills write words of four bytes.
     uint64_t size = (resource->size + 3) / 4 * 4;
     return engine_buffer_create(device, resource->name, size, resource->usage, &object->buffer,
                                 requirements);
@@ -69,7 +69,7 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
                             VkImageViewType type, const lobe_range *range) {
     engine_graph_view *added = lobe_allocate(device->host.allocator, 1, sizeof *added);
     if (!added)
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': no host memory",
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "image '%s': out of memory",
                               resource->name);
     engine_view_parameters parameters = {
         .name = resource->name,
@@ -92,7 +92,7 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
     return LOBE_OK;
 }
 
-/// The view that came with an image from outside; none where it has no such view.
+/// The view that came with an imported image; VK_NULL_HANDLE if it has no such view.
 static VkImageView given_view(const engine_graph_resource *resource, VkImageViewType type,
                               const lobe_range *range) {
     const lobe_range first = {.level_count = 1, .layer_count = 1};
@@ -104,8 +104,9 @@ static VkImageView given_view(const engine_graph_resource *resource, VkImageView
     return VK_NULL_HANDLE;
 }
 
-lobe_result engine_graph_view_of(lobe_device *device, const engine_graph_resource *resource,
-                                 VkImageViewType type, const lobe_range *range, VkImageView *view) {
+lobe_result engine_graph_get_view(lobe_device *device, const engine_graph_resource *resource,
+                                  VkImageViewType type, const lobe_range *range,
+                                  VkImageView *view) {
     *view = given_view(resource, type, range);
     if (*view)
         return LOBE_OK;

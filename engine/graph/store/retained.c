@@ -1,14 +1,12 @@
-#include "engine/graph/store/retain.h"
+#include "engine/graph/store/store.h"
 
 #include <string.h>
 
 #include "engine/device/vulkan_check.h"
-#include "engine/graph/record/flight.h"
-#include "engine/graph/store/object.h"
 #include "engine/resource/format.h"
 
 void engine_graph_begin_retained(lobe_graph *graph) {
-    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+    for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         kept->declared = false;
 }
 
@@ -22,15 +20,15 @@ static void free_retained(lobe_graph *graph, engine_graph_retained *kept) {
 }
 
 void engine_graph_free_retained(lobe_graph *graph) {
-    while (graph->retained) {
-        engine_graph_retained *kept = graph->retained;
-        graph->retained = kept->next;
+    while (graph->kept.retained) {
+        engine_graph_retained *kept = graph->kept.retained;
+        graph->kept.retained = kept->next;
         free_retained(graph, kept);
     }
 }
 
 lobe_result engine_graph_release_retained(lobe_graph *graph) {
-    for (engine_graph_retained **link = &graph->retained; *link;) {
+    for (engine_graph_retained **link = &graph->kept.retained; *link;) {
         engine_graph_retained *kept = *link;
         if (kept->declared) {
             link = &kept->next;
@@ -48,7 +46,7 @@ lobe_result engine_graph_release_retained(lobe_graph *graph) {
 // ---------------------------------------------------------------------------------------------
 // Uses
 
-/// More than this frame's uses: content that outlives the frame must serve uses of later ones.
+/// More than this frame's uses: the content is kept, and later frames may use it in other ways.
 static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resource *resource) {
     if (!resource->is_image)
         return resource->usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -65,16 +63,16 @@ static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resourc
     return usage;
 }
 
-static void forget_content(engine_graph_retained *kept) {
-    for (uint32_t n = 0; n < kept->subresource_count; n++) {
-        kept->stamps[n] = ENGINE_STAMP_NONE;
-        kept->layouts[n] = ENGINE_LAYOUT_UNDEFINED;
+static void clear_content(engine_graph_retained *kept) {
+    for (uint32_t i = 0; i < kept->subresource_count; i++) {
+        kept->stamps[i] = ENGINE_STAMP_NONE;
+        kept->layouts[i] = ENGINE_LAYOUT_UNDEFINED;
     }
 }
 
 lobe_result engine_graph_check_retained(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         engine_graph_retained *kept = resource->retained;
         if (resource->origin != ENGINE_GRAPH_RETAINED)
             continue;
@@ -90,35 +88,35 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
             return result;
         engine_graph_free_object(graph->device, &kept->object);
         engine_memory_free(graph->device->memory, &kept->allocation);
-        forget_content(kept);
+        clear_content(kept);
         kept->usage |= resource->usage;
     }
     return LOBE_OK;
 }
 
-/// The content is still there to be read; only no longer what any pass would write.
+/// The content can still be read, but its stamp no longer equals what any pass would write.
 static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
-    for (uint32_t n = 0; n < kept->subresource_count; n++)
-        if (kept->stamps[n] != ENGINE_STAMP_NONE)
-            kept->stamps[n] = engine_stamp_mix(kept->stamps[n], engine_device_stamp(graph->device));
+    for (uint32_t i = 0; i < kept->subresource_count; i++)
+        if (kept->stamps[i] != ENGINE_STAMP_NONE)
+            kept->stamps[i] = engine_stamp_mix(kept->stamps[i], engine_device_stamp(graph->device));
 }
 
 void lobe_graph_invalidate(lobe_graph *graph) {
-    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+    for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         invalidate(graph, kept);
 }
 
 void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
-    for (engine_graph_retained *kept = graph->retained; kept; kept = kept->next)
+    for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         if (strncmp(kept->name, prefix, strlen(prefix)) != 0)
             invalidate(graph, kept);
 }
 
 // ---------------------------------------------------------------------------------------------
-// Making them
+// Creation
 
 static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) {
-    const engine_graph_resource *resource = &graph->resources[index];
+    const engine_graph_resource *resource = &graph->frame.resources[index];
     uint32_t subresources = resource->levels * resource->layers;
     const lobe_allocator *allocator = graph->device->host.allocator;
     engine_graph_retained *kept = lobe_allocate(allocator, 1, sizeof *kept);
@@ -126,7 +124,7 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
         return NULL;
     *kept = (engine_graph_retained){
         .name = lobe_copy_text(allocator, resource->name),
-        .identity = graph->dependencies.resources[index].identity,
+        .identity = graph->frame.dependencies.resources[index].identity,
         .usage = resource->usage,
         .subresource_count = subresources,
         .stamps = lobe_allocate(allocator, subresources, sizeof *kept->stamps),
@@ -145,10 +143,10 @@ static lobe_result add_retained(lobe_graph *graph, uint32_t index) {
     engine_graph_retained *kept = allocate(graph, index);
     if (!kept)
         return engine_graph_fail_memory(graph);
-    kept->next = graph->retained;
-    graph->retained = kept;
-    graph->resources[index].retained = kept;
-    graph->dependencies.resources[index].start_layouts = kept->layouts;
+    kept->next = graph->kept.retained;
+    graph->kept.retained = kept;
+    graph->frame.resources[index].retained = kept;
+    graph->frame.dependencies.resources[index].start_layouts = kept->layouts;
     return LOBE_OK;
 }
 
@@ -173,14 +171,15 @@ static lobe_result make_object(lobe_graph *graph, const engine_graph_resource *r
 }
 
 lobe_result engine_graph_place_retained(lobe_graph *graph) {
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        engine_graph_resource *resource = &graph->resources[n];
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
         if (resource->origin != ENGINE_GRAPH_RETAINED)
             continue;
-        bool needed = graph->dependencies.resources[n].first_position != ENGINE_DEPENDENCY_NONE;
+        bool needed =
+            graph->frame.dependencies.resources[i].first_position != ENGINE_DEPENDENCY_NONE;
         lobe_result result = LOBE_OK;
         if (!resource->retained && needed)
-            result = add_retained(graph, n);
+            result = add_retained(graph, i);
         engine_graph_retained *kept = resource->retained;
         if (result == LOBE_OK && needed && !kept->object.image && !kept->object.buffer)
             result = make_object(graph, resource);
@@ -193,45 +192,46 @@ lobe_result engine_graph_place_retained(lobe_graph *graph) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What they hold
+// Content
 
 typedef void (*visit_written)(lobe_graph *graph, uint32_t access, uint32_t subresource);
 
 /// Every retained subresource that running passes write, in order of execution.
 static void for_each_written(lobe_graph *graph, visit_written visit) {
-    const engine_dependency_graph *dependencies = &graph->dependencies;
-    for (uint32_t n = 0; n < dependencies->running_count; n++)
-        for (uint32_t a = dependencies->passes[dependencies->running[n]].first_access;
+    const engine_dependency_graph *dependencies = &graph->frame.dependencies;
+    for (uint32_t i = 0; i < dependencies->running_count; i++)
+        for (uint32_t a = dependencies->passes[dependencies->running[i]].first_access;
              a != ENGINE_DEPENDENCY_NONE; a = dependencies->accesses[a].next) {
             const engine_dependency_access *access = &dependencies->accesses[a];
-            if (access->kind == ENGINE_ACCESS_READ || !graph->resources[access->resource].retained)
+            if (access->kind == ENGINE_ACCESS_READ ||
+                !graph->frame.resources[access->resource].retained)
                 continue;
             for (uint32_t s = 0; s < engine_access_size(access); s++)
                 visit(graph, a, engine_access_subresource(dependencies, access, s));
         }
 }
 
-static void forget_subresource(lobe_graph *graph, uint32_t access, uint32_t subresource) {
-    uint32_t resource = graph->dependencies.accesses[access].resource;
-    graph->resources[resource].retained->stamps[subresource] = ENGINE_STAMP_NONE;
+static void clear_stamp(lobe_graph *graph, uint32_t access, uint32_t subresource) {
+    uint32_t resource = graph->frame.dependencies.accesses[access].resource;
+    graph->frame.resources[resource].retained->stamps[subresource] = ENGINE_STAMP_NONE;
 }
 
 void engine_graph_invalidate_retained(lobe_graph *graph) {
-    for_each_written(graph, forget_subresource);
+    for_each_written(graph, clear_stamp);
 }
 
-static void record_subresource(lobe_graph *graph, uint32_t access, uint32_t subresource) {
-    uint32_t resource = graph->dependencies.accesses[access].resource;
-    graph->resources[resource].retained->stamps[subresource] =
-        engine_dependency_content(&graph->dependencies, access, resource, subresource);
+static void set_stamp(lobe_graph *graph, uint32_t access, uint32_t subresource) {
+    uint32_t resource = graph->frame.dependencies.accesses[access].resource;
+    graph->frame.resources[resource].retained->stamps[subresource] =
+        engine_dependency_content(&graph->frame.dependencies, access, resource, subresource);
 }
 
-void engine_graph_record_retained(lobe_graph *graph) {
-    for_each_written(graph, record_subresource);
-    for (uint32_t n = 0; n < graph->dependencies.resource_count; n++) {
-        engine_graph_retained *kept = graph->resources[n].retained;
-        const engine_layout *layouts =
-            graph->dependencies.end_layouts + graph->dependencies.resources[n].first_subresource;
+void engine_graph_stamp_retained(lobe_graph *graph) {
+    for_each_written(graph, set_stamp);
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_retained *kept = graph->frame.resources[i].retained;
+        const engine_layout *layouts = graph->frame.dependencies.end_layouts +
+                                       graph->frame.dependencies.resources[i].first_subresource;
         if (kept)
             memcpy(kept->layouts, layouts, kept->subresource_count * sizeof *layouts);
     }
