@@ -4,6 +4,7 @@
 #include "passes/environment/kept/store.h"
 #include "passes/filters/filter.h"
 #include "passes/renderer/material_specialisation.h"
+#include "shaders/interface/specialisation.h"
 
 /// What a renderer remembers of an environment's maps from frame to frame; all zero: nothing.
 typedef struct environment_state {

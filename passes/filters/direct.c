@@ -9,8 +9,10 @@ static const lobe_knob curvature_knob = {
 };
 static const lobe_knob *const knobs[] = {&curvature_knob, NULL};
 
-static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
     (void)instance;
+    (void)prepared;
     passes_appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
                                         (float)passes_filter_setting(context, "curvature"));
 }

@@ -1,6 +1,5 @@
 #include "passes/filters/filter.h"
 
-#include <assert.h>
 #include <string.h>
 
 double passes_filter_setting(const filter_context *context, const char *knob) {
@@ -9,13 +8,24 @@ double passes_filter_setting(const filter_context *context, const char *knob) {
 
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler) {
-    assert(appearance->binding_count < FILTER_MAXIMUM_BINDINGS);
+    if (appearance->binding_count == FILTER_MAXIMUM_BINDINGS) {
+        lobe_graph_fail(appearance->graph, LOBE_ERROR_LIMIT,
+                        "the filter binds '%s' after %d other resources, which is the most", name,
+                        FILTER_MAXIMUM_BINDINGS);
+        return;
+    }
     appearance->bindings[appearance->binding_count++] =
         (lobe_binding){.name = name, .resource = resource, .sampler = sampler};
 }
 
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits) {
-    assert(appearance->specialisation_count < FILTER_MAXIMUM_SPECIALISATIONS);
+    if (appearance->specialisation_count == FILTER_MAXIMUM_SPECIALISATIONS) {
+        lobe_graph_fail(appearance->graph, LOBE_ERROR_LIMIT,
+                        "the filter sets specialisation constant %u after %d others, which is the "
+                        "most",
+                        id, FILTER_MAXIMUM_SPECIALISATIONS);
+        return;
+    }
     appearance->specialisation[appearance->specialisation_count++] =
         (lobe_specialisation){id, bits};
 }

@@ -10,32 +10,37 @@
 #define FILTER_MAXIMUM_BINDINGS        8
 #define FILTER_MAXIMUM_SPECIALISATIONS 40
 
-/// What the filter's maps of one instance come to: inputs of its draw in the shading pass.
+/// What a filter built for one instance: inputs of its draw in the shading pass.
 typedef struct filtered_appearance {
+    lobe_graph *graph; ///< where a list that overflows is reported
     lobe_binding bindings[FILTER_MAXIMUM_BINDINGS];
     size_t binding_count;
     lobe_specialisation specialisation[FILTER_MAXIMUM_SPECIALISATIONS];
     size_t specialisation_count;
     uint64_t bytes;       ///< device memory of the maps built for this appearance alone
-    uint64_t base_texels; ///< texels of the base maps they stand for
+    uint64_t base_texels; ///< texels of the base maps that those replace
 } filtered_appearance;
 
-/// Filtered versions of the scene's images in this frame: shared by all materials that use them.
+/// Filtered versions of the scene's images in this frame, shared by all materials that use them.
 typedef struct filtered_images {
-    lobe_resource *resources; ///< one an image of the scene; none where it is not built yet
+    lobe_resource *resources; ///< one for each image of the scene; version 0: not built yet
     uint64_t bytes;
 } filtered_images;
 
-/// What a filter may use to build its maps.
-typedef struct filter_context {
-    lobe_graph *graph;
-    const lobe_settings *settings;
-    const lobe_filter *filter;
-    const device_scene *scene;
+typedef struct filter_view {
     const lobe_camera *camera;
     uint32_t width, height; ///< of the picture, pixels
+} filter_view;
+
+/// What a filter may use.
+typedef struct filter_context {
+    lobe_graph *graph;
+    const device_scene *scene;
+    filter_view view;
+    const lobe_filter *filter;
+    const lobe_settings *settings; ///< of that filter
     filtered_images *images;
-    const lobe_host *host;
+    const lobe_host *host; ///< log and memory
 } filter_context;
 
 struct lobe_filter {
@@ -46,12 +51,24 @@ struct lobe_filter {
     const char *shading;
     const lobe_knob *const *knobs; ///< its own, ended by NULL; NULL: none
     bool supersamples;
+    /// Computes on the host what the filter keeps of a material from frame to frame, into the
+    /// filter's own slot for that material. Called in every frame, before `build`, for each
+    /// material that is drawn, so it must return at once where the slot still serves. `*slot` is
+    /// NULL at first, and again after the material or one of its maps has changed. Memory comes
+    /// from `context->host`. Logs nothing: a failure becomes the frame's, in one line. The slot is
+    /// left valid then, for `forget` or another try. NULL: the filter keeps nothing.
+    lobe_result (*prepare)(const filter_context *context, uint32_t material, void **slot);
+    /// Frees what `prepare` put into a slot; never called with NULL. Not NULL where there is a
+    /// `prepare`.
+    void (*forget)(void *slot);
     /// True where the maps depend on the instance (its mesh, its transform, the camera) and not
     /// on the material alone. NULL: never.
     bool (*for_each_instance)(const filter_context *context, size_t instance);
     /// Adds the passes that build the maps of an instance's material, and says how they are read.
-    /// Mistakes of declaration stay in the graph. NULL: there are none.
-    void (*build)(const filter_context *context, size_t instance, filtered_appearance *appearance);
+    /// `prepared` is what `prepare` left in the slot. Mistakes of declaration stay in the graph.
+    /// NULL: the filter has no maps.
+    void (*build)(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance);
     /// What of a material the filter cannot represent, as a phrase for a warning; NULL: nothing.
     /// The pointer itself may be NULL.
     const char *(*ignores)(const lobe_material *material);
@@ -62,6 +79,7 @@ extern const lobe_filter *const passes_filter_table[];
 
 double passes_filter_setting(const filter_context *context, const char *knob);
 
+// More than FILTER_MAXIMUM_... of either makes the frame fail.
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler);
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);

@@ -34,8 +34,9 @@ static const lobe_knob *const knobs[] = {
     NULL,
 };
 
-static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
-    passes_slope_moments_build(context, instance, appearance);
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    passes_slope_moments_build(context, instance, prepared, appearance);
     size_t grid = (size_t)passes_filter_setting(context, "grid");
     passes_appearance_specialise(appearance, SPECIALISE_GRID, 3 + 2 * (uint32_t)grid);
     passes_appearance_specialise_number(appearance, SPECIALISE_REACH, reaches[grid]);

@@ -1,10 +1,10 @@
 #include "passes/maps/filtered_maps.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
@@ -60,14 +60,6 @@ lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32
     return sampler;
 }
 
-bool passes_lobe_map_extent(const device_material *material, uint32_t *width, uint32_t *height) {
-    const device_map *normal = &material->maps[MAP_NORMAL];
-    const device_map *widths = &material->maps[MAP_WIDTH];
-    *width = normal->width > widths->width ? normal->width : widths->width;
-    *height = normal->height > widths->height ? normal->height : widths->height;
-    return *width > 0;
-}
-
 /// Colours are stored in half floats: their range is small, and the base maps have eight bits.
 static lobe_resource filtered_image(const filter_context *context, const device_material *material,
                                     uint32_t map) {
@@ -93,34 +85,31 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
     const device_map *source = &material->maps[map];
     if (!source->use || source->width * source->height == 1)
         return false;
-    // Widths are in the mixtures (or averages); what else the map may hold is metal.
+    // The filter's own map holds the widths; what else the map may hold is metal.
     return map != MAP_WIDTH || material->metallic_varies;
 }
 
-/// Whether a map's texels and coordinates are those of the lobes' map.
+/// Whether a map's texels and coordinates are those of the lobes.
 static bool is_like_lobes(const device_material *material, uint32_t map) {
-    uint32_t width, height;
-    const lobe_texture_use *own = material->maps[map].use;
-    const lobe_texture_use *lobes = material->maps[MAP_NORMAL].use ? material->maps[MAP_NORMAL].use
-                                                                   : material->maps[MAP_WIDTH].use;
-    return passes_lobe_map_extent(material, &width, &height) && own &&
-           material->maps[map].width == width && material->maps[map].height == height &&
-           own->texture_coordinates == lobes->texture_coordinates &&
-           memcmp(own->transform, lobes->transform, sizeof own->transform) == 0;
+    const lobe_grid grid = passes_lobe_grid(material);
+    const device_map *own = &material->maps[map];
+    return own->use && own->width == grid.width && own->height == grid.height &&
+           passes_lobe_grid_shares_coordinates(&grid, own->use);
 }
 
-/// Bits of the maps whose level 0 some pixel may see; the lobes' map counts with its full size.
+/// Bits of the maps whose level 0 some pixel may see. The normal map counts with the size of the
+/// lobes' grid.
 static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
     double probes = passes_filter_setting(context, "probes"),
            bias = passes_filter_setting(context, "bias");
     uint32_t bits = 0;
     for (uint32_t map = 0; map < MAP_COUNT; ++map) {
         if (!material->maps[map].use)
             continue;
-        uint32_t width = material->maps[map].width, height = material->maps[map].height;
-        if (map == MAP_NORMAL)
-            passes_lobe_map_extent(material, &width, &height);
+        uint32_t width = map == MAP_NORMAL ? grid.width : material->maps[map].width;
+        uint32_t height = map == MAP_NORMAL ? grid.height : material->maps[map].height;
         if (passes_may_be_magnified(context, index, map, width, height, probes, bias))
             bits |= 1u << map;
     }

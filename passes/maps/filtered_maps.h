@@ -8,14 +8,10 @@
 void passes_filtered_maps_build(const filter_context *context, uint32_t material,
                                 filtered_appearance *appearance);
 
-/// Size of the maps that lobes come from: the larger of the normal and the width map, in texels.
-/// False where the material has neither.
-bool passes_lobe_map_extent(const device_material *material, uint32_t *width, uint32_t *height);
-
-/// The storage format of filtered maps that the knob "storage" asks for.
+/// The format of filtered maps that the knob "storage" asks for.
 lobe_format passes_filtered_map_format(const filter_context *context);
 
-/// Trilinear, wrapping as the material's map does.
+/// Trilinear, with the wrapping of the material's map.
 lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32_t map);
 
 /// Knobs of all filters that read filtered maps: put them last in a filter's list.

@@ -9,7 +9,7 @@ static float nearest_depth(const filter_context *context, size_t index) {
     const lobe_instance *instance = &context->scene->scene->instances[index];
     const lobe_mesh *mesh = &context->scene->scene->meshes[instance->mesh];
     vec4 axis;
-    passes_camera_axis(context->camera, axis);
+    passes_camera_axis(context->view.camera, axis);
     float nearest = INFINITY;
     for (int corner = 0; corner < 8; ++corner) {
         float depth = -axis[3];
@@ -22,17 +22,17 @@ static float nearest_depth(const filter_context *context, size_t index) {
         }
         nearest = fminf(nearest, depth);
     }
-    return fmaxf(nearest, context->camera->near_plane);
+    return fmaxf(nearest, context->view.camera->near_plane);
 }
 
 /// Least length of a pixel's side at a depth, as the root of the area that it sees straight on.
 static float pixel_size(const filter_context *context, float depth) {
-    const lobe_camera *camera = context->camera;
-    float height = (float)context->height;
+    const lobe_camera *camera = context->view.camera;
+    float height = (float)context->view.height;
     if (camera->vertical_field_of_view <= 0)
         return camera->orthographic_height / height;
     float tangent = tanf(0.5f * camera->vertical_field_of_view);
-    float aspect = (float)context->width / height;
+    float aspect = (float)context->view.width / height;
     // Towards the corner, at an angle t to the axis, the area shrinks with cos t.
     float cosine = 1 / sqrtf(1 + tangent * tangent * (1 + aspect * aspect));
     return 2 * tangent * depth / height * sqrtf(cosine);

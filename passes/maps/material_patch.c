@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "passes/renderer/sample_pattern.h"
+#include "passes/upload/material_maps.h"
 
 /// Xu et al. 2017, Eq. 6, as in shaders/lib/lobe/von_mises_fisher.glsl.
 static double evaluate(const material_lobe *lobe, const double direction[3]) {
@@ -26,14 +27,13 @@ double passes_material_patch_evaluate(const material_patch *patch, const double 
 
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch) {
-    uint32_t width, height;
-    passes_material_lobe_extent(material, &width, &height);
+    const lobe_grid grid = passes_lobe_grid(material);
     float corner[2];
     passes_sample_position(index, MATERIAL_PATCHES, corner);
-    uint32_t columns = width < MATERIAL_PATCH_EXTENT ? width : MATERIAL_PATCH_EXTENT;
-    uint32_t rows = height < MATERIAL_PATCH_EXTENT ? height : MATERIAL_PATCH_EXTENT;
-    uint32_t left = (uint32_t)(corner[0] * (float)(width - columns));
-    uint32_t top = (uint32_t)(corner[1] * (float)(height - rows));
+    uint32_t columns = grid.width < MATERIAL_PATCH_EXTENT ? grid.width : MATERIAL_PATCH_EXTENT;
+    uint32_t rows = grid.height < MATERIAL_PATCH_EXTENT ? grid.height : MATERIAL_PATCH_EXTENT;
+    uint32_t left = (uint32_t)(corner[0] * (float)(grid.width - columns));
+    uint32_t top = (uint32_t)(corner[1] * (float)(grid.height - rows));
     patch->count = 0;
     for (uint32_t y = 0; y < rows; ++y) {
         for (uint32_t x = 0; x < columns; ++x) {

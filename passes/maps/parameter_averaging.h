@@ -8,9 +8,8 @@
 /// it writes. The material has a normal or width map.
 reduced_map passes_parameter_averaging(const filter_context *context, uint32_t material);
 
-/// All that shaders/shading/averaged_maps.glsl reads: these maps where the material has any, and
-/// what passes_filtered_maps_build adds. The `build` of a filter.
+/// The `build` of a filter that shades from these maps (shaders/shading/averaged_maps.glsl).
 void passes_parameter_averaging_build(const filter_context *context, size_t instance,
-                                      filtered_appearance *appearance);
+                                      const void *prepared, filtered_appearance *appearance);
 
 #endif

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/atlas.h"
 
 static lobe_resource declare(lobe_graph *graph, const char *what, size_t instance, uint32_t width,
@@ -17,8 +18,7 @@ static lobe_resource declare(lobe_graph *graph, const char *what, size_t instanc
 }
 
 static struct atlas_layout layout_of(const device_material *material) {
-    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
-    const lobe_texture_use *use = material->maps[map].use;
+    const lobe_texture_use *use = passes_lobe_grid(material).use;
     struct atlas_layout layout = {.second_coordinates = use->texture_coordinates};
     memcpy(layout.u, use->transform[0], sizeof use->transform[0]);
     memcpy(layout.v, use->transform[1], sizeof use->transform[1]);

@@ -11,11 +11,11 @@
 /// world. An orthographic camera sees the environment in one direction only.
 static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
     mat3 rotation;
-    passes_camera_rotation(context->camera, rotation);
-    float height = context->camera->vertical_field_of_view > 0
-                       ? tanf(0.5f * context->camera->vertical_field_of_view)
+    passes_camera_rotation(context->view.camera, rotation);
+    float height = context->view.camera->vertical_field_of_view > 0
+                       ? tanf(0.5f * context->view.camera->vertical_field_of_view)
                        : 0;
-    float width = height * (float)context->width / (float)context->height;
+    float width = height * (float)context->view.width / (float)context->view.height;
     for (int i = 0; i < 3; ++i) {
         right[i] = width * rotation[i][0];
         down[i] = -height * rotation[i][1];
@@ -26,8 +26,8 @@ static void picture_axes(const filter_context *context, vec3 centre, vec3 right,
 /// The picture is moved, so that its pixels' centres become the samples.
 static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
                            const vec3 down, vec3 centre) {
-    float x = (1 - 2 * sample[0]) / (float)context->width;
-    float y = (1 - 2 * sample[1]) / (float)context->height;
+    float x = (1 - 2 * sample[0]) / (float)context->view.width;
+    float y = (1 - 2 * sample[1]) / (float)context->view.height;
     for (int i = 0; i < 3; ++i)
         centre[i] -= x * right[i] + y * down[i];
 }
@@ -45,7 +45,7 @@ void passes_background(lobe_pass *pass, const filter_context *context, lobe_reso
     constants.centre[3] = environment->intensity;
     if (!context->filter->supersamples)
         constants.right[3] = 4 * glm_vec3_norm(right) * glm_vec3_norm(down) /
-                             ((float)context->width * (float)context->height);
+                             ((float)context->view.width * (float)context->view.height);
     lobe_binding binding = {
         .name = "environment_cube",
         .resource = cube,

@@ -42,8 +42,8 @@ lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
     lobe_graph_extent(graph, imported->radiance, &imported->width, &imported->height);
     lobe_result result = imported->radiance.version ? check_extent(r, imported) : LOBE_OK;
     if (result == LOBE_OK && imported->width > 0) {
-        r->width = r->context.width = imported->width;
-        r->height = r->context.height = imported->height;
+        r->width = r->context.view.width = imported->width;
+        r->height = r->context.view.height = imported->height;
     }
     return result;
 }

@@ -16,6 +16,24 @@ static size_t instance_to_share_with(const filter_context *context, size_t insta
     return instance;
 }
 
+/// Without what the filter keeps of the material, nothing is built and the frame fails.
+static void build_appearance(rendering *r, size_t instance, filtered_appearance *appearance) {
+    const filter_context *context = &r->context;
+    const uint32_t material = context->scene->instances[instance].material;
+    const void *prepared;
+    *appearance = (filtered_appearance){.graph = context->graph};
+    if (!context->filter->build)
+        return;
+    lobe_result result =
+        passes_filter_slots_prepare(&r->renderer->slots, context, material, &prepared);
+    if (result == LOBE_OK)
+        context->filter->build(context, instance, prepared, appearance);
+    else
+        lobe_graph_fail(context->graph, result, "filter '%s', material '%s': %s",
+                        context->filter->name, context->scene->scene->materials[material].name,
+                        lobe_result_message(result));
+}
+
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     filtered_appearance *appearances = r->renderer->appearances;
@@ -28,9 +46,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
             appearances[i] = appearances[shared];
             continue;
         }
-        appearances[i] = (filtered_appearance){0};
-        if (r->context.filter->build)
-            r->context.filter->build(&r->context, i, &appearances[i]);
+        build_appearance(r, i, &appearances[i]);
         frame->filtered_bytes += appearances[i].bytes;
         frame->base_texels += appearances[i].base_texels;
     }

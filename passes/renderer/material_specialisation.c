@@ -14,7 +14,12 @@ static_assert(LOBE_DISTRIBUTION_BLINN_PHONG == DISTRIBUTION_BLINN_PHONG,
 static_assert(LOBE_DISTRIBUTION_VMF == DISTRIBUTION_VMF, "one list of distributions");
 
 void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
-    assert(list->count < MAXIMUM_SPECIALISATIONS);
+    if (list->count == MAXIMUM_SPECIALISATIONS) {
+        lobe_graph_fail(list->graph, LOBE_ERROR_LIMIT,
+                        "specialisation constant %u comes after %d others, which is the most", id,
+                        MAXIMUM_SPECIALISATIONS);
+        return;
+    }
     list->items[list->count++] = (lobe_specialisation){id, bits};
 }
 

@@ -8,6 +8,7 @@
 #define MAXIMUM_SPECIALISATIONS 64
 
 typedef struct specialisation_list {
+    lobe_graph *graph; ///< where an overflow is reported: the frame fails
     lobe_specialisation items[MAXIMUM_SPECIALISATIONS];
     size_t count;
 } specialisation_list;

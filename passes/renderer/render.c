@@ -65,12 +65,11 @@ static void fill_context(rendering *r, const lobe_filter *filter) {
     r->images.resources = renderer->filtered_images;
     r->context = (filter_context){
         .graph = renderer->graph,
-        .settings = &r->settings,
-        .filter = filter,
         .scene = renderer->scene,
-        .camera = parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
-        .width = r->width,
-        .height = r->height,
+        .view = {parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
+                 r->width, r->height},
+        .filter = filter,
+        .settings = &r->settings,
         .images = &r->images,
         .host = &renderer->host,
     };

@@ -17,6 +17,7 @@ lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
 }
 
 static void forget_scene(lobe_renderer *renderer) {
+    passes_filter_slots_destroy(&renderer->slots);
     passes_device_scene_destroy(&renderer->scene);
     lobe_release(renderer->appearances);
     lobe_release(renderer->filtered_images);
@@ -62,6 +63,8 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
                               "update: no scene is set");
     lobe_result result =
         passes_device_scene_update(renderer->device, renderer->scene, changes, &renderer->host);
+    if (result == LOBE_OK)
+        passes_filter_slots_update(renderer->slots, renderer->scene);
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->reported_filter = NULL;
     if (result == LOBE_OK && changes->environment)

@@ -4,7 +4,7 @@
 #include <lobe/renderer.h>
 
 #include "passes/environment/light.h"
-#include "passes/filters/filter.h"
+#include "passes/filters/slots.h"
 
 struct lobe_renderer {
     lobe_device *device;
@@ -13,6 +13,7 @@ struct lobe_renderer {
     device_scene *scene;                ///< NULL: none is set
     filtered_appearance *appearances;   ///< one per instance of the scene
     lobe_resource *filtered_images;     ///< one per image of the scene
+    filter_slots *slots;                ///< what filters prepared of the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
 };

@@ -7,6 +7,7 @@
 #include "passes/renderer/background.h"
 #include "passes/renderer/camera.h"
 #include "passes/renderer/material_specialisation.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/light.h"
@@ -104,18 +105,18 @@ static lobe_resource upload_frame(const filter_context *context, const float sam
         .spot_count = count_lights(scene, LOBE_LIGHT_SPOT),
     };
     mat4 matrix;
-    passes_camera_projection(context->camera, targets->width, targets->height, sample,
+    passes_camera_projection(context->view.camera, targets->width, targets->height, sample,
                              scene->minimum, scene->maximum, matrix);
     memcpy(frame.world_to_clip, matrix, sizeof matrix);
     mat3 rotation;
-    passes_camera_rotation(context->camera, rotation);
+    passes_camera_rotation(context->view.camera, rotation);
     glm_mat4_identity(matrix);
     glm_mat4_ins3(rotation, matrix);
     memcpy(frame.world_to_camera, matrix, sizeof matrix);
     vec4 vector;
-    passes_camera_eye(context->camera, vector);
+    passes_camera_eye(context->view.camera, vector);
     memcpy(frame.eye, vector, sizeof vector);
-    passes_camera_axis(context->camera, vector);
+    passes_camera_axis(context->view.camera, vector);
     memcpy(frame.axis, vector, sizeof vector);
     return lobe_graph_upload(context->graph, "frame", &frame, sizeof frame);
 }
@@ -202,7 +203,7 @@ static void draw_instance(const filter_context *context, const environment_light
     }
     lobe_binding bindings[3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
     size_t binding_count = bind_draw(context, light, instance, appearance, bindings);
-    specialisation_list list = {0};
+    specialisation_list list = {.graph = context->graph};
     specialise_draw(context, light, instance, appearance, &list);
     lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_pass_draw(

@@ -1,19 +1,20 @@
 #include "passes/upload/device_scene_parts.h"
 
+#include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
 
-/// One update, and what follows from what the host says has changed.
+/// One update: what the host says has changed, and what follows from that.
 typedef struct scene_update {
     lobe_device *device;
     device_scene *scene;
     const lobe_scene_changes *changes;
     const lobe_host *host;
-    bool *materials; ///< to be described again
-    bool *instances; ///< to be measured again
+    bool *materials; ///< to upload again
+    bool *instances; ///< to measure again
 } scene_update;
 
 // ---------------------------------------------------------------------------------------------
-// Before anything is changed
+// Checks before anything is changed
 
 static lobe_result check_indices(const scene_update *update, const char *what,
                                  const uint32_t *indices, size_t count, size_t limit) {
@@ -42,19 +43,19 @@ static lobe_result check_all_indices(const scene_update *update) {
     return result;
 }
 
-/// The material, and those of its images that the device does not have yet.
+/// Checks the material, and those of its images that the device does not have yet.
 static lobe_result check_material(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = passes_scene_check_material(scene, index, update->host);
     for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; ++map) {
-        const lobe_texture_use *use = passes_device_scene_map(scene, &scene->materials[index], map);
+        const lobe_texture_use *use = passes_material_map_use(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
             result = passes_scene_check_image(scene, (size_t)use->image, update->host);
     }
     return result;
 }
 
-/// The instance, and what it needs that the device does not have yet.
+/// Checks the instance, and what it needs that the device does not have yet.
 static lobe_result check_instance(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = passes_device_scene_check_instance(scene, index, update->host);
@@ -101,14 +102,15 @@ static bool uses_image(const device_material *material, uint32_t image) {
 static void mark_materials(scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     device_scene *scene = update->scene;
-    // Where light from all around comes or goes, so do the maps that it needs.
+    // An environment that appears or disappears takes the maps that only it needs (occlusion)
+    // along.
     bool other_maps = changes->environment && !scene->environment != !scene->scene->environment;
     for (size_t m = 0; other_maps && m < scene->scene->material_count; ++m)
         update->materials[m] = scene->materials[m].constants != NULL;
     for (size_t m = 0; m < scene->scene->material_count; ++m)
         for (size_t i = 0; i < changes->image_count; ++i)
             update->materials[m] |= uses_image(&scene->materials[m], changes->images[i]);
-    // One that no instance uses is not on the device.
+    // A material that no instance uses is not on the device.
     for (size_t i = 0; i < changes->material_count; ++i)
         if (scene->materials[changes->materials[i]].constants)
             update->materials[changes->materials[i]] = true;
@@ -129,7 +131,7 @@ static void mark_instances(scene_update *update) {
 // ---------------------------------------------------------------------------------------------
 // The change
 
-/// Content of the same shape goes into the texture that is there.
+/// Reuses the texture where extent and format stay the same.
 static lobe_result update_image(const scene_update *update, uint32_t index) {
     const lobe_scene_image *image = &update->scene->scene->images[index];
     lobe_texture **texture = &update->scene->images[index];

@@ -2,8 +2,12 @@
 
 #include <math.h>
 
-#include "passes/maps/mean_resultant_length.h"
-#include "passes/upload/image_texel.h"
+#include "passes/upload/material_maps.h"
+
+double passes_mean_resultant_length(double kappa) {
+    // Where the difference cancels, the first term of its series.
+    return kappa < 1e-3 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
+}
 
 static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,
                       uint32_t width, uint32_t height, float value[4]) {
@@ -53,25 +57,18 @@ static double base_concentration(const lobe_material *material, uint32_t i, doub
     return fmin(within > 0 ? convolved(material->distribution, kappa, within) : kappa, 1e6);
 }
 
-void passes_material_lobe_extent(const device_material *material, uint32_t *width,
-                                 uint32_t *height) {
-    const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
-    *width = normal->width > widths->width ? normal->width : widths->width;
-    *height = normal->height > widths->height ? normal->height : widths->height;
-}
-
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
                                     uint32_t x, uint32_t y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
     const lobe_material *source = material->material;
     bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
-    uint32_t width, height, count = microfacet ? 1 : source->lobe_count;
-    passes_material_lobe_extent(material, &width, &height);
+    const lobe_grid grid = passes_lobe_grid(material);
+    const uint32_t count = microfacet ? 1 : source->lobe_count;
     double normal[3];
     float widths[4] = {1, 1, 1, 1};
-    if (!texel_normal(scene, material, x, y, width, height, normal) ||
+    if (!texel_normal(scene, material, x, y, grid.width, grid.height, normal) ||
         (material->maps[MAP_WIDTH].use &&
-         !map_texel(scene, &material->maps[MAP_WIDTH], x, y, width, height, widths)))
+         !map_texel(scene, &material->maps[MAP_WIDTH], x, y, grid.width, grid.height, widths)))
         return 0;
     for (uint32_t i = 0; i < count; ++i) {
         double pole[3] = {0, 0, 1};

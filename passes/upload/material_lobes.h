@@ -4,24 +4,24 @@
 #include "passes/upload/device_scene.h"
 
 /// A material's base lobes as von Mises-Fisher lobes, texel by texel, on the host: for choices
-/// that are made once a material, from samples of its maps.
+/// that filters make once for a material, from samples of its maps.
 typedef struct material_lobe {
     double axis[3]; ///< unit, in the tangent frame
     double concentration;
     double weight; ///< share of the texel's reflectance
 } material_lobe;
 
-/// Texels of the grid that the lobes come from: the larger of the normal and the width map.
-void passes_material_lobe_extent(const device_material *material, uint32_t *width,
-                                 uint32_t *height);
-
-/// The lobes of a texel of that grid, at most LOBE_MATERIAL_MAXIMUM_LOBES; how many. 0 where a map
-/// has a format that hosts do not read.
+/// Gives the lobes of a texel of the material's lobe_grid and returns their number, at most
+/// LOBE_MATERIAL_MAXIMUM_LOBES; 0 where a map has a format that the host does not read.
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
                                     uint32_t x, uint32_t y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
 
 /// As rotate_from_pole in shaders/lib/lobe/half_vector_lobe.glsl, above the equator.
 void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]);
+
+/// Length [0, 1) of the mean direction of a von Mises-Fisher distribution of concentration kappa
+/// [0, infinity): coth kappa - 1/kappa. (Mardia, Jupp 2000, section 9.3.)
+double passes_mean_resultant_length(double kappa);
 
 #endif

@@ -5,11 +5,12 @@
 
 #include <cglm/cglm.h>
 
-#include "passes/maps/base_maps.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/lobe_map.h"
 #include "passes/maps/surface_atlas.h"
 #include "passes/renderer/camera.h"
 #include "passes/renderer/material_specialisation.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/clustering.h"
 #include "shaders/interface/mixture.h"
 
@@ -33,7 +34,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
     glm_mat4_inv(object_to_world, world_to_object);
     mat3 linear, world_to_camera, rotation;
     glm_mat4_pick3(object_to_world, linear);
-    passes_camera_rotation(context->camera, world_to_camera);
+    passes_camera_rotation(context->view.camera, world_to_camera);
     glm_mat3_mul(world_to_camera, linear, rotation);
     // Of a rotation and a uniform scale: rows of equal length.
     float scale = glm_vec3_norm(linear[0]);
@@ -42,7 +43,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
             constants->rotation[row][column] = scale > 0 ? rotation[column][row] / scale : 0;
     }
     vec4 eye, object_eye;
-    passes_camera_eye(context->camera, eye);
+    passes_camera_eye(context->view.camera, eye);
     glm_mat4_mulv(world_to_object, eye, object_eye);
     // Of a surface with two sides nothing faces away.
     if (double_sided)
@@ -60,8 +61,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
                                    lobe_map_space space, uint32_t subdivision, bool mean) {
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
-    uint32_t width, height;
-    passes_lobe_map_extent(material, &width, &height);
+    const lobe_grid grid = passes_lobe_grid(material);
 
     mixture_map mixture = {
         .format = passes_filtered_map_format(context), .subdivision = subdivision, .space = space};
@@ -72,24 +72,24 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
     else
         snprintf(name, sizeof name, "mixture of instance %zu", instance);
-    mixture.map = passes_reduced_map_declare(context->graph, name, mixture.format, width, height,
-                                             layers + (mean ? 1 : 0));
+    mixture.map = passes_reduced_map_declare(context->graph, name, mixture.format, grid.width,
+                                             grid.height, layers + (mean ? 1 : 0));
 
     surface_atlas atlas = {0};
     if (space != LOBE_SPACE_TANGENT)
-        atlas = passes_surface_atlas_draw(context, instance, width, height);
+        atlas = passes_surface_atlas_draw(context, instance, grid.width, grid.height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
     passes_base_maps_read(context, material, false, pass);
     mixture.map.resource =
         lobe_pass_write(pass, &(lobe_binding){"mixture_map", mixture.map.resource,
                                               .range = {0, 1, 0, mixture.map.layers}});
 
-    specialisation_list list = {0};
+    specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
-    struct clustering_constants tangent_constants = {width, height};
-    struct atlas_constants atlas_constants = {.width = width, .height = height};
+    struct clustering_constants tangent_constants = {grid.width, grid.height};
+    struct atlas_constants atlas_constants = {.width = grid.width, .height = grid.height};
     lobe_dispatch dispatch = {
         .shader = "filters/lobes/clustering.comp",
         .threads = {mixture.map.width, mixture.map.height, 1},

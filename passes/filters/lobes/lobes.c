@@ -2,7 +2,10 @@
 
 #include "passes/filters/filters.h"
 #include "passes/filters/lobes/clustering.h"
+#include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
@@ -84,20 +87,72 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
     return space_of(context, instance) != LOBE_SPACE_TANGENT;
 }
 
-/// What the user asks for, or else what the material's maps need. Without a normal map all texels
-/// of a material point the same way: one cluster has them all, but where the base lobes themselves
-/// do not. Clusters of an atlas are about another pole than the maps', so that nothing is known.
+// ---------------------------------------------------------------------------------------------
+// The subdivision that serves a material's maps
+
+/// Kept of a material from frame to frame.
+typedef struct prepared_lobes {
+    uint32_t subdivision; ///< in tangent space
+} prepared_lobes;
+
+/// In tangent space, whether all lobes point along the normal, which no map tilts: one cluster has
+/// them all.
+static bool has_one_direction(const device_material *material) {
+    return !material->maps[MAP_NORMAL].use &&
+           (material->material->model == LOBE_MATERIAL_MICROFACET ||
+            material->material->lobe_count == 1);
+}
+
+static bool is_in_tangent_space(const filter_context *context, uint32_t material) {
+    const lobe_scene *scene = context->scene->scene;
+    for (size_t i = 0; i < scene->instance_count; i++)
+        if (scene->instances[i].material == material && space_of(context, i) == LOBE_SPACE_TANGENT)
+            return true;
+    return false;
+}
+
+/// Whether the material's maps decide its subdivision.
+static bool needs_choice(const filter_context *context, uint32_t material) {
+    const device_material *uploaded = &context->scene->materials[material];
+    const lobe_grid grid = passes_lobe_grid(uploaded);
+    return passes_lobe_grid_varies(&grid) && !has_one_direction(uploaded) &&
+           passes_filter_setting(context, "subdivision") == 0 &&
+           is_in_tangent_space(context, material);
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
+    if (*slot || !needs_choice(context, material))
+        return LOBE_OK;
+    prepared_lobes *prepared =
+        lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    if (!prepared)
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    prepared->subdivision =
+        passes_subdivision_choose(context->scene->scene, &context->scene->materials[material]);
+    *slot = prepared;
+    return LOBE_OK;
+}
+
+/// What the user asks for, or else what the material's maps need. Clusters of an atlas are about
+/// another pole than the maps', which says nothing about them then.
 static uint32_t subdivision_of(const filter_context *context, const device_material *material,
-                               lobe_map_space space) {
-    bool one_direction = !material->maps[MAP_NORMAL].use && space == LOBE_SPACE_TANGENT &&
-                         (material->material->model == LOBE_MATERIAL_MICROFACET ||
-                          material->material->lobe_count == 1);
-    if (one_direction)
+                               lobe_map_space space, const prepared_lobes *prepared) {
+    if (space == LOBE_SPACE_TANGENT && has_one_direction(material))
         return 0;
     uint32_t choice = (uint32_t)passes_filter_setting(context, "subdivision");
     if (choice > 0)
         return choice - 1;
-    return space == LOBE_SPACE_TANGENT ? material->subdivision : 2;
+    return space == LOBE_SPACE_TANGENT && prepared ? prepared->subdivision : 2;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Maps
+
+static bool widths_differ(const lobe_material *material) {
+    for (uint32_t i = 1; i < material->lobe_count; i++)
+        if (material->lobes[i].width != material->lobes[0].width)
+            return true;
+    return false;
 }
 
 /// Whether shading needs the mean normal or the mean length of the base lobes, and cannot have it
@@ -108,7 +163,8 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     bool along_normal = true;
     for (uint32_t i = 0; !microfacet && i < source->lobe_count; ++i)
         along_normal = along_normal && source->lobes[i].direction[2] > 0.99999f;
-    bool derivable = along_normal && !material->widths_differ && !material->maps[MAP_WIDTH].use;
+    bool one_width = microfacet || !widths_differ(source);
+    bool derivable = along_normal && one_width && !material->maps[MAP_WIDTH].use;
     bool diffuse =
         source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
     bool wanted = microfacet || diffuse || passes_filter_setting(context, "threshold") != 0;
@@ -171,29 +227,31 @@ static void specialise_mixture(const filter_context *context, const lobe_materia
                                         (float)passes_filter_setting(context, "blend"));
 }
 
-static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
-    uint32_t index = context->scene->instances[instance].material;
-    const device_material *material = &context->scene->materials[index];
-    uint32_t width, height;
-    lobe_resource resource;
-    if (passes_lobe_map_extent(material, &width, &height) && width * height > 1) {
-        lobe_map_space space = space_of(context, instance);
-        mixture_map mixture = passes_lobe_clustering(context, instance, space,
-                                                     subdivision_of(context, material, space),
-                                                     needs_mean(context, material));
-        passes_level_reduction(context->graph, &mixture.map);
-        specialise_mixture(context, material->material, &mixture,
-                           coarsest_of(context, material, &mixture), appearance);
-        appearance->bytes = passes_reduced_map_bytes(&mixture.map, mixture.format);
-        appearance->base_texels = (uint64_t)width * height;
-        resource = mixture.map.resource;
-    } else {
-        resource = lobe_graph_import_texture(context->graph, context->scene->white);
-    }
-    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
-    passes_appearance_bind(appearance, "mixture_map", resource,
-                           passes_filtered_map_sampler(material, map));
-    passes_filtered_maps_build(context, index, appearance);
+static mixture_map build_mixture(const filter_context *context, size_t instance,
+                                 const prepared_lobes *prepared, filtered_appearance *appearance) {
+    const device_instance *drawn = &context->scene->instances[instance];
+    const device_material *material = &context->scene->materials[drawn->material];
+    lobe_map_space space = space_of(context, instance);
+    mixture_map mixture = passes_lobe_clustering(context, instance, space,
+                                                 subdivision_of(context, material, space, prepared),
+                                                 needs_mean(context, material));
+    passes_level_reduction(context->graph, &mixture.map);
+    specialise_mixture(context, material->material, &mixture,
+                       coarsest_of(context, material, &mixture), appearance);
+    return mixture;
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    const uint32_t material = context->scene->instances[instance].material;
+    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[material]);
+    const bool varies = passes_lobe_grid_varies(&grid);
+    mixture_map mixture = {0};
+    if (varies)
+        mixture = build_mixture(context, instance, prepared, appearance);
+    passes_lobe_map_bind(context, material, "mixture_map", varies ? &mixture.map : NULL,
+                         mixture.format, appearance);
+    passes_filtered_maps_build(context, material, appearance);
 }
 
 /// One mixture serves all lobes of a material: its colour is that of their sum.
@@ -209,6 +267,8 @@ const lobe_filter passes_filter_lobes = {
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
     .shading = "lobes",
     .knobs = knobs,
+    .prepare = prepare,
+    .forget = lobe_release,
     .for_each_instance = for_each_instance,
     .build = build,
     .ignores = ignores,

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "passes/maps/material_patch.h"
-#include "passes/maps/mean_resultant_length.h"
 #include "shaders/interface/cluster.h"
 
 // A subdivision is good enough when its error is at most this many times the least, or this much:

@@ -2,9 +2,9 @@
 
 #include <stdio.h>
 
-#include "passes/maps/base_maps.h"
-#include "passes/maps/filtered_maps.h"
+#include "passes/maps/lobe_map.h"
 #include "passes/renderer/material_specialisation.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/clustering.h"
 
 static void read_colours(const filter_context *context, const device_material *material,
@@ -55,7 +55,7 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
     lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = result.range});
     result.map.resource = lobe_pass_write(
         pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
-    specialisation_list list = {0};
+    specialisation_list list = {.graph = context->graph};
     specialise_binning(context, material, partition, colour, &list);
     const struct clustering_constants constants = {partition->width, partition->height};
     lobe_pass_dispatch(pass, &(lobe_dispatch){

@@ -1,10 +1,10 @@
 #include <math.h>
-#include <string.h>
 
 #include "passes/filters/filters.h"
 #include "passes/filters/moments/binning.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/upload/image_texel.h"
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"
@@ -66,18 +66,12 @@ static lobe_format format_of(const filter_context *context) {
     return formats[(int)passes_filter_setting(context, "storage")];
 }
 
-/// Whether the texels of a map lie under those of the lobes: read at the same coordinates, and no
-/// finer.
+/// Whether a map is read at the same coordinates as the lobes, and is no finer.
 static bool lies_under_lobes(const device_material *material, uint32_t map) {
-    uint32_t width, height;
+    const lobe_grid grid = passes_lobe_grid(material);
     const device_map *own = &material->maps[map];
-    const device_map *lobes =
-        &material->maps[material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH];
-    passes_lobe_map_extent(material, &width, &height);
-    return !own->use ||
-           (own->width <= width && own->height <= height &&
-            own->use->texture_coordinates == lobes->use->texture_coordinates &&
-            memcmp(own->use->transform, lobes->use->transform, sizeof own->use->transform) == 0);
+    return !own->use || (own->width <= grid.width && own->height <= grid.height &&
+                         passes_lobe_grid_shares_coordinates(&grid, own->use));
 }
 
 /// Whether bins have their own specular colour: if the user wants it, or else where colour and
@@ -118,6 +112,53 @@ static float largest_colour(const lobe_scene *scene, const device_material *mate
                  specular * largest_texel(scene, &material->maps[MAP_SPECULAR]));
 }
 
+// ---------------------------------------------------------------------------------------------
+// What is kept of a material
+
+typedef struct prepared_moments {
+    uint32_t kind, bins; ///< as the settings asked for
+    moment_partition partition;
+    float largest_colour; ///< 0: not measured yet
+} prepared_moments;
+
+static lobe_result prepare_partition(const filter_context *context, uint32_t material,
+                                     void **slot) {
+    const uint32_t kind = (uint32_t)passes_filter_setting(context, "partition");
+    const uint32_t bins = (uint32_t)passes_filter_setting(context, "bins");
+    prepared_moments *prepared = *slot;
+    if (prepared && prepared->kind == kind && prepared->bins == bins)
+        return LOBE_OK;
+    prepared_moments made = {.kind = kind, .bins = bins};
+    lobe_result result = passes_moment_partition_make(context->scene, material, kind, bins,
+                                                      context->host, &made.partition);
+    if (result != LOBE_OK)
+        return result;
+    if (prepared)
+        made.largest_colour = prepared->largest_colour;
+    else
+        prepared = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    if (!prepared)
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    *prepared = made;
+    *slot = prepared;
+    return LOBE_OK;
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
+    if (!passes_lobe_grid_varies(&grid))
+        return LOBE_OK;
+    lobe_result result = prepare_partition(context, index, slot);
+    prepared_moments *prepared = *slot;
+    if (result == LOBE_OK && prepared->largest_colour == 0 && has_bin_colour(context, material))
+        prepared->largest_colour = largest_colour(context->scene->scene, material);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Maps
+
 static void specialise_bins(const filter_context *context, const moment_partition *partition,
                             bool colour, filtered_appearance *appearance) {
     passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
@@ -126,42 +167,29 @@ static void specialise_bins(const filter_context *context, const moment_partitio
                                         (float)passes_filter_setting(context, "least_share"));
 }
 
-static void build(const filter_context *context, size_t instance, filtered_appearance *appearance) {
-    uint32_t index = context->scene->instances[instance].material;
-    const device_material *material = &context->scene->materials[index];
-    uint32_t width, height;
-    bool binned = passes_lobe_map_extent(material, &width, &height) && width * height > 1;
-    lobe_resource resource, range;
-    if (binned) {
-        const moment_partition *partition = passes_moment_partition_of(
-            context->scene, index, (uint32_t)passes_filter_setting(context, "partition"),
-            (uint32_t)passes_filter_setting(context, "bins"));
-        if (!partition) {
-            lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY,
-                            "material '%s': no memory to partition its lobes",
-                            material->material->name);
-            return;
-        }
-        bool colour = has_bin_colour(context, material);
-        float largest = colour ? largest_colour(context->scene->scene, material) : 1;
-        moment_map moments =
-            passes_moment_binning(context, index, partition, format_of(context), colour, largest);
-        specialise_bins(context, partition, colour, appearance);
-        appearance->bytes = passes_reduced_map_bytes(&moments.map, moments.format);
-        appearance->base_texels = (uint64_t)width * height;
-        resource = moments.map.resource;
-        range = moments.range;
-    } else {
-        static const struct moment_binning_constants none;
-        resource = lobe_graph_import_texture(context->graph, context->scene->white);
-        range = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
-    }
-    uint32_t map = material->maps[MAP_NORMAL].use ? MAP_NORMAL : MAP_WIDTH;
-    passes_appearance_bind(appearance, "moment_map", resource,
-                           passes_filtered_map_sampler(material, map));
-    passes_appearance_bind(appearance, "binning_block", range, (lobe_sampler){0});
-    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, binned);
-    passes_filtered_maps_build(context, index, appearance);
+static moment_map build_moments(const filter_context *context, uint32_t material,
+                                const prepared_moments *prepared, filtered_appearance *appearance) {
+    bool colour = has_bin_colour(context, &context->scene->materials[material]);
+    specialise_bins(context, &prepared->partition, colour, appearance);
+    return passes_moment_binning(context, material, &prepared->partition, format_of(context),
+                                 colour, colour ? prepared->largest_colour : 1);
+}
+
+/// `prepared`: NULL where the material's lobes do not vary.
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    static const struct moment_binning_constants none;
+    const uint32_t material = context->scene->instances[instance].material;
+    moment_map moments = {0};
+    if (prepared)
+        moments = build_moments(context, material, prepared, appearance);
+    else
+        moments.range = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
+    passes_lobe_map_bind(context, material, "moment_map", prepared ? &moments.map : NULL,
+                         moments.format, appearance);
+    passes_appearance_bind(appearance, "binning_block", moments.range, (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, prepared != NULL);
+    passes_filtered_maps_build(context, material, appearance);
 }
 
 const lobe_filter passes_filter_moments = {
@@ -170,5 +198,7 @@ const lobe_filter passes_filter_moments = {
     .paper = "",
     .shading = "moments",
     .knobs = knobs,
+    .prepare = prepare,
+    .forget = lobe_release,
     .build = build,
 };

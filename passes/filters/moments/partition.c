@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "passes/maps/material_patch.h"
-#include "passes/maps/mean_resultant_length.h"
 #include "passes/renderer/sample_pattern.h"
+#include "passes/upload/material_maps.h"
 
 // More samples or rounds change no picture.
 enum { SAMPLES = 512, ROUNDS = 30, STARTS = 4 };
@@ -56,15 +56,15 @@ static void plane_from_direction(const double direction[3], double place[2]) {
 
 static uint32_t take_samples(const lobe_scene *scene, const device_material *material,
                              sample samples[SAMPLES * LOBE_MATERIAL_MAXIMUM_LOBES]) {
-    uint32_t width, height, count = 0;
-    passes_material_lobe_extent(material, &width, &height);
+    const lobe_grid grid = passes_lobe_grid(material);
+    uint32_t count = 0;
     for (uint32_t i = 0; i < SAMPLES; ++i) {
         float position[2];
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
         passes_sample_position(i, SAMPLES, position);
         uint32_t found =
-            passes_material_lobes_read(scene, material, (uint32_t)(position[0] * (float)width),
-                                       (uint32_t)(position[1] * (float)height), lobes);
+            passes_material_lobes_read(scene, material, (uint32_t)(position[0] * (float)grid.width),
+                                       (uint32_t)(position[1] * (float)grid.height), lobes);
         for (uint32_t k = 0; k < found; ++k) {
             sample *taken = &samples[count++];
             plane_from_direction(lobes[k].axis, taken->place);
@@ -256,13 +256,13 @@ static const extremes everything = {{-2, -2}, {2, 2}, 1e3, 10};
 
 static extremes scan(const lobe_scene *scene, const device_material *material) {
     extremes range = {{2, 2}, {-2, -2}, 0.4, 1e-6};
-    uint32_t width, height;
-    passes_material_lobe_extent(material, &width, &height);
-    uint32_t columns = width < SCAN ? width : SCAN, rows = height < SCAN ? height : SCAN;
+    const lobe_grid grid = passes_lobe_grid(material);
+    uint32_t columns = grid.width < SCAN ? grid.width : SCAN;
+    uint32_t rows = grid.height < SCAN ? grid.height : SCAN;
     for (uint32_t i = 0; i < columns * rows; ++i) {
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
-        uint32_t x = (uint32_t)((uint64_t)(i % columns) * width / columns);
-        uint32_t y = (uint32_t)((uint64_t)(i / columns) * height / rows);
+        uint32_t x = (uint32_t)((uint64_t)(i % columns) * grid.width / columns);
+        uint32_t y = (uint32_t)((uint64_t)(i / columns) * grid.height / rows);
         uint32_t count = passes_material_lobes_read(scene, material, x, y, lobes);
         if (count == 0)
             return everything;
@@ -423,7 +423,7 @@ static void choose(const material_patch *patches, sample *samples, uint32_t coun
     *chosen = candidates[number];
 }
 
-/// One bin for all, where the patches cannot be read. False without memory.
+/// One bin for all, where the patches cannot be read. False: out of memory.
 static bool choose_for_material(const lobe_allocator *allocator, const lobe_scene *scene,
                                 const device_material *material, sample *samples, uint32_t count,
                                 uint32_t bins, mixture *chosen) {
@@ -440,38 +440,28 @@ static bool choose_for_material(const lobe_allocator *allocator, const lobe_scen
     return true;
 }
 
-/// False without memory.
-static bool make_partition(const device_scene *uploaded, const device_material *material,
-                           uint32_t kind, uint32_t bins, moment_partition *partition) {
+lobe_result passes_moment_partition_make(const device_scene *uploaded, uint32_t index,
+                                         uint32_t kind, uint32_t bins, const lobe_host *host,
+                                         moment_partition *partition) {
     const lobe_scene *scene = uploaded->scene;
+    const device_material *material = &uploaded->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
     sample samples[SAMPLES * LOBE_MATERIAL_MAXIMUM_LOBES];
     uint32_t count = take_samples(scene, material, samples);
     memset(partition, 0, sizeof *partition);
     partition->kind = kind;
+    partition->width = grid.width;
+    partition->height = grid.height;
     extremes range = scan(scene, material);
     set_range(&range, &partition->constants.range);
-    passes_material_lobe_extent(material, &partition->width, &partition->height);
     if (kind != PARTITION_FITTED) {
         set_hats(samples, count, partition);
-        return true;
+        return LOBE_OK;
     }
     mixture fitted;
-    if (!choose_for_material(uploaded->allocator, scene, material, samples, count, bins, &fitted))
-        return false;
+    if (!choose_for_material(lobe_host_allocator(host), scene, material, samples, count, bins,
+                             &fitted))
+        return LOBE_ERROR_OUT_OF_MEMORY;
     set_fitted(&fitted, partition);
-    return true;
-}
-
-const moment_partition *passes_moment_partition_of(const device_scene *scene, uint32_t index,
-                                                   uint32_t kind, uint32_t bins) {
-    device_material *material = &scene->materials[index];
-    moment_partition_cache *cache = &material->partition;
-    if (cache->filled && cache->kind == kind && cache->bins == bins)
-        return &cache->partition;
-    cache->filled = make_partition(scene, material, kind, bins, &cache->partition);
-    if (!cache->filled)
-        return NULL;
-    cache->kind = kind;
-    cache->bins = bins;
-    return &cache->partition;
+    return LOBE_OK;
 }

@@ -46,7 +46,7 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
-                              .camera = &scene->camera,
+                              .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
     reduced_map map = passes_parameter_averaging(&context, 0);

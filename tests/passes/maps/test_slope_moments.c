@@ -45,7 +45,7 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
-                              .camera = &scene->camera,
+                              .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
     reduced_map map = passes_slope_moments(&context, 0);

@@ -190,7 +190,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
-                              .camera = &scene->camera,
+                              .view = {.camera = &scene->camera},
                               .host = &f->host};
     filtered_appearance appearance = {0};
     lobe_graph_begin(f->graph);

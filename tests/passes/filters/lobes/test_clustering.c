@@ -57,7 +57,7 @@ static clusters cluster(fixture *f, const lobe_scene *scene, const request *aske
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,
-                              .camera = &scene->camera,
+                              .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
     clusters result = {.mixture = passes_lobe_clustering(&context, 0, asked->space,

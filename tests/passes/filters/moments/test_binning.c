@@ -60,7 +60,7 @@ static moment_map build_map(fixture *f, const device_scene *scene, const map_req
                               .settings = &settings,
                               .filter = filter,
                               .scene = scene,
-                              .camera = &scene->scene->camera,
+                              .view = {.camera = &scene->scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
     moment_map map = passes_moment_binning(&context, 0, partition, request->format, request->colour,
@@ -79,10 +79,12 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     scene_end(scene);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    const moment_partition *partition =
-        passes_moment_partition_of(uploaded, 0, request->kind, request->bins);
-    reference_moment_bins bins = moment_bins_of(partition, request->colour, request->colour_scale);
-    moment_map map = build_map(f, uploaded, request, partition);
+    moment_partition partition;
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, request->kind, request->bins,
+                                                  &f->host, &partition),
+                     LOBE_OK);
+    reference_moment_bins bins = moment_bins_of(&partition, request->colour, request->colour_scale);
+    moment_map map = build_map(f, uploaded, request, &partition);
     reference_layers exact =
         moments_of_texels(scene, material, &bins, strcmp(request->base, "base=lobe") == 0);
     float *texels = read_map(f, &map);

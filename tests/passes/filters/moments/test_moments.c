@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "passes/filters/moments/partition.h"
-#include "passes/upload/device_scene.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -121,10 +120,12 @@ static reference_moment_bins bins_of(fixture *f, lobe_scene *scene, const sharin
     scene_end(scene);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    reference_moment_bins bins = moment_bins_of(
-        passes_moment_partition_of(uploaded, 0, how->kind, how->bins), how->colour, 1);
+    moment_partition partition;
+    assert_int_equal(
+        passes_moment_partition_make(uploaded, 0, how->kind, how->bins, &f->host, &partition),
+        LOBE_OK);
     passes_device_scene_destroy(&uploaded);
-    return bins;
+    return moment_bins_of(&partition, how->colour, 1);
 }
 
 /// The bins of a plane and the means of their moments.

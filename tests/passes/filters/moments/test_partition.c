@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "passes/upload/device_scene.h"
+#include "passes/filters/moments/partition.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -23,9 +23,12 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
     scene_end(scene);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    moment_partition partition = *passes_moment_partition_of(uploaded, 0, kind, bins);
-    assert_memory_equal(&partition, passes_moment_partition_of(uploaded, 0, kind, bins),
-                        sizeof partition);
+    moment_partition partition, again;
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, kind, bins, &f->host, &partition),
+                     LOBE_OK);
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, kind, bins, &f->host, &again),
+                     LOBE_OK);
+    assert_memory_equal(&partition, &again, sizeof partition);
     passes_device_scene_destroy(&uploaded);
     if (!keep)
         lobe_scene_destroy(&scene);

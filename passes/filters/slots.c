@@ -1,0 +1,68 @@
+#include "passes/filters/slots.h"
+
+typedef struct filter_slot {
+    void *prepared;
+    uint32_t version; ///< of the material that it was prepared of
+} filter_slot;
+
+struct filter_slots {
+    filter_slots *next;
+    const lobe_filter *filter;
+    size_t count; ///< one for each material of the scene
+    filter_slot slots[];
+};
+
+static void forget(const lobe_filter *filter, filter_slot *slot) {
+    if (slot->prepared)
+        filter->forget(slot->prepared);
+    *slot = (filter_slot){0};
+}
+
+/// The slots of the context's filter, added where there are none yet. NULL: out of memory.
+static filter_slots *slots_of(filter_slots **first, const filter_context *context) {
+    for (filter_slots *slots = *first; slots; slots = slots->next)
+        if (slots->filter == context->filter)
+            return slots;
+    const size_t count = context->scene->scene->material_count;
+    filter_slots *added = lobe_allocate(lobe_host_allocator(context->host), 1,
+                                        sizeof *added + count * sizeof *added->slots);
+    if (!added)
+        return NULL;
+    added->next = *first;
+    added->filter = context->filter;
+    added->count = count;
+    *first = added;
+    return added;
+}
+
+lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_context *context,
+                                        uint32_t material, const void **prepared) {
+    *prepared = NULL;
+    if (!context->filter->prepare)
+        return LOBE_OK;
+    filter_slots *own = slots_of(slots, context);
+    if (!own)
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    filter_slot *slot = &own->slots[material];
+    slot->version = context->scene->materials[material].version;
+    lobe_result result = context->filter->prepare(context, material, &slot->prepared);
+    *prepared = slot->prepared;
+    return result;
+}
+
+void passes_filter_slots_update(filter_slots *slots, const device_scene *scene) {
+    for (; slots; slots = slots->next)
+        for (size_t i = 0; i < slots->count; i++)
+            if (slots->slots[i].version != scene->materials[i].version)
+                forget(slots->filter, &slots->slots[i]);
+}
+
+void passes_filter_slots_destroy(filter_slots **slots) {
+    while (*slots) {
+        filter_slots *first = *slots;
+        *slots = first->next;
+        for (size_t i = 0; i < first->count; i++)
+            forget(first->filter, &first->slots[i]);
+        lobe_release(first);
+    }
+}

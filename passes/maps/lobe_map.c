@@ -1,0 +1,77 @@
+#include "passes/maps/lobe_map.h"
+
+#include <stdio.h>
+
+#include "passes/maps/filtered_maps.h"
+#include "passes/renderer/material_specialisation.h"
+#include "passes/upload/material_maps.h"
+
+void passes_base_maps_read(const filter_context *context, const device_material *material,
+                           bool colours, lobe_pass *pass) {
+    static const char *const names[] = {[MAP_NORMAL] = "normal_map", [MAP_WIDTH] = "width_map"};
+    for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; map++)
+        lobe_pass_read(pass, &(lobe_binding){.name = names[map],
+                                             .resource = passes_device_map_import(
+                                                 context->graph, context->scene, material, map)});
+    lobe_pass_read(pass, &(lobe_binding){.name = "material_block",
+                                         .resource = lobe_graph_import_buffer(
+                                             context->graph, colours ? material->constants
+                                                                     : material->map_constants)});
+}
+
+void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
+                          const reduced_map *map, lobe_format format,
+                          filtered_appearance *appearance) {
+    const device_material *uploaded = &context->scene->materials[material];
+    const lobe_grid grid = passes_lobe_grid(uploaded);
+    lobe_resource resource =
+        map ? map->resource : lobe_graph_import_texture(context->graph, context->scene->white);
+    passes_appearance_bind(appearance, binding, resource,
+                           passes_filtered_map_sampler(uploaded, grid.map));
+    if (!map)
+        return;
+    appearance->bytes = passes_reduced_map_bytes(map, format);
+    appearance->base_texels = (uint64_t)grid.width * grid.height;
+}
+
+reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
+                            const lobe_map_kind *kind) {
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
+    char name[64];
+    snprintf(name, sizeof name, "%s of material %u", kind->content, index);
+    reduced_map map =
+        passes_reduced_map_declare(context->graph, name, passes_filtered_map_format(context),
+                                   grid.width, grid.height, kind->layers);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
+    passes_base_maps_read(context, material, false, pass);
+    map.resource = lobe_pass_write(
+        pass, &(lobe_binding){kind->binding, map.resource, .range = {0, 1, 0, map.layers}});
+    specialisation_list list = {.graph = context->graph};
+    passes_material_specialise(material, &list);
+    const uint32_t extent[] = {grid.width, grid.height};
+    lobe_pass_dispatch(pass, &(lobe_dispatch){
+                                 .shader = kind->shader,
+                                 .threads = {map.width, map.height, 1},
+                                 .constants = extent,
+                                 .constants_size = sizeof extent,
+                                 .specialisation = list.items,
+                                 .specialisation_count = list.count,
+                             });
+    passes_level_reduction(context->graph, &map);
+    return map;
+}
+
+void passes_lobe_map_build(const filter_context *context, size_t instance,
+                           const lobe_map_kind *kind, filtered_appearance *appearance) {
+    const uint32_t index = context->scene->instances[instance].material;
+    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[index]);
+    const bool varies = passes_lobe_grid_varies(&grid);
+    reduced_map map;
+    if (varies)
+        map = passes_lobe_map(context, index, kind);
+    passes_lobe_map_bind(context, index, kind->binding, varies ? &map : NULL,
+                         passes_filtered_map_format(context), appearance);
+    passes_appearance_specialise(appearance, kind->is_there_id, varies);
+    passes_filtered_maps_build(context, index, appearance);
+}

@@ -1,0 +1,41 @@
+#ifndef PASSES_MAPS_LOBE_MAP_H
+#define PASSES_MAPS_LOBE_MAP_H
+
+#include "passes/filters/filter.h"
+#include "passes/maps/level_reduction.h"
+
+/// Maps that filters make of a material's lobes: built from its lobe_grid, reduced to all levels,
+/// and bound to the shading with the wrapping of the grid.
+
+/// Binds what shaders/maps/base_maps.glsl reads: a material's constants, normal and width map.
+/// `colours`: the shader also reads the constants' colours and metal, and depends on them.
+void passes_base_maps_read(const filter_context *context, const device_material *material,
+                           bool colours, lobe_pass *pass);
+
+/// Binds a map of a material's lobes to the shading, and counts its size. `map`: NULL where there
+/// is nothing to filter; a white texel stands for it then.
+void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
+                          const reduced_map *map, lobe_format format,
+                          filtered_appearance *appearance);
+
+/// A map of numbers, in the format of the knob "storage", whose level 0 one compute pass makes from
+/// the base maps. Its push constants are the grid's width and height.
+typedef struct lobe_map_kind {
+    const char *content;  ///< what it holds, for its name
+    const char *pass;     ///< name of the pass
+    const char *shader;   ///< of the pass
+    const char *binding;  ///< of the map, in that shader and in shading
+    uint32_t layers;      ///< of the map
+    uint32_t is_there_id; ///< specialisation constant of shading: whether there is such a map
+} lobe_map_kind;
+
+/// Adds the pass that makes the map, and the reduction. The material has a normal or a width map.
+reduced_map passes_lobe_map(const filter_context *context, uint32_t material,
+                            const lobe_map_kind *kind);
+
+/// The whole `build` of a filter with one such map: makes it where the material's lobes vary, binds
+/// it, and adds the filtered colour maps.
+void passes_lobe_map_build(const filter_context *context, size_t instance,
+                           const lobe_map_kind *kind, filtered_appearance *appearance);
+
+#endif

@@ -1,0 +1,114 @@
+#include "passes/upload/device_scene_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <cglm/cglm.h>
+
+#include "passes/upload/material_maps.h"
+#include "passes/upload/scene_check.h"
+
+static void transformed_coordinates(const lobe_texture_use *use, const lobe_scene_vertex *vertex,
+                                    float uv[2]) {
+    const float *set = vertex->texture_coordinates[use->texture_coordinates];
+    for (int i = 0; i < 2; ++i)
+        uv[i] =
+            use->transform[i][0] * set[0] + use->transform[i][1] * set[1] + use->transform[i][2];
+}
+
+/// Whether each texel of a map belongs to one place of the mesh: all coordinates lie within the
+/// map, and the triangles do not cover more than its area.
+static bool is_atlas(const lobe_mesh *mesh, const lobe_texture_use *use) {
+    if (!mesh->has_texture_coordinates[use->texture_coordinates])
+        return false;
+    const float slack = 1e-3f;
+    double area = 0;
+    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
+        float uv[3][2];
+        for (int corner = 0; corner < 3; ++corner) {
+            transformed_coordinates(use, &mesh->vertices[mesh->indices[i + (size_t)corner]],
+                                    uv[corner]);
+            for (int axis = 0; axis < 2; ++axis) {
+                if (uv[corner][axis] < -slack || uv[corner][axis] > 1 + slack)
+                    return false;
+            }
+        }
+        area += 0.5 * fabs((double)(uv[1][0] - uv[0][0]) * (uv[2][1] - uv[0][1]) -
+                           (double)(uv[1][1] - uv[0][1]) * (uv[2][0] - uv[0][0]));
+    }
+    return area <= 1 + 10 * slack;
+}
+
+static bool mirrors(const float transform[16]) {
+    mat4 matrix;
+    memcpy(matrix, transform, sizeof matrix);
+    mat3 linear;
+    glm_mat4_pick3(matrix, linear);
+    return glm_mat3_det(linear) < 0;
+}
+
+static float dot(const float a[3], const float b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether the linear part is a rotation or reflection times a uniform scale: its columns have
+/// equal length and are at right angles.
+static bool keeps_angles(const float transform[16]) {
+    const float *x = transform, *y = transform + 4, *z = transform + 8;
+    float square = dot(x, x), slack = 1e-3f * square;
+    return fabsf(dot(y, y) - square) <= slack && fabsf(dot(z, z) - square) <= slack &&
+           fabsf(dot(x, y)) <= slack && fabsf(dot(y, z)) <= slack && fabsf(dot(z, x)) <= slack;
+}
+
+lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
+                                               const lobe_host *host) {
+    const lobe_instance *instance = &scene->instances[index];
+    if (instance->mesh < scene->mesh_count && instance->material < scene->material_count)
+        return LOBE_OK;
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                          "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
+                          index, instance->mesh, scene->mesh_count, instance->material,
+                          scene->material_count);
+}
+
+void passes_device_scene_measure_instance(device_scene *scene, size_t index) {
+    const lobe_instance *source = &scene->scene->instances[index];
+    const lobe_grid grid = passes_lobe_grid(&scene->materials[source->material]);
+    scene->instances[index] = (device_instance){
+        .mesh = source->mesh,
+        .material = source->material,
+        .mirrored = mirrors(source->transform),
+        .keeps_angles = keeps_angles(source->transform),
+        .is_atlas = grid.use && is_atlas(&scene->scene->meshes[source->mesh], grid.use),
+    };
+}
+
+static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
+                                   const lobe_host *host) {
+    if (result->materials[index].constants)
+        return LOBE_OK;
+    lobe_result status = passes_scene_check_material(result->scene, index, host);
+    return status == LOBE_OK ? passes_device_scene_upload_material(device, result, index, host)
+                             : status;
+}
+
+static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32_t index,
+                               const lobe_host *host) {
+    if (result->vertices[index])
+        return LOBE_OK;
+    lobe_result status = passes_scene_check_mesh(result->scene, index, host);
+    return status == LOBE_OK ? passes_device_scene_upload_mesh(device, result, index) : status;
+}
+
+lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
+                                                size_t index, const lobe_host *host) {
+    const lobe_instance *source = &scene->scene->instances[index];
+    lobe_result status = passes_device_scene_check_instance(scene->scene, index, host);
+    if (status == LOBE_OK)
+        status = upload_mesh(device, scene, source->mesh, host);
+    if (status == LOBE_OK)
+        status = upload_material(device, scene, source->material, host);
+    if (status == LOBE_OK)
+        passes_device_scene_measure_instance(scene, index);
+    return status;
+}

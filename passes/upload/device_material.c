@@ -1,0 +1,156 @@
+#include "passes/upload/device_scene_parts.h"
+
+#include <string.h>
+
+#include "passes/upload/material_maps.h"
+#include "passes/upload/scene_check.h"
+
+static float luminance(const float colour[3]) {
+    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
+float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
+    float sum = 0;
+    for (uint32_t i = 0; i < material->lobe_count; ++i)
+        sum += luminance(material->lobes[i].colour);
+    return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
+                   : 1.0f / (float)material->lobe_count;
+}
+
+static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
+    for (uint32_t i = 0; i < material->lobe_count; ++i) {
+        const lobe_base_lobe *lobe = &material->lobes[i];
+        memcpy(constants->lobe_direction[i], lobe->direction, sizeof lobe->direction);
+        constants->lobe_direction[i][3] = lobe->width;
+        memcpy(constants->lobe_colour[i], lobe->colour, sizeof lobe->colour);
+        constants->lobe_colour[i][3] = passes_material_lobe_share(material, i);
+    }
+}
+
+static void fill_constants(const device_material *material, struct material_constants *constants) {
+    const lobe_material *source = material->material;
+    memset(constants, 0, sizeof *constants);
+    memcpy(constants->base_colour, source->base_colour, sizeof source->base_colour);
+    memcpy(constants->emissive, source->emissive, sizeof source->emissive);
+    constants->emissive[3] = source->alpha_cutoff;
+    constants->metallic = material->metallic;
+    constants->roughness = source->roughness;
+    constants->normal_scale = source->normal_scale;
+    constants->normal_concentration = source->normal_concentration;
+    constants->occlusion_strength = source->occlusion_strength;
+    if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        fill_lobes(source, constants);
+    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+        for (int row = 0; material->maps[map].use && row < 2; ++row)
+            memcpy(constants->transforms[2 * map + (uint32_t)row],
+                   material->maps[map].use->transform[row],
+                   sizeof material->maps[map].use->transform[row]);
+    }
+}
+
+static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index,
+                                const lobe_host *host) {
+    if (result->images[index])
+        return LOBE_OK;
+    const lobe_scene_image *image = &result->scene->images[index];
+    lobe_result status = passes_scene_check_image(result->scene, (size_t)index, host);
+    if (status != LOBE_OK)
+        return status;
+    return lobe_texture_create(
+        device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
+        &result->images[index]);
+}
+
+/// Whether a metallic-roughness map has one metallic value; if so, gives it.
+static bool metallic_is_constant(const lobe_image *image, float *metallic) {
+    float first[4], texel[4];
+    if (!passes_image_texel(image, 0, 0, first))
+        return false;
+    for (uint32_t y = 0; y < image->height; ++y) {
+        for (uint32_t x = 0; x < image->width; ++x) {
+            passes_image_texel(image, x, y, texel);
+            if (texel[2] != first[2])
+                return false;
+        }
+    }
+    *metallic = first[2];
+    return true;
+}
+
+static void measure_metallic(const lobe_scene *scene, device_material *material) {
+    const lobe_texture_use *use = material->maps[MAP_WIDTH].use;
+    float constant = 1;
+    material->metallic = material->material->metallic;
+    if (!use || material->material->model != LOBE_MATERIAL_MICROFACET || material->metallic == 0)
+        return;
+    if (metallic_is_constant(&scene->images[use->image].image, &constant))
+        material->metallic *= constant;
+    else
+        material->metallic_varies = true;
+}
+
+static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
+                             const lobe_host *host) {
+    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+        const lobe_texture_use *use =
+            passes_material_map_use(result->scene, material->material, map);
+        if (!use)
+            continue;
+        lobe_result status = upload_image(device, result, use->image, host);
+        if (status != LOBE_OK)
+            return status;
+        const lobe_image *image = &result->scene->images[use->image].image;
+        material->maps[map] = (device_map){use, image->width, image->height};
+        material->map_bits |= 1u << map;
+        if (use->texture_coordinates)
+            material->second_coordinates |= 1u << map;
+    }
+    return LOBE_OK;
+}
+
+static void forget_colours(struct material_constants *constants) {
+    memset(constants->base_colour, 0, sizeof constants->base_colour);
+    memset(constants->emissive, 0, sizeof constants->emissive);
+    constants->metallic = 0;
+    for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; ++i)
+        memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
+}
+
+static lobe_result store(lobe_device *device, const char *name,
+                         const struct material_constants *constants, lobe_buffer **buffer) {
+    if (*buffer)
+        return lobe_buffer_update(*buffer, constants);
+    return lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){.name = name, .size = sizeof *constants, .data = constants},
+        buffer);
+}
+
+static lobe_result store_constants(lobe_device *device, device_material *material) {
+    const char *name = material->material->name;
+    struct material_constants constants;
+    fill_constants(material, &constants);
+    lobe_result status = store(device, name, &constants, &material->constants);
+    forget_colours(&constants);
+    bool same =
+        material->map_constants && memcmp(&constants, &material->map_values, sizeof constants) == 0;
+    material->map_values = constants;
+    return status != LOBE_OK || same ? status
+                                     : store(device, name, &constants, &material->map_constants);
+}
+
+lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
+                                                uint32_t index, const lobe_host *host) {
+    device_material *material = &scene->materials[index];
+    // Rebuild everything except the GPU buffers.
+    *material = (device_material){.material = &scene->scene->materials[index],
+                                  .constants = material->constants,
+                                  .map_constants = material->map_constants,
+                                  .map_values = material->map_values,
+                                  .version = material->version + 1};
+    lobe_result status = find_maps(device, scene, material, host);
+    if (status != LOBE_OK)
+        return status;
+    measure_metallic(scene->scene, material);
+    return store_constants(device, material);
+}

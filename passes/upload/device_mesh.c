@@ -1,0 +1,70 @@
+#include "passes/upload/device_scene_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "shaders/interface/vertex.h"
+
+#define ONE_PLACE(member)                                                                          \
+    static_assert(offsetof(struct vertex, member) == offsetof(lobe_scene_vertex, member),          \
+                  "one vertex, two descriptions")
+
+static_assert(sizeof(struct vertex) == sizeof(lobe_scene_vertex), "one vertex, two descriptions");
+ONE_PLACE(position);
+ONE_PLACE(normal);
+ONE_PLACE(tangent);
+ONE_PLACE(texture_coordinates);
+ONE_PLACE(colour);
+
+static double triangle_area(const lobe_scene_vertex *corners[3]) {
+    double a[3], b[3];
+    for (int i = 0; i < 3; ++i) {
+        a[i] = (double)corners[1]->position[i] - corners[0]->position[i];
+        b[i] = (double)corners[2]->position[i] - corners[0]->position[i];
+    }
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
+           z = a[0] * b[1] - a[1] * b[0];
+    return 0.5 * sqrt(x * x + y * y + z * z);
+}
+
+static double coordinates_area(const lobe_scene_vertex *corners[3], int set) {
+    const float *a = corners[0]->texture_coordinates[set];
+    const float *b = corners[1]->texture_coordinates[set];
+    const float *c = corners[2]->texture_coordinates[set];
+    return 0.5 * fabs(((double)b[0] - a[0]) * ((double)c[1] - a[1]) -
+                      ((double)b[1] - a[1]) * ((double)c[0] - a[0]));
+}
+
+static mesh_density measure_density(const lobe_mesh *mesh) {
+    mesh_density density = {{INFINITY, INFINITY}};
+    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
+        const lobe_scene_vertex *corners[3];
+        for (size_t corner = 0; corner < 3; ++corner)
+            corners[corner] = &mesh->vertices[mesh->indices[i + corner]];
+        double area = triangle_area(corners);
+        for (int set = 0; area > 0 && set < 2; ++set)
+            density.least[set] =
+                fminf(density.least[set], (float)sqrt(coordinates_area(corners, set) / area));
+    }
+    return density;
+}
+lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
+                                            uint32_t index) {
+    const lobe_mesh *mesh = &scene->scene->meshes[index];
+    lobe_result status = lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){.name = mesh->name,
+                                  .size = mesh->vertex_count * sizeof *mesh->vertices,
+                                  .data = mesh->vertices},
+        &scene->vertices[index]);
+    if (status != LOBE_OK)
+        return status;
+    scene->densities[index] = measure_density(mesh);
+    char name[128];
+    snprintf(name, sizeof name, "indices of %s", mesh->name);
+    return lobe_buffer_create(
+        device,
+        &(lobe_buffer_parameters){
+            .name = name, .size = mesh->index_count * sizeof *mesh->indices, .data = mesh->indices},
+        &scene->indices[index]);
+}

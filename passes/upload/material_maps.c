@@ -1,0 +1,122 @@
+#include "passes/upload/material_maps.h"
+
+#include <string.h>
+
+const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
+                                                const lobe_material *material, uint32_t map) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    const lobe_texture_use *use = NULL;
+    switch (map) {
+    case MAP_BASE_COLOUR:
+        use = &material->base_colour_map;
+        break;
+    case MAP_NORMAL:
+        use = &material->normal_map;
+        break;
+    case MAP_WIDTH:
+        use = microfacet ? &material->metallic_roughness_map : &material->width_map;
+        break;
+    case MAP_SPECULAR:
+        use = microfacet ? NULL : &material->specular_map;
+        break;
+    case MAP_EMISSIVE:
+        use = &material->emissive_map;
+        break;
+    case MAP_OCCLUSION:
+        use = scene->environment && material->occlusion_strength > 0 ? &material->occlusion_map
+                                                                     : NULL;
+        break;
+    }
+    return use && use->image >= 0 ? use : NULL;
+}
+
+lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
+                                       const device_material *material, uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    return lobe_graph_import_texture(graph, use ? scene->images[use->image] : scene->white);
+}
+
+static lobe_wrap_mode wrap_mode(lobe_scene_wrap wrap) {
+    switch (wrap) {
+    case LOBE_SCENE_WRAP_MIRROR:
+        return LOBE_WRAP_MIRROR;
+    case LOBE_SCENE_WRAP_CLAMP:
+        return LOBE_WRAP_CLAMP;
+    default:
+        return LOBE_WRAP_REPEAT;
+    }
+}
+
+lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    if (!use)
+        return (lobe_sampler){0};
+    return (lobe_sampler){
+        .texels = use->nearest ? LOBE_SAMPLE_NEAREST : LOBE_SAMPLE_LINEAR,
+        .wrap_u = wrap_mode(use->wrap_u),
+        .wrap_v = wrap_mode(use->wrap_v),
+    };
+}
+
+lobe_grid passes_lobe_grid(const device_material *material) {
+    const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
+    const uint32_t map = normal->use ? MAP_NORMAL : MAP_WIDTH;
+    return (lobe_grid){
+        .map = map,
+        .use = material->maps[map].use,
+        .width = normal->width > widths->width ? normal->width : widths->width,
+        .height = normal->height > widths->height ? normal->height : widths->height,
+    };
+}
+
+bool passes_lobe_grid_varies(const lobe_grid *grid) {
+    return grid->width * grid->height > 1;
+}
+
+bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use) {
+    return grid->use && use->texture_coordinates == grid->use->texture_coordinates &&
+           memcmp(use->transform, grid->use->transform, sizeof use->transform) == 0;
+}
+
+static float channel(const lobe_image *image, const unsigned char *texel, uint32_t index) {
+    uint16_t word;
+    float number;
+    switch (image->format) {
+    case LOBE_FORMAT_R8_UNORM:
+    case LOBE_FORMAT_RG8_UNORM:
+    case LOBE_FORMAT_RGBA8_UNORM:
+        return (float)texel[index] / 255.0f;
+    case LOBE_FORMAT_RGBA16_UNORM:
+        memcpy(&word, texel + 2 * index, sizeof word);
+        return (float)word / 65535.0f;
+    default:
+        memcpy(&number, texel + 4 * index, sizeof number);
+        return number;
+    }
+}
+
+static bool is_readable(lobe_format format) {
+    switch (format) {
+    case LOBE_FORMAT_R8_UNORM:
+    case LOBE_FORMAT_RG8_UNORM:
+    case LOBE_FORMAT_RGBA8_UNORM:
+    case LOBE_FORMAT_RGBA16_UNORM:
+    case LOBE_FORMAT_R32_FLOAT:
+    case LOBE_FORMAT_RG32_FLOAT:
+    case LOBE_FORMAT_RGBA32_FLOAT:
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
+    if (!is_readable(image->format))
+        return false;
+    const unsigned char *texel = (const unsigned char *)image->texels +
+                                 ((size_t)y * image->width + x) * lobe_format_size(image->format);
+    for (uint32_t i = 0; i < 4; ++i)
+        value[i] = i < lobe_format_channels(image->format) ? channel(image, texel, i)
+                                                           : (i == 3 ? 1.0f : 0.0f);
+    return true;
+}
