@@ -2,8 +2,6 @@
 
 #include <string.h>
 
-#include "scenes/scene/scene.h"
-
 static const builtin_scene table[] = {
     {{"checkerboard", "a plane of two lobe widths in fine squares, seen into the distance"},
      scenes_builtin_checkerboard},
@@ -30,17 +28,4 @@ const builtin_scene *scenes_builtin_find(const char *name) {
         if (strcmp(table[i].description.name, name) == 0)
             return &table[i];
     return NULL;
-}
-
-lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
-                                    const lobe_host *host, lobe_scene **scene) {
-    *scene = NULL;
-    lobe_result status = scenes_allocate(name, host, scene);
-    for (; !status && *steps; steps++)
-        status = (*steps)(*scene, host);
-    if (!status)
-        status = scenes_complete(*scene, host);
-    if (status)
-        lobe_scene_destroy(scene);
-    return status;
 }

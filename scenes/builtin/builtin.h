@@ -19,13 +19,6 @@ typedef struct builtin_scene {
 /// NULL if there is none of that name, which is not an error: nothing is logged.
 const builtin_scene *scenes_builtin_find(const char *name);
 
-/// One step of building: adds its part to the scene.
-typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_host *host);
-
-/// Runs the steps, an array that ends with NULL, on an empty scene, and completes it.
-lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
-                                    const lobe_host *host, lobe_scene **scene);
-
 lobe_result scenes_builtin_checkerboard(const lobe_host *host, lobe_scene **scene);
 lobe_result scenes_builtin_bumps(const lobe_host *host, lobe_scene **scene);
 lobe_result scenes_builtin_tablecloth(const lobe_host *host, lobe_scene **scene);

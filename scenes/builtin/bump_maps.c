@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
 
@@ -20,7 +20,7 @@ typedef struct bump {
     bump_matter matter;
 } bump;
 
-// The three maps while they are made, and the bumps they show.
+// The three maps being made, and the bumps they show.
 typedef struct bump_maps {
     const bump_style *style;
     bump bumps[BUMP_ROWS][BUMP_COLUMNS];
@@ -47,14 +47,14 @@ static void make_bumps(bump_maps *maps) {
             maps->bumps[row][column] = make_bump(maps->style, column, row, &sequence);
 }
 
-// The shorter way round a map that repeats.
+// The shorter way around a map that repeats.
 static double wrapped(double difference) {
     if (difference > MAP_EXTENT / 2)
         return difference - MAP_EXTENT;
     return difference < -MAP_EXTENT / 2 ? difference + MAP_EXTENT : difference;
 }
 
-// The highest bump over a point, and the normal there; NULL and +z on the ground.
+// The highest bump at a point, and the normal there; NULL and +z on the ground.
 static const bump *find_bump(const bump_maps *maps, double column, double row, double normal[3]) {
     int near_row = (int)(row / row_pitch), near_column = (int)(column / column_pitch);
     const bump *found = NULL;

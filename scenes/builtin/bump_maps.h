@@ -9,23 +9,23 @@
 #include <lobe/scene.h>
 
 /// Maps of hemispherical bumps (Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 bottom
-/// and section 5.2): 1024 x 1024 texels each of normals, colours, and roughness and metallic. The
-/// bumps lie in a hexagonal packing that tiles, 32 a row, each a little out of its place. Colour
-/// and roughness are drawn for each bump, independently of one another.
+/// and section 5.2): normals, colours, and roughness with metallic, 1024 x 1024 texels each. The
+/// bumps lie in a hexagonal packing that tiles, 32 per row, each slightly displaced. Colour and
+/// roughness are drawn at random for each bump, independently of one another.
 
 enum { BUMP_KINDS = 4 };
 
 /// What a bump, or the ground between them, is made of.
 typedef struct bump_matter {
     uint8_t colour[3]; ///< sRGB
-    uint8_t roughness; ///< of the ground; of a bump it is drawn
+    uint8_t roughness; ///< of the ground; ignored for bumps, whose roughness is random
     bool metallic;
 } bump_matter;
 
 typedef struct bump_style {
     uint64_t seed;
     bump_matter ground;
-    bump_matter kinds[BUMP_KINDS]; ///< equally frequent
+    bump_matter kinds[BUMP_KINDS]; ///< of bumps, equally frequent
 } bump_style;
 
 /// Adds the three maps to the scene and makes the material use them.

@@ -1,5 +1,6 @@
 #include "scenes/builtin/builtin.h"
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/bump_maps.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"

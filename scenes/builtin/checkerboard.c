@@ -2,14 +2,14 @@
 
 #include <string.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 4 top: two base BRDFs in a
-// checkerboard, one direction for both. The colours of the lobes are equal, so that what a
-// footprint averages is the widths alone.
+// checkerboard, both with one lobe in the same direction. The lobes have the same colour, so that a
+// footprint averages their widths alone.
 
 enum { MAP_EXTENT = 1024, SQUARE_EXTENT = 8 };
 
@@ -46,7 +46,7 @@ static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     material.lobes[0] =
         (lobe_base_lobe){.direction = {0, 0, 1}, .width = 1, .colour = {0.06f, 0.06f, 0.06f}};
     material.lobe_count = 1;
-    // Two BRDFs and none between them.
+    // There are two BRDFs and nothing in between.
     material.width_map.nearest = material.base_colour_map.nearest = true;
     return scenes_add_material(scene, "checkerboard", &material, host, NULL);
 }

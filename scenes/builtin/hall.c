@@ -1,5 +1,6 @@
 #include "scenes/builtin/builtin.h"
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
@@ -12,11 +13,11 @@
 enum { BAYS = 10, END_BAYS = 3, BANNERS = 6 };
 
 static const double nave_half_width = 3; // metres, to the columns' axes
-static const double first_axis = 1.8;    // z of the columns that are nearest, metres
+static const double first_axis = 1.8;    // z of the nearest columns, metres
 static const double end_axis = first_axis - (BAYS + 1) * HALL_BAY;
 static const double hall_half_width = END_BAYS * HALL_BAY / 2;
 
-// Adds an instance, turned counter-clockwise by quarters as seen from above.
+// Adds an instance, turned by quarter turns, counter-clockwise as seen from above.
 static lobe_result place(lobe_scene *scene, uint32_t mesh, hall_material material, int quarters,
                          double x, double y, double z, const lobe_host *host) {
     static const float cosines[4] = {1, 0, -1, 0}, sines[4] = {0, 1, 0, -1};
@@ -28,7 +29,7 @@ static lobe_result place(lobe_scene *scene, uint32_t mesh, hall_material materia
     return scenes_add_instance(scene, mesh, material, transform, host);
 }
 
-// Adds what `make` makes.
+// Adds the mesh that `make` makes.
 static lobe_result add_mesh(lobe_scene *scene,
                             lobe_result (*make)(const lobe_host *host, lobe_mesh *mesh),
                             const lobe_host *host, uint32_t *index) {
@@ -45,7 +46,7 @@ static lobe_result add_box(lobe_scene *scene, double width, double height, doubl
     return status ? status : scenes_add_mesh(scene, &mesh, host, index);
 }
 
-// The axis of one of the hall's columns: first those of both arcades, then those of the end.
+// The axis of one of the hall's columns: first those of both arcades, then those of the end wall.
 static void find_axis(int index, double *x, double *z) {
     int of_nave = 2 * (BAYS + 1);
     *x = index % 2 ? nave_half_width : -nave_half_width;
@@ -84,7 +85,7 @@ static lobe_result add_columns(lobe_scene *scene, const lobe_host *host) {
     return status;
 }
 
-// The wall of one bay, around (x, z); `quarters` turns its front to where it looks.
+// The wall of one bay around (x, z), turned by `quarters` quarter turns.
 static lobe_result add_bay(lobe_scene *scene, uint32_t arch, uint32_t spandrels, int quarters,
                            double x, double z, const lobe_host *host) {
     const double y = HALL_COLUMN_HEIGHT;
@@ -138,7 +139,7 @@ static lobe_result add_floor_and_walls(lobe_scene *scene, const lobe_host *host)
     return status;
 }
 
-// From rods at every other column, into the nave.
+// They hang from rods at every other column, into the nave.
 static lobe_result add_banners(lobe_scene *scene, const lobe_host *host) {
     uint32_t banner, rod;
     lobe_result status = add_mesh(scene, scenes_hall_make_banner, host, &banner);

@@ -4,8 +4,8 @@
 
 #include "scenes/builtin/random.h"
 
-// A ramp through 0 at each lattice point. Its two slopes are uniform over a square, so that
-// neither a direction nor a steepness is preferred and no root is needed.
+// A ramp through 0 at each lattice point. Its two slopes are uniform over a square rather than a
+// disc, which needs no square root.
 static double ramp(uint32_t x, uint32_t y, uint32_t seed, double dx, double dy, double slope[2]) {
     uint32_t bits = scenes_random_lattice(x, y, seed);
     slope[0] = (double)(bits & 0xffff) / 32767.5 - 1;
@@ -27,7 +27,7 @@ static double mix(double a, double b, double t) {
 }
 
 static uint32_t wrap(double cell, uint32_t period) {
-    // Nearly always; what follows divides.
+    // Nearly always true; the division below is slow.
     if (cell >= 0 && cell < period)
         return (uint32_t)cell;
     return (uint32_t)(cell - floor(cell / period) * period);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/builtin/random.h"
 #include "scenes/mesh/circle.h"
@@ -12,13 +12,13 @@
 #include "scenes/scene/scene.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 1 and section 5.2: a pillow whose BRDF
-// varies in a diffuse colour, a specular colour and a specular coefficient map of 2048 x 1024
-// texels. Ours shows a brocade: a warp of dark silk with a sharp lobe, a weft of gold thread with
-// a broad one, in a twill that brings the one or the other to the top.
+// varies by a diffuse colour, a specular colour and a specular coefficient map of 2048 x 1024
+// texels. Ours shows a brocade: a warp of dark silk with a sharp lobe and a weft of gold thread
+// with a broad one, in a twill that brings one or the other to the top.
 
 enum { MAP_WIDTH = 2048, MAP_HEIGHT = 1024, PITCH = 4, TWILL = 4, MOTIF_EXTENT = 512 };
 
-// What the threads of one direction are like.
+// Properties of the threads of one direction.
 typedef struct thread_kind {
     double diffuse[3], specular[3]; // sRGB, 0 to 255
     double exponent;                // Blinn-Phong
@@ -30,13 +30,13 @@ static const thread_kind gold = {{214, 160, 84}, {255, 206, 120}, 8};
 // A thread at one texel of the maps.
 typedef struct thread_point {
     const thread_kind *kind;
-    double shade; // 1 on the thread's crown, less towards its sides
-    double vary;  // each thread's own, in [-1, 1)
+    double shade; // 1 on top of the thread, less towards its sides
+    double vary;  // random for each thread, in [-1, 1)
 } thread_point;
 
-// A flower in a ring, and a lozenge between four of them. Columns of flowers are out of step by
-// half a flower. All but the petals' waviness is told by distances: cos(6a) is the real part of
-// the sixth power of a complex number of length 1.
+// A flower in a ring, and a lozenge between four of them. Every other column of flowers is shifted
+// by half a flower. Apart from the waviness of the petals, distances define the shapes; cos(6a) is
+// the real part of the sixth power of a complex number of length 1.
 static bool motif_covers(uint32_t column, uint32_t row) {
     uint32_t dropped = row + MOTIF_EXTENT / 2 * (column / MOTIF_EXTENT % 2);
     double x = (column % MOTIF_EXTENT + 0.5) / (MOTIF_EXTENT / 2) - 1;
@@ -50,8 +50,8 @@ static bool motif_covers(uint32_t column, uint32_t row) {
     return flower || ring || fabs(x) + fabs(y) > 1.76;
 }
 
-// Where threads cross, one lies on top: in the motif three times of four the weft, elsewhere
-// three times of four the warp.
+// Where threads cross, one lies on top: the weft three times out of four within the motif, the warp
+// three times out of four elsewhere.
 static bool warp_is_on_top(uint32_t warp, uint32_t weft) {
     bool odd_one = (warp + weft) % TWILL == 0;
     bool in_motif = motif_covers(warp * PITCH + PITCH / 2, weft * PITCH + PITCH / 2);
@@ -114,7 +114,7 @@ static lobe_result add_brocade(lobe_scene *scene, const lobe_host *host) {
     return scenes_add_material(scene, "brocade", &material, host, NULL);
 }
 
-// The pillow's frame: it lies in the plane of x and z, its middle at the origin.
+// The pillow's frame of reference: it lies in the xz plane with its middle at the origin.
 enum { GRID = 128, PIPING_SIDES = 12 };
 
 static const double half_side = 0.24;             // metres, to the seam at a corner
@@ -122,22 +122,22 @@ static const double thickness[2] = {0.115, 0.07}; // above and below the seam, m
 static const double piping_radius = 0.0055;       // metres
 static const float seam_height = 0.066f;          // above the ground, metres
 
-// A number that runs from 0 to 8 round the square whose sides are the lines |s| = m, |t| = m.
+// A number that runs from 0 to 8 around the square whose sides are the lines |s| = m, |t| = m.
 static double place_round(double s, double t) {
     if (fabs(s) >= fabs(t))
         return (s > 0 ? 0 : 4) + (s == 0 ? 0 : t / s);
     return (t > 0 ? 2 : 6) - s / t;
 }
 
-// How far (s, t) of the square moves inwards, so that the square of size m becomes a figure with
-// rounded corners: the points of norm m where the norm is the eighth root of x^8 + y^8.
+// How far the point (s, t) of the square moves inwards, so that the square of size m becomes a
+// figure with rounded corners: the points with norm m, the norm being the eighth root of x^8 + y^8.
 static double corner_factor(double s, double t) {
     double greater = fmax(fabs(s), fabs(t)), lesser = fmin(fabs(s), fabs(t));
     double q = greater > 0 ? lesser / greater : 0, square = q * q, fourth = square * square;
     return 1 / sqrt(sqrt(sqrt(1 + fourth * fourth)));
 }
 
-// Gathers that run in from the seam, and creases of the whole.
+// Gathers that run in from the seam, and creases of the whole pillow.
 static double wrinkle(double s, double t, double across, const double plane[2]) {
     double round = place_round(s, t) + 8,
            gather = 1 - 4 * (across - 0.62) * (across - 0.62) / 0.5776;
@@ -149,8 +149,8 @@ static double wrinkle(double s, double t, double across, const double plane[2]) 
 }
 
 // The point (s, t), each in [-1, 1], of the upper (0) or lower (1) sheet, with its texture
-// coordinates. From the middle to the seam the sheet bends as an ellipse does, nearly to the
-// vertical; its sides are drawn in between the corners.
+// coordinates. From the middle to the seam the sheet bends like an ellipse, nearly to the vertical;
+// its sides are drawn in between the corners.
 static vector3 pillow_point(double s, double t, int side, float coordinates[2]) {
     static const double bend = 0.22; // of a turn
     double across = fmax(fabs(s), fabs(t)), factor = corner_factor(s, t), arc[2], seam[2];
@@ -171,7 +171,7 @@ static vector3 pillow_point(double s, double t, int side, float coordinates[2]) 
 }
 
 static lobe_result finish_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_host *host) {
-    // Turned by 0.48 about the vertical axis.
+    // Turned by 0.48 radians about the vertical axis.
     static const float placed[16] = {0.88699f, 0, -0.46178f, 0, 0, 1,           0, 0,
                                      0.46178f, 0, 0.88699f,  0, 0, seam_height, 0, 1};
     uint32_t index;
@@ -193,7 +193,7 @@ static lobe_result add_sheet(lobe_scene *scene, const char *name, int side, cons
     for (uint32_t i = 0; i < mesh.vertex_count; i++) {
         double s = i % (GRID + 1) * (2.0 / GRID) - 1, t = i / (GRID + 1) * (2.0 / GRID) - 1;
         lobe_scene_vertex *vertex = &mesh.vertices[i];
-        // Seen from below, right is left.
+        // Seen from below, left and right are swapped.
         vector3_store(pillow_point(side ? -s : s, t, side, vertex->texture_coordinates[0]),
                       vertex->position);
     }
@@ -213,7 +213,7 @@ static lobe_result add_lower_sheet(lobe_scene *scene, const lobe_host *host) {
     return add_sheet(scene, "lower sheet", 1, host);
 }
 
-// A point of the seam; `place` is what place_round tells of it.
+// A point on the seam; `place` is the result of place_round.
 static vector3 seam_point(double place) {
     float coordinates[2];
     double turned = place + 1 - floor((place + 1) / 8) * 8,
@@ -230,7 +230,7 @@ static vector3 seam_point(double place) {
     }
 }
 
-// Of the round cord that hides the seam: `turns` goes around it, from the pillow's inside upwards.
+// The round cord that hides the seam: `turns` goes around it, starting inside the pillow, upwards.
 static void place_on_piping(double place, double turns, lobe_scene_vertex *vertex) {
     vector3 ahead = vector3_subtract(seam_point(place + 0.01), seam_point(place - 0.01));
     vector3 up = {0, 1, 0}, outwards = vector3_cross(up, ahead);
@@ -265,14 +265,14 @@ static lobe_result add_piping(lobe_scene *scene, const lobe_host *host) {
     return status;
 }
 
-// The ground is one tile of a map in which the pillow's shade is painted: lights cast none.
+// The ground is one tile of a map with the pillow's shade painted in: lights cast no shadows.
 enum { GROUND_EXTENT = 512 };
 
 static const float ground_side = 4; // metres
 
 static void fill_ground(uint32_t column, uint32_t row, void *texel) {
     static const double plain[3] = {176, 166, 154};
-    // The map's corner is the middle of the plane.
+    // The corner of the map is at the middle of the plane.
     double across = (column + 0.5) / GROUND_EXTENT, down = (row + 0.5) / GROUND_EXTENT;
     double x = (across - floor(across + 0.5)) * ground_side;
     double z = (down - floor(down + 0.5)) * ground_side;

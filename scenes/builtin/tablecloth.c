@@ -2,16 +2,16 @@
 
 #include <math.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/mesh/circle.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
 
-// Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 5 top and section 5.2: a cloth of two
-// lobes with a normal map of 1024 x 1024 texels made of noise. The lobes lie at 45 degrees on
-// either side of the normal; the paper prints them in its plane, with half their energy below it.
+// Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 5 top and section 5.2: a cloth with two
+// lobes and a noise normal map of 1024 x 1024 texels. Here the lobes lie at 45 degrees on either
+// side of the normal; the paper prints them in the surface plane, with half their energy below it.
 
 enum { MAP_EXTENT = 1024, COLOUR_EXTENT = 512, GRID = 160 };
 
@@ -21,7 +21,7 @@ static const double table_height = 0.8; // metres
 static const double rim_radius = 0.04;  // of the rounded edge, metres
 static const double tiles = 14;         // repetitions of the maps along a side
 
-// Wavelengths of the noise in texels are MAP_EXTENT / period; its slopes grow with the period.
+// The noise has wavelengths of MAP_EXTENT / period texels; its slopes grow with the period.
 typedef struct noise_octave {
     uint32_t period;
     double slope; // scale of the slopes
@@ -40,7 +40,7 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     scenes_normal_map_store_slope(texel, sum[0], sum[1]);
 }
 
-// A check of two blended bands, as woven from threads of two colours.
+// A check pattern of two blended bands, as if woven from threads of two colours.
 static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     static const double plain[3] = {206, 196, 178}, dyed[3] = {150, 52, 48}; // sRGB
     bool warp = column >= COLOUR_EXTENT / 2, weft = row >= COLOUR_EXTENT / 2;
@@ -79,9 +79,9 @@ static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     return scenes_add_material(scene, "tablecloth", &material, host, NULL);
 }
 
-// How far cloth bends outwards in its folds, between 0 and 1, around the table.
+// How far the cloth bends outwards in its folds around the table, between 0 and 1.
 static double fold(double cosine, double sine) {
-    // Powers of the complex number cosine + i sine: its angle times 9 and times 5.
+    // Powers of the complex number cosine + i sine multiply its angle by 9 and by 5.
     double re = 1, im = 0, re5 = 1;
     for (int power = 1; power <= 9; power++) {
         double turned = re * cosine - im * sine;
@@ -92,8 +92,8 @@ static double fold(double cosine, double sine) {
     return 0.5 + 0.35 * re + 0.15 * re5;
 }
 
-// Where the cloth's point at (x, z) of the flat sheet comes to lie: flat on the table, round its
-// edge, and down in folds. Lengths along the fall are kept.
+// Where the point (x, z) of the flat sheet ends up: flat on the table, around its edge, and down in
+// folds. Lengths along the fall are preserved.
 static void drape(double x, double z, float position[3]) {
     double distance = sqrt(x * x + z * z), flat = table_radius - rim_radius;
     position[0] = (float)x, position[1] = (float)table_height, position[2] = (float)z;

@@ -7,7 +7,7 @@ enum { COEFFICIENTS = 5 };
 // ---------------------------------------------------------------------------------------------
 // Colour
 
-// IEC 61966-2-1:1999, the primaries of Rec. 709. What lies outside them is cut off.
+// IEC 61966-2-1:1999, the primaries of Rec. 709. Colours outside their gamut are clipped.
 static void rgb_of_yxy(const double colour[3], double rgb[3]) {
     static const double matrix[3][3] = {{3.240969942, -1.537383178, -0.498610760},
                                         {-0.969243636, 1.875967502, 0.041555057},
@@ -42,8 +42,8 @@ static void set_distribution(daylight *light, double turbidity) {
     }
 }
 
-// The same appendix: chromaticity at the zenith, of the powers of the turbidity (rows, from the
-// square down) and of the sun's angle from the zenith (columns, from the cube down).
+// The same appendix: chromaticity at the zenith, by powers of the turbidity (rows, from the square
+// down) and of the sun's angle from the zenith (columns, from the cube down).
 static double zenith_chromaticity(const double matrix[3][4], double turbidity, double angle) {
     double sum = 0;
     for (int row = 0; row < 3; row++) {
@@ -66,13 +66,13 @@ static void set_zenith(daylight *light, double turbidity, double angle) {
     light->zenith[2] = zenith_chromaticity(y, turbidity, angle);
 }
 
-// Perez, Seals, Michalsky 1993, in Preetham et al. 1999, Eq. 3. `angle` is that to the sun.
+// Perez, Seals, Michalsky 1993, in Preetham et al. 1999, Eq. 3. `angle` is the angle to the sun.
 static double perez(const double c[COEFFICIENTS], double cosine, double angle, double cosine_sun) {
     return (1 + c[0] * exp(c[1] / cosine)) *
            (1 + c[2] * exp(c[3] * angle) + c[4] * cosine_sun * cosine_sun);
 }
 
-// Eq. 4: what the zenith is divided by.
+// Eq. 4: the divisor for the zenith's values.
 static void normalise(daylight *light, double angle) {
     for (int k = 0; k < 3; k++)
         light->zenith[k] /= perez(light->distribution[k], 1, angle, light->sun.y);
@@ -91,15 +91,15 @@ void scenes_daylight_sky(const daylight *light, vector3 direction, double rgb[3]
 // ---------------------------------------------------------------------------------------------
 // Sun
 
-// Preetham et al. 1999, appendix A.1, after Iqbal 1983: what air and haze let through on the way
-// down. Ozone, mixed gases and water vapour, which take far less of visible light, are left out.
+// Preetham et al. 1999, appendix A.1, after Iqbal 1983: transmittance of air and haze. Ozone, mixed
+// gases and water vapour absorb far less visible light and are left out.
 static double transmittance(double micrometres, double mass, double turbidity) {
     const double haze = 0.04608 * turbidity - 0.04586;
     return exp(-mass * (0.008735 * pow(micrometres, -4.08) + haze * pow(micrometres, -1.3)));
 }
 
 // Outside the atmosphere: 128 klx (IES Lighting Handbook), the colour of a black body of 5778 K.
-// Each channel is dimmed as light in its middle is.
+// Each channel is dimmed like light at the middle of its band.
 static void set_sun(daylight *light, double turbidity) {
     static const double outside[3] = {128, 0.3263, 0.3357};
     static const double micrometres[3] = {0.61, 0.55, 0.465};
@@ -121,7 +121,7 @@ daylight scenes_daylight_of(vector3 sun, double turbidity) {
 }
 
 void scenes_daylight_ground_irradiance(const daylight *light, double rgb[3]) {
-    // The middles of bands of equal projected solid angle, which the cosine is part of.
+    // The middles of bands of equal projected solid angle, which includes the cosine.
     enum { HEIGHTS = 64, TURNS = 128 };
     for (int i = 0; i < 3; i++)
         rgb[i] = light->sun_irradiance[i] * light->sun.y;

@@ -99,7 +99,7 @@ void scenes_environment_position(lobe_environment_layout layout, uint32_t width,
 // ---------------------------------------------------------------------------------------------
 // From positions to directions
 
-// The face at a position, and where on it, in [-1, 1]; NULL where there is none.
+// The face at a position, and the point on it in [-1, 1]; NULL outside of the faces.
 static const environment_face *face_of_position(lobe_environment_layout layout, uint32_t width,
                                                 const double position[2], double point[2]) {
     uint32_t grid[2], place[2];
@@ -145,8 +145,8 @@ bool scenes_environment_direction(lobe_environment_layout layout, uint32_t width
 // ---------------------------------------------------------------------------------------------
 // Solid angles
 
-// Of the rectangle from the middle of a face at distance 1 to (s, t), with its sign.
-// Van Oosterom and Strackee 1983, "The solid angle of a plane triangle", applied to a rectangle.
+// Of the rectangle from the middle of a face at distance 1 to (s, t), signed. Van Oosterom and
+// Strackee 1983, "The solid angle of a plane triangle", applied to a rectangle.
 static double from_middle(double s, double t) {
     return atan2(s * t, sqrt(1 + s * s + t * t));
 }
@@ -155,7 +155,7 @@ double scenes_environment_solid_angle(lobe_environment_layout layout, uint32_t w
                                       uint32_t height, double left, double top, double right,
                                       double bottom) {
     if (layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE) {
-        // cos(a) - cos(b) of the polar angles as a product, which keeps its digits.
+        // cos(a) - cos(b) of the polar angles as a product, which does not cancel digits.
         const double middle = 0.5 * M_PI * (top + bottom) / height;
         const double half = 0.5 * M_PI * (bottom - top) / height;
         return 2 * M_PI * (right - left) / width * 2 * sin(middle) * sin(half);

@@ -17,7 +17,7 @@
 ///
 /// Cubes: on a face, the direction of the point (s, t), both in [-1, 1], s to the right and t
 /// downwards, is forward + s right + t down. Pictures are never mirrored: right = forward x up, as
-/// for someone inside who looks at the face.
+/// for someone inside the cube who looks at the face.
 ///
 ///     face  | column, row (as OpenEXR) | crosses, which fold along the edges that touch
 ///           | right   down             | right   down
@@ -39,7 +39,7 @@
 
 /// A face of a cube on the image.
 typedef struct environment_face {
-    uint32_t column, row; ///< its place, in faces
+    uint32_t column, row; ///< its position, in faces
     double forward[3];    ///< the direction of its middle
     double right[3], down[3];
 } environment_face;
@@ -49,24 +49,25 @@ typedef struct environment_face {
 /// The six faces in the order +X -X +Y -Y +Z -Z; NULL for latitude and longitude.
 const environment_face *scenes_environment_faces(lobe_environment_layout layout);
 
-/// Into how many columns and rows of equal regions the layout divides the image: of faces, or one.
+/// The number of columns and rows of equal regions into which the layout divides the image: faces,
+/// or one region.
 void scenes_environment_grid(lobe_environment_layout layout, uint32_t grid[2]);
 
-/// Whether an image of this extent can have the layout: whole square faces, of one texel at least.
+/// Whether an image of this extent can have the layout: whole square faces of at least one texel.
 bool scenes_environment_layout_fits(lobe_environment_layout layout, uint32_t width,
                                     uint32_t height);
 
-/// The position of a direction of any length but 0, for an image that the layout fits. A direction
+/// The position of a direction of any length but 0, on an image that fits the layout. A direction
 /// on an edge lies on one of the faces that meet there.
 void scenes_environment_position(lobe_environment_layout layout, uint32_t width, uint32_t height,
                                  const double direction[3], double position[2]);
 
-/// The unit direction of a position; false where a cross is empty, or outside the image.
+/// The unit direction of a position; false for the empty parts of a cross and outside the image.
 bool scenes_environment_direction(lobe_environment_layout layout, uint32_t width, uint32_t height,
                                   const double position[2], double direction[3]);
 
-/// The solid angle, in steradian, of the rectangle from (left, top) to (right, bottom), which lies
-/// within one face (or anywhere on latitude and longitude); 0 where a cross is empty.
+/// The solid angle, in steradians, of the rectangle from (left, top) to (right, bottom), which lies
+/// within one face (or anywhere in latitude and longitude); 0 in the empty parts of a cross.
 double scenes_environment_solid_angle(lobe_environment_layout layout, uint32_t width,
                                       uint32_t height, double left, double top, double right,
                                       double bottom);

@@ -7,7 +7,7 @@
 #include "scenes/environment/halve.h"
 #include "scenes/environment/repair.h"
 
-// What the largest cube that is made of an environment shows, of 2048 texels a face.
+// The resolution of the largest cube that is made of an environment, 2048 texels per face.
 #define LARGEST_FACE  2048
 #define LARGEST_WIDTH (4 * LARGEST_FACE)
 

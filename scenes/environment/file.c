@@ -13,7 +13,7 @@
 #include "scenes/format/radiance_hdr.h"
 
 // ---------------------------------------------------------------------------------------------
-// Which layout
+// Layouts
 
 static bool find_cube(const lobe_image *image, lobe_environment_layout *layout) {
     static const lobe_environment_layout cubes[] = {
@@ -28,7 +28,7 @@ static bool find_cube(const lobe_image *image, lobe_environment_layout *layout) 
     return false;
 }
 
-// What is not twice as wide as high may have been stretched, or be of a size that is odd.
+// Images that are not 2:1 may have been stretched, or have an odd size.
 static bool may_be_latitude_longitude(const lobe_image *image) {
     return image->width >= image->height && image->width / 4 <= image->height;
 }

@@ -5,7 +5,7 @@
 
 #include "scenes/environment/direction.h"
 
-// One axis: the extent of a face before and after.
+// One axis: the extent of a face before and after halving.
 typedef struct halving {
     uint32_t before, after;
 } halving;
@@ -14,8 +14,8 @@ static halving halve(uint32_t extent) {
     return (halving){extent, extent > 1 ? extent / 2 : 1};
 }
 
-// What texel `i` covers of the image before: two texels of its face, or up to three in parts. A
-// face's edges are met exactly.
+// The part of the original image that texel `i` covers: two texels of its face, or up to three,
+// some in part. It ends exactly at the edges of a face.
 static void covered(const halving *axis, uint32_t i, double range[2]) {
     const uint32_t face = i / axis->after, place = i % axis->after;
     const double first = (double)face * axis->before;
@@ -23,16 +23,16 @@ static void covered(const halving *axis, uint32_t i, double range[2]) {
     range[1] = first + (double)(place + 1) * axis->before / axis->after;
 }
 
-// What a new texel covers of a row.
+// The part of one row that a new texel covers.
 typedef struct strip {
     double top, bottom;
-    double angle; // of one texel of latitude and longitude, between top and bottom
+    double angle; // of one texel in latitude and longitude, between top and bottom
 } strip;
 
 typedef struct reduction {
     const lobe_environment *environment;
     halving columns, rows;
-    strip strips[3]; // of the row of texels that is made
+    strip strips[3]; // that the row of texels being made covers
     int strip_count;
 } reduction;
 
@@ -57,7 +57,7 @@ static void cut_strips(reduction *work, double top, double bottom) {
     }
 }
 
-// The mean over the strips from one column to another.
+// The mean over the strips between two columns.
 static void mean_texel(const reduction *work, double from, double to, float out[4]) {
     const lobe_image *image = &work->environment->image;
     double sum[3] = {0}, weights = 0;
@@ -82,7 +82,7 @@ bool scenes_environment_can_be_halved(const lobe_environment *environment) {
     return environment->image.width > grid[0] || environment->image.height > grid[1];
 }
 
-// Texels are written in order, each no later than the first of those that it is made of.
+// In place: in memory, no new texel lies behind the first of those that it is computed from.
 void scenes_environment_halve(lobe_environment *environment) {
     lobe_image *image = &environment->image;
     uint32_t grid[2];
@@ -104,7 +104,7 @@ void scenes_environment_halve(lobe_environment *environment) {
     }
     image->width = grid[0] * work.columns.after;
     image->height = grid[1] * work.rows.after;
-    // The rest is given back where that can be done; where not, it does no harm.
+    // Give back the rest of the memory if possible; if not, keeping it does no harm.
     void *smaller = lobe_reallocate(NULL, image->texels, (size_t)image->width * image->height,
                                     4 * sizeof(float));
     image->texels = smaller ? smaller : image->texels;

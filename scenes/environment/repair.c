@@ -10,11 +10,11 @@ typedef struct environment_faults {
     size_t negative, not_a_number, infinite;
 } environment_faults;
 
-// The rows around the one that is mended, as they were before: what was mended counts for nothing.
+// The rows around the current one, as they were before the repair: repaired texels do not count.
 typedef struct repair {
     lobe_environment *environment;
     float *above, *current;
-    uint32_t face[2]; // the extent of a face, over which neighbours do not reach
+    uint32_t face[2]; // the extent of a face; neighbours beyond it do not count
     environment_faults faults;
 } repair;
 
@@ -89,7 +89,7 @@ static void mend_row(repair *work, uint32_t y) {
     work->current = kept;
 }
 
-// Nothing is to be said of what nobody sees.
+// Repairs of the empty parts of a cross are not reported.
 static void clear_empty_parts(repair *work) {
     const lobe_environment *environment = work->environment;
     const lobe_image *image = &environment->image;
@@ -107,7 +107,7 @@ static void report(const repair *work, const lobe_host *host) {
     const environment_faults *faults = &work->faults;
     if (faults->negative > 0 || faults->not_a_number > 0 || faults->infinite > 0)
         lobe_host_log(host, LOBE_LOG_WARNING,
-                      "%s: repaired texels with numbers that no light has: %zu negative, %zu NaN, "
+                      "%s: repaired texels with impossible radiance: %zu negative, %zu NaN, "
                       "%zu infinite",
                       work->environment->name, faults->negative, faults->not_a_number,
                       faults->infinite);

@@ -13,12 +13,12 @@
 #define TURBIDITY  3.0
 #define GROUND     0.2 // albedo
 
-// Points of the disc along its radius and around it; of even area.
+// Sample points along the disc's radius and around it; each stands for the same area.
 enum { DISC_POINTS = 96 };
 
 static vector3 disc_point(vector3 direction, vector3 x, vector3 y, double radius, int ring,
                           int turn) {
-    // 1 - cos(radius) without loss of digits.
+    // 1 - cos(radius) without cancellation.
     const double height = 2 * sin(radius / 2) * sin(radius / 2) * (ring + 0.5) / DISC_POINTS;
     const double sine = sqrt(height * (2 - height)), angle = 2 * M_PI * (turn + 0.5) / DISC_POINTS;
     return vector3_add(
@@ -52,7 +52,7 @@ static void add_light(lobe_environment *environment, size_t index, double part,
         texel[i] = (float)(texel[i] + part * irradiance[i] / angle);
 }
 
-// Points are counted before they are added: a sum of thousands in single precision would drift.
+// Points are counted before they are added: a sum of thousands of floats would drift.
 void scenes_environment_add_disc(lobe_environment *environment, vector3 direction, double radius,
                                  const double irradiance[3]) {
     enum { COUNT = DISC_POINTS * DISC_POINTS };
@@ -88,7 +88,7 @@ static sky_scale scale_of(const daylight *light) {
     return scale;
 }
 
-// Points of a texel along each axis: coarse images, too, are to hold means of the sky.
+// Sample points of a texel along each axis, so that coarse images hold means of the sky, too.
 static int points_of(const lobe_image *image) {
     const uint32_t points = 128 / image->height;
     return points < 1 ? 1 : points > 8 ? 8 : (int)points;

@@ -6,12 +6,13 @@
 
 #include <lobe/file.h>
 
-/// Reads a file from where the host keeps its files; NULL: from the file system. As lobe_file_read.
+/// Reads a file from the host's file source, or from the file system if `files` is NULL. Otherwise
+/// as lobe_file_read.
 lobe_result scenes_host_file_read(const lobe_file_source *files, const char *path,
                                   const char *owner, const lobe_host *host, uint8_t **data,
                                   size_t *size);
 
-/// A copy of a file's content in memory, as lobe_file_read gives it.
+/// Copies a file's content in memory, with a result as from lobe_file_read.
 lobe_result scenes_host_file_copy(const char *path, const void *content, size_t content_size,
                                   const lobe_host *host, uint8_t **data, size_t *size);
 

@@ -9,7 +9,7 @@
 #include "scenes/format/library_memory.h"
 #include "third_party/image_codec.h"
 
-// The densest that either format packs: deflate shrinks to 1/1032, on 8 texels a byte.
+// The best compression of either format: deflate shrinks to 1/1032, with 8 texels per byte.
 #define MAXIMUM_TEXELS_PER_BYTE (1032 * 8)
 
 typedef enum image_file_kind { IMAGE_FILE_OTHER, IMAGE_FILE_PNG, IMAGE_FILE_JPEG } image_file_kind;
@@ -24,7 +24,7 @@ static image_file_kind recognise(const void *bytes, size_t size) {
     return IMAGE_FILE_OTHER;
 }
 
-// Before memory is taken for what a header of a few bytes promises.
+// Checked before allocating memory for what a header of a few bytes claims.
 static lobe_result check_extent(const image_codec_extent *extent, size_t size, const char *name,
                                 const lobe_host *host) {
     uint32_t width = extent->width, height = extent->height;
@@ -32,7 +32,7 @@ static lobe_result check_extent(const image_codec_extent *extent, size_t size, c
     if (width > LOBE_IMAGE_MAXIMUM_EXTENT || height > LOBE_IMAGE_MAXIMUM_EXTENT ||
         texels > SCENE_IMAGE_MAXIMUM_TEXELS)
         return lobe_host_fail(host, LOBE_ERROR_LIMIT,
-                              "%s: %u x %u texels are more than lobe takes (%u a side, %zu in "
+                              "%s: %u x %u texels exceed lobe's limits (%u per side, %zu in "
                               "all)",
                               name, width, height, LOBE_IMAGE_MAXIMUM_EXTENT,
                               SCENE_IMAGE_MAXIMUM_TEXELS);

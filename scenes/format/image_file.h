@@ -7,7 +7,7 @@
 #include <lobe/image.h>
 #include <lobe/result.h>
 
-/// What an image file's numbers mean, which neither PNG nor JPEG says reliably.
+/// The meaning of an image file's numbers, which neither PNG nor JPEG states reliably.
 typedef enum scene_image_use {
     SCENE_IMAGE_COLOUR, ///< sRGB; becomes RGBA8_SRGB
     SCENE_IMAGE_DATA,   ///< linear; becomes RGBA8_UNORM, or RGBA16_UNORM from 16 bits
@@ -16,7 +16,7 @@ typedef enum scene_image_use {
 /// Largest number of texels of one image file.
 #define SCENE_IMAGE_MAXIMUM_TEXELS ((size_t)1 << 28)
 
-/// Decodes PNG or JPEG, told apart by their first bytes. Grey becomes RGB, a missing alpha 1;
+/// Decodes PNG or JPEG, recognised by their first bytes. Grey becomes RGB, a missing alpha 1;
 /// colour profiles are ignored. `name` is for messages. On failure `image` is empty. Errors:
 /// LOBE_ERROR_UNSUPPORTED (another format), _MALFORMED, _LIMIT (extent above
 /// LOBE_IMAGE_MAXIMUM_EXTENT, or too many texels), _OUT_OF_MEMORY.

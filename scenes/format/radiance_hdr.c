@@ -6,16 +6,16 @@
 #include "scenes/format/image_file.h"
 #include "scenes/format/text_cursor.h"
 
-// Ward 1991, "Real Pixels" (Graphics Gems II): three mantissas and the exponent they share. The
-// layout of files: Ward, "Radiance File Formats", lbl.gov.
+// Ward 1991, "Real Pixels" (Graphics Gems II): three mantissas with a shared exponent. File layout:
+// Ward, "Radiance File Formats", lbl.gov.
 
 typedef struct hdr_reader {
     const char *name;
     const lobe_host *host;
     const uint8_t *at, *end;
     bool xyz;
-    double scale[3]; // undoes exposures and colour corrections
-    // Scan lines, and the texels of one. They run downwards and to the right unless reversed.
+    double scale[3]; // undoes exposure and colour correction
+    // Scan lines, and texels per line. They run downwards and to the right unless reversed.
     uint32_t line_count, length;
     bool lines_are_columns, lines_reversed, texels_reversed;
     lobe_image *image;
@@ -33,7 +33,7 @@ bool scenes_radiance_hdr_recognise(const void *bytes, size_t size) {
     return size >= 2 && memcmp(bytes, "#?", 2) == 0;
 }
 
-// The next line without its end; false where no end follows.
+// The next line without its line end; false if there is none.
 static bool take_line(hdr_reader *reader, text_cursor *line) {
     const uint8_t *newline = memchr(reader->at, '\n', (size_t)(reader->end - reader->at));
     if (!newline)
@@ -67,7 +67,7 @@ static lobe_result read_format(hdr_reader *reader, text_cursor *line) {
     return LOBE_OK;
 }
 
-// What the texels were multiplied by is divided out; several such lines add up.
+// The texels were multiplied by this, which is divided out; several such lines multiply.
 static lobe_result read_factors(hdr_reader *reader, text_cursor *line, bool one_for_all) {
     double factor = 0;
     for (int i = 0; i < 3; i++) {
@@ -75,8 +75,9 @@ static lobe_result read_factors(hdr_reader *reader, text_cursor *line, bool one_
             factor = 0;
         reader->scale[i] /= factor;
         if (!(factor > 0) || !(reader->scale[i] > 0) || !isfinite(reader->scale[i]))
-            return fail(reader, one_for_all ? "its exposure is no positive number"
-                                            : "its colour correction is no three positive numbers");
+            return fail(reader, one_for_all
+                                    ? "its exposure is not a positive number"
+                                    : "its colour correction is not three positive numbers");
     }
     return LOBE_OK;
 }
@@ -99,7 +100,7 @@ static lobe_result read_variables(hdr_reader *reader) {
     return fail(reader, "its header does not end");
 }
 
-// "-Y" and the like, and a number.
+// "-Y" or the like, and a number.
 static bool take_axis(text_cursor *line, char *axis, bool *minus, uint32_t *count) {
     scenes_text_cursor_skip_space(line);
     size_t number;
@@ -123,26 +124,26 @@ static lobe_result read_resolution(hdr_reader *reader) {
     if (!take_line(reader, &line) ||
         !take_axis(&line, &line_axis, &line_minus, &reader->line_count) ||
         !take_axis(&line, &texel_axis, &texel_minus, &reader->length) || line_axis == texel_axis)
-        return fail(reader, "its resolution is not of the kind '-Y 512 +X 1024', of 1 to 65535 "
-                            "texels a side");
+        return fail(reader, "its resolution is not like '-Y 512 +X 1024', with 1 to 65535 "
+                            "texels per side");
     reader->lines_are_columns = line_axis == 'X';
     reader->lines_reversed = line_minus == reader->lines_are_columns;
     reader->texels_reversed = texel_minus != reader->lines_are_columns;
     if ((uint64_t)reader->line_count * reader->length > SCENE_IMAGE_MAXIMUM_TEXELS)
         return lobe_host_fail(reader->host, LOBE_ERROR_LIMIT,
-                              "%s: %u x %u texels are more than lobe takes (%zu in all)",
-                              reader->name, reader->length, reader->line_count,
-                              SCENE_IMAGE_MAXIMUM_TEXELS);
-    // However well it is packed, a line takes four bytes.
+                              "%s: %u x %u texels exceed lobe's limit (%zu in all)", reader->name,
+                              reader->length, reader->line_count, SCENE_IMAGE_MAXIMUM_TEXELS);
+    // However well it is packed, a line takes at least four bytes.
     if ((uint64_t)(reader->end - reader->at) < 4 * (uint64_t)reader->line_count)
         return fail(reader, "ends early");
     return LOBE_OK;
 }
 
 // ---------------------------------------------------------------------------------------------
-// Scan lines, as four bytes a texel
+// Scan lines, as four bytes per texel
 
-// A component of all texels: a count above 128 repeats a byte, one below stands before bytes.
+// One component of all texels: a count above 128 repeats a byte; a lower one precedes that many
+// bytes.
 static const char *unpack_component(hdr_reader *reader, uint8_t *out) {
     for (uint32_t done = 0; done < reader->length;) {
         if (reader->end - reader->at < 2)
@@ -172,8 +173,8 @@ static const char *unpack_components(hdr_reader *reader, uint8_t *line) {
     return cause;
 }
 
-// Whole texels. Three ones stand before a count by which the texel before is repeated; counts that
-// follow one another are the digits of one number, the lowest first, to the base 256.
+// Whole texels. Three ones precede a count by which the previous texel is repeated; consecutive
+// counts are the digits of one number, lowest first, to base 256.
 static const char *unpack_texels(hdr_reader *reader, uint8_t *line) {
     unsigned shift = 0;
     for (uint32_t done = 0; done < reader->length;) {
@@ -220,7 +221,7 @@ static void rgb_of_xyz(double v[3]) {
 }
 
 static void place_texel(const hdr_reader *reader, const uint8_t *from, float *to) {
-    // A mantissa stands for all that is cut to it, in the middle of which it is put (Ward 1991).
+    // A mantissa was truncated: take the middle of the interval it stands for (Ward 1991).
     const double step = from[3] ? ldexp(1, from[3] - (128 + 8)) : 0;
     double v[3];
     for (int i = 0; i < 3; i++)

@@ -11,13 +11,13 @@
 
 /// Radiance pictures (.hdr, .pic).
 
-/// Whether the bytes begin as such a picture's do.
+/// Whether the bytes begin like such a picture.
 bool scenes_radiance_hdr_recognise(const void *bytes, size_t size);
 
-/// Decodes a picture into RGBA32_FLOAT, alpha 1. Scan lines may be packed in the newer way, in the
-/// older, or not at all; they may run in any of the eight directions. Exposures and colour
-/// corrections that the header tells of are undone, so that the image holds radiance; CIE XYZ
-/// becomes RGB of Radiance's primaries, as which RGB is taken, too. `name` is for messages. On
+/// Decodes a picture into RGBA32_FLOAT with alpha 1. Scan lines may be packed in the newer way, in
+/// the older way, or not at all; they may run in any of the eight directions. Exposures and colour
+/// corrections stated in the header are undone, so that the image holds radiance. CIE XYZ becomes
+/// RGB with Radiance's primaries; RGB is taken to have those already. `name` is for messages. On
 /// failure `image` is empty. Errors: LOBE_ERROR_MALFORMED, _UNSUPPORTED (another format of texels),
 /// _LIMIT, _OUT_OF_MEMORY.
 lobe_result scenes_radiance_hdr_decode(const void *bytes, size_t size, const char *name,

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 
-// More digits than a double tells apart are passed over; their places still count.
+// Digits beyond the precision of a double are skipped; their places still count.
 #define MAXIMUM_MANTISSA (UINT64_C(1) << 53)
 
 static bool is_space(char c) {
@@ -21,7 +21,7 @@ static bool next_is(text_cursor *cursor, char a, char b) {
     return found;
 }
 
-// What follows a number may not belong to it: "1.2.3", "12abc".
+// The characters after a number may make it no number: "1.2.3", "12abc".
 static bool is_ended(const text_cursor *cursor) {
     if (cursor->at == cursor->end)
         return true;
@@ -41,7 +41,7 @@ bool scenes_text_cursor_take(text_cursor *cursor, char expected) {
 }
 
 // Appends digits to the mantissa; returns how many there were, and in `*ignored` how many of them
-// the mantissa has no place for.
+// the mantissa has no room for.
 static int read_digits(text_cursor *cursor, uint64_t *mantissa, int *ignored) {
     int count = 0;
     for (; is_digit(cursor) && count < 10000; cursor->at++, count++) {
@@ -69,7 +69,8 @@ static bool read_exponent(text_cursor *cursor, int *exponent) {
 }
 
 // Clinger 1990, "How to Read Floating Point Numbers Accurately": both operands are exact up to
-// 10^22, so one division or product rounds but once. Beyond that the error stays far below float's.
+// 10^22, so one division or product rounds only once. Beyond that the error stays far below
+// float's.
 static double scale(uint64_t mantissa, int exponent) {
     double value = (double)mantissa, power = 1;
     if (mantissa == 0)

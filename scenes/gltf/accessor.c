@@ -33,7 +33,7 @@ lobe_result scenes_gltf_open_view(const gltf_import *import, int view, const cha
     const gltf_buffer *buffer = &document->buffers[v->buffer];
     if (v->offset > buffer->size || v->length > buffer->size - v->offset)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
-                              "%s: buffer view %d: %zu bytes from %zu on reach beyond the %zu "
+                              "%s: buffer view %d: %zu bytes from %zu on end beyond the %zu "
                               "bytes of buffer %d",
                               import->path, view, v->length, v->offset, buffer->size, v->buffer);
     *bytes = buffer->data + v->offset;
@@ -48,7 +48,7 @@ typedef struct element_range {
     bool strided;               // the view's stride applies
 } element_range;
 
-// Finds `range->count` elements of a view. Divides instead of multiplying: nothing overflows.
+// Finds `range->count` elements of a view. Divides instead of multiplying, so nothing overflows.
 static lobe_result open_range(const gltf_import *import, const element_range *range,
                               const char *what, const uint8_t **bytes, size_t *stride) {
     size_t length, view_stride;
@@ -65,7 +65,7 @@ static lobe_result open_range(const gltf_import *import, const element_range *ra
                 (length - range->offset - range->size) / *stride >= range->count - 1;
     if (!fits)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
-                              "%s: %s: %zu elements reach beyond the %zu bytes of buffer view "
+                              "%s: %s: %zu elements end beyond the %zu bytes of buffer view "
                               "%d",
                               import->path, what, range->count, length, range->view);
     *bytes += range->offset;
@@ -97,7 +97,7 @@ static uint32_t sparse_index(const gltf_elements *elements, size_t i) {
     return load_unsigned(elements->sparse_indices + i * size, elements->sparse_component);
 }
 
-// Increasing indices are what the format asks for, and what the search below needs.
+// The format requires increasing indices, and the binary search below needs them.
 static lobe_result check_sparse_indices(const gltf_import *import, const gltf_elements *elements,
                                         const char *what) {
     for (size_t i = 0; i < elements->sparse_count; i++) {
@@ -174,7 +174,7 @@ lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, c
     return result;
 }
 
-// The bytes of element `i`, the sparse ones searched first; NULL: zero.
+// The bytes of element `i`, looked up among the sparse ones first; NULL: zero.
 static const uint8_t *find_element(const gltf_elements *elements, size_t i) {
     size_t low = 0, high = elements->sparse_count;
     while (low < high) {
@@ -190,7 +190,7 @@ static const uint8_t *find_element(const gltf_elements *elements, size_t i) {
     return elements->bytes ? elements->bytes + i * elements->stride : NULL;
 }
 
-// glTF 2.0, section 3.6.2.2: the equations between integers and the floats they stand for.
+// glTF 2.0, section 3.6.2.2: conversions between integers and normalised floats.
 static float load_float(const uint8_t *bytes, int component, bool normalised) {
     float f;
     int16_t s16;

@@ -4,14 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
-// Kinds of component that an attribute may have, as bits.
+// Kinds of component that an attribute may have, as bit flags.
 enum {
     KIND_FLOAT = 1,
     KIND_UNSIGNED_BYTE = 2,
     KIND_UNSIGNED_SHORT = 4,
     KIND_BYTE = 8,
     KIND_SHORT = 16,
-    KIND_NORMALISED = 32, // shift from the plain integers to the normalised ones
+    KIND_NORMALISED = 32, // shift from plain integers to normalised ones
     UNSIGNED_NORMALISED = (KIND_UNSIGNED_BYTE | KIND_UNSIGNED_SHORT) * KIND_NORMALISED,
     SIGNED_NORMALISED = (KIND_BYTE | KIND_SHORT) * KIND_NORMALISED,
     ANY_INTEGER =
@@ -122,7 +122,7 @@ static lobe_result read_attribute(const gltf_import *import, const gltf_attribut
                                       "%s: %s: %s of vertex %zu is not finite", import->path,
                                       attributes->name, rules[attribute].name, element);
         }
-        // A colour of three channels keeps the alpha of 1 it was allocated with.
+        // A colour with three channels keeps its initial alpha of 1.
         memcpy(destination(&mesh->vertices[i], attribute), values,
                elements->channels * sizeof(float));
     }

@@ -10,13 +10,14 @@ typedef struct gltf_attributes {
     gltf_elements elements[GLTF_ATTRIBUTE_COUNT];
 } gltf_attributes;
 
-/// Opens all attributes and checks their types (those of KHR_mesh_quantization too where the file
-/// uses it) and counts. The positions must be there.
+/// Opens all attributes and checks their types (also those of KHR_mesh_quantization if the file
+/// uses it) and counts. Positions are required.
 lobe_result scenes_gltf_open_attributes(const gltf_import *import, const gltf_primitive *primitive,
                                         const char *name, gltf_attributes *attributes);
 
-/// Fills the vertices of `mesh`, vertex i from element `source[i]`, or i where `source` is NULL.
-/// LOBE_ERROR_MALFORMED, with the attribute and the element named, where a number is not finite.
+/// Fills the vertices of `mesh`: vertex i from element `source[i]`, or from element i if `source`
+/// is NULL. LOBE_ERROR_MALFORMED, with the attribute and the element named, if a number is not
+/// finite.
 lobe_result scenes_gltf_read_vertices(const gltf_import *import, const gltf_attributes *attributes,
                                       const uint32_t *source, lobe_mesh *mesh);
 

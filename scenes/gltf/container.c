@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <string.h>
 
-// glTF 2.0, section 4: the header, and the head of each chunk.
+// glTF 2.0, section 4: the file header and the chunk headers.
 #define GLB_HEADER_SIZE     12
 #define GLB_CHUNK_HEAD_SIZE 8
 #define GLB_CHUNK_JSON      0x4e4f534au
@@ -26,7 +26,7 @@ static void write_word(char *bytes, uint32_t word) {
 
 static const char *read_chunk(const gltf_container *container, size_t at, glb_chunk *chunk) {
     if (container->size - at < GLB_CHUNK_HEAD_SIZE)
-        return "ends inside the head of a chunk";
+        return "ends inside a chunk header";
     size_t length = read_word(container->bytes + at);
     chunk->type = read_word(container->bytes + at + 4);
     chunk->begin = at + GLB_CHUNK_HEAD_SIZE;
@@ -34,11 +34,11 @@ static const char *read_chunk(const gltf_container *container, size_t at, glb_ch
     if (length > container->size - chunk->begin)
         return "a chunk is longer than the file";
     if (length % 4 != 0)
-        return "the length of a chunk is no multiple of 4";
+        return "the length of a chunk is not a multiple of 4";
     return NULL;
 }
 
-// Chunks after the second are for extensions, and so is the second unless it is the binary one.
+// Chunks after the second belong to extensions, and so does the second unless it is binary.
 static const char *open_binary(gltf_container *container) {
     glb_chunk json, binary;
     const char *fault = read_chunk(container, GLB_HEADER_SIZE, &json);
@@ -62,7 +62,7 @@ static const char *open_binary(gltf_container *container) {
 }
 
 static const char *open_text(gltf_container *container) {
-    static const char mark[] = "\xef\xbb\xbf"; // of byte order, which some editors put first
+    static const char mark[] = "\xef\xbb\xbf"; // byte order mark, which some editors write
     size_t skipped = container->size >= 3 && memcmp(container->bytes, mark, 3) == 0 ? 3 : 0;
     container->json = container->bytes + skipped;
     container->json_size = container->size - skipped;

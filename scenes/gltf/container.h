@@ -7,18 +7,18 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// The bytes of a .gltf or .glb file, and where in them the JSON text is.
+/// The bytes of a .gltf or .glb file, and the position of the JSON text in them.
 typedef struct gltf_container {
     char *bytes;
-    size_t size; ///< without what follows the last part that is read
+    size_t size; ///< up to the end of the last part that is read
     const char *json;
     size_t json_size;
     bool binary; ///< GLB
 } gltf_container;
 
-/// Finds the JSON text; for GLB checks header and chunks, and shortens what the header says to
-/// the two chunks that a reader needs. `bytes` and `size` are set by the caller.
-/// Errors: LOBE_ERROR_MALFORMED, LOBE_ERROR_UNSUPPORTED (a GLB version other than 2).
+/// Finds the JSON text. For GLB, checks the header and chunks, and shortens the sizes in the header
+/// to the two chunks that a reader needs. The caller sets `bytes` and `size`. Errors:
+/// LOBE_ERROR_MALFORMED, LOBE_ERROR_UNSUPPORTED (a GLB version other than 2).
 lobe_result scenes_gltf_container_open(gltf_container *container, const char *path,
                                        const lobe_host *host);
 

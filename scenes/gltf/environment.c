@@ -8,8 +8,8 @@
 #include "scenes/format/image_file.h"
 #include "scenes/gltf/gltf.h"
 
-// EXT_lights_image_based: a cube of which each face is an image. lobe filters the first level
-// itself, so that the others, made by unknown means, are not needed.
+// EXT_lights_image_based: a cube whose faces are images. lobe filters the first level itself and
+// ignores the other levels, which were filtered in unknown ways.
 
 typedef struct face_reader {
     gltf_import *import;
@@ -25,7 +25,7 @@ static lobe_result fail(const face_reader *reader, const char *cause) {
                           cause);
 }
 
-// The first face tells the size of all.
+// The first face determines the size of all.
 static lobe_result allocate(face_reader *reader, const lobe_image *face) {
     const uint64_t texels = (uint64_t)ENVIRONMENT_FACE_COUNT * face->width * face->height;
     if (texels > SCENE_IMAGE_MAXIMUM_TEXELS ||
@@ -38,7 +38,7 @@ static lobe_result allocate(face_reader *reader, const lobe_image *face) {
                                ENVIRONMENT_FACE_COUNT * face->width, reader->import->host);
 }
 
-// RGBD: colours are divided by alpha. That of JPEG, and of PNG without alpha, is 1.
+// RGBD: colours are divided by alpha, which is 1 in JPEG and in PNG without alpha.
 static void decode_texel(const face_reader *reader, const uint8_t from[4], float to[4]) {
     const float divisor = (float)(from[3] > 0 ? from[3] : 1) / 255;
     for (int i = 0; i < 3; i++)
@@ -46,8 +46,9 @@ static void decode_texel(const face_reader *reader, const uint8_t from[4], float
     to[3] = 1;
 }
 
-// The images are those of OpenGL's cubes "flipped about the vertical axis", so that nobody inside
-// sees them mirrored; a column's differ from them by half a turn of the upper and the lower face.
+// The images are those of OpenGL cubes "flipped about the vertical axis", so that they are not
+// mirrored as seen from inside. They differ from those of a column by half a turn of the upper and
+// the lower face.
 static void place_face(const face_reader *reader, int index, const lobe_image *face) {
     const size_t count = (size_t)reader->size * reader->size;
     const bool turned = index == 2 || index == 3;
@@ -63,7 +64,7 @@ static lobe_result read_face(face_reader *reader, int index, int image) {
     if (result == LOBE_OK && index == 0)
         result = allocate(reader, &face);
     if (result == LOBE_OK && (face.width != reader->size || face.height != reader->size))
-        result = fail(reader, "its faces are not squares of one size");
+        result = fail(reader, "its faces are not squares of equal size");
     if (result == LOBE_OK)
         place_face(reader, index, &face);
     lobe_image_free(&face);
@@ -100,7 +101,7 @@ static lobe_result convert(gltf_import *import, int index) {
         scenes_gltf_note_unsupported(import, "irradianceCoefficients (lobe computes its own)");
     lobe_result result =
         scenes_environment_allocate(import->path, import->host, &reader.environment);
-    import->scene->environment = reader.environment; // which frees it, whatever comes
+    import->scene->environment = reader.environment; // frees it also on failure
     if (result == LOBE_OK)
         result = place(&reader, light);
     if (result == LOBE_OK)

@@ -11,8 +11,9 @@
 // ---------------------------------------------------------------------------------------------
 // From the file to the document
 
-// What happened to a buffer's file, of which tinygltf only hears that it cannot be read. The line
-// waits until parsing has failed: of an image, which tinygltf may take for one, it does not fail.
+// Failures to read buffer files, of which tinygltf only learns that they happened. The message is
+// held back until parsing has failed: tinygltf may take an image for a buffer, and that is no
+// failure.
 typedef struct buffer_reader {
     const char *path;
     const lobe_file_source *files;
@@ -64,7 +65,7 @@ static lobe_result parse(const gltf_container *container, const char *path,
                           "%s: %s", path, malformed ? message : "out of memory");
 }
 
-// Reading mends the bytes: those of a host are copied.
+// Reading modifies the bytes, so those of a host are copied.
 static lobe_result read_bytes(const lobe_scene_open_parameters *parameters, const lobe_host *host,
                               uint8_t **bytes, size_t *size) {
     const char *path = parameters->scene;

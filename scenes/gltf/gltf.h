@@ -12,24 +12,23 @@
 #include "third_party/tinygltf.h"
 
 /// Import of a glTF 2.0 file into a scene. Only what the scene's nodes reach is imported: meshes,
-/// materials and images are converted when they are first met.
+/// materials and images are converted when they are first needed.
 
-/// Opens a .gltf or .glb file; told apart by content. Of the parameters all but `assets` is used:
-/// see lobe_scene_open_parameters.
+/// Opens a .gltf or .glb file, recognised by its content; see lobe_scene_open_parameters.
 lobe_result scenes_gltf_open(const lobe_scene_open_parameters *parameters, const lobe_host *host,
                              lobe_scene **scene);
 
 // ---------------------------------------------------------------------------------------------
-// Between the files of the import
+// Shared by the files of the import
 
-/// Limits that keep a small file from asking for a large machine.
-#define GLTF_MAXIMUM_VERTICES      ((size_t)1 << 26) ///< of a scene
-#define GLTF_MAXIMUM_INDICES       ((size_t)1 << 28) ///< of a scene
-#define GLTF_MAXIMUM_INSTANCES     ((size_t)1 << 20) ///< of a scene
-#define GLTF_MAXIMUM_TEXELS        ((size_t)1 << 29) ///< of a scene
-#define GLTF_MAXIMUM_ZERO_ELEMENTS ((size_t)1 << 20) ///< of an accessor without a buffer view
+/// Limits that keep a small file from using up the machine.
+#define GLTF_MAXIMUM_VERTICES      ((size_t)1 << 26) ///< per scene
+#define GLTF_MAXIMUM_INDICES       ((size_t)1 << 28) ///< per scene
+#define GLTF_MAXIMUM_INSTANCES     ((size_t)1 << 20) ///< per scene
+#define GLTF_MAXIMUM_TEXELS        ((size_t)1 << 29) ///< per scene
+#define GLTF_MAXIMUM_ZERO_ELEMENTS ((size_t)1 << 20) ///< per accessor without a buffer view
 
-/// What is left out, or was mended: collected during the import, said once at its end.
+/// What was left out or repaired: collected during the import, logged once at its end.
 typedef struct gltf_notes {
     const char *unsupported[32];
     size_t unsupported_count;
@@ -37,7 +36,7 @@ typedef struct gltf_notes {
     size_t flat_instances, missing_coordinates;
 } gltf_notes;
 
-/// Index into the scene of what was converted already, or one of these.
+/// Index in the scene of something that was converted already, or one of these.
 enum { GLTF_NOT_CONVERTED = -1, GLTF_NOTHING_TO_DRAW = -2 };
 
 typedef struct gltf_primitive_state {
@@ -54,18 +53,18 @@ typedef struct gltf_import {
     bool quantised;                   ///< KHR_mesh_quantization is in use
     size_t *first_primitives;         ///< for each mesh, its first in `primitives`
     gltf_primitive_state *primitives; ///< of all meshes
-    int64_t *materials;               ///< for each and one more: the default material
+    int64_t *materials;               ///< for each, and for the default material
     int64_t *images[2];               ///< for each scene_image_use and image
-    size_t vertices, indices, texels; ///< so far, against the limits
+    size_t vertices, indices, texels; ///< so far, for checking the limits
     gltf_notes notes;
 } gltf_import;
 
-/// Remembers a feature that is left out, by its name, which must outlive the import.
+/// Records the name of a feature that is left out. The name must outlive the import.
 void scenes_gltf_note_unsupported(gltf_import *import, const char *feature);
-/// Sends what was collected to the log.
+/// Logs what was recorded.
 void scenes_gltf_report_notes(const gltf_import *import);
 
-/// The elements of an accessor, checked: reading one within `count` touches valid memory only.
+/// The checked elements of an accessor: reading one below `count` touches only valid memory.
 typedef struct gltf_elements {
     const uint8_t *bytes; ///< NULL: all zero
     size_t count, stride;
@@ -77,51 +76,50 @@ typedef struct gltf_elements {
     int sparse_component;
 } gltf_elements;
 
-/// `what` names the use of the accessor in messages. Errors: LOBE_ERROR_MALFORMED (index or
+/// `what` names the use of the accessor in messages. Errors: LOBE_ERROR_MALFORMED (an index or
 /// range outside the file, or an unknown type), LOBE_ERROR_LIMIT.
 lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
                                       gltf_elements *elements);
-/// Element `i` as numbers, normalised where the accessor says so; writes `elements->channels`
-/// values.
+/// Element `i` as numbers, normalised if the accessor says so; writes `elements->channels` values.
 void scenes_gltf_read_floats(const gltf_elements *elements, size_t i, float out[4]);
-/// Element `i` of unsigned integers.
+/// Element `i` of an accessor of unsigned integers.
 uint32_t scenes_gltf_read_index(const gltf_elements *elements, size_t i);
-/// The bytes of a buffer view. LOBE_ERROR_MALFORMED where they are not there.
+/// The bytes of a buffer view. LOBE_ERROR_MALFORMED if the file does not contain them.
 lobe_result scenes_gltf_open_view(const gltf_import *import, int view, const char *what,
                                   const uint8_t **bytes, size_t *length, size_t *stride);
 
-/// The triangles of a primitive as a list of indices into its accessors' elements; strips and
-/// fans are unrolled. `element_count` is that of its positions. The caller frees `*indices`.
+/// The triangles of a primitive as a list of indices of its accessors' elements; strips and fans
+/// are unrolled. `element_count` is the number of positions. The caller frees `*indices`.
 lobe_result scenes_gltf_read_triangles(const gltf_import *import, const gltf_primitive *primitive,
                                        const char *name, size_t element_count, uint32_t **indices,
                                        size_t *index_count);
 
-/// Converts primitive `primitive` of mesh `mesh` where that has not been done yet. `*state` then
+/// Converts primitive `primitive` of mesh `mesh` unless that has been done already. `*state` then
 /// holds its mesh and material, or GLTF_NOTHING_TO_DRAW.
 lobe_result scenes_gltf_convert_primitive(gltf_import *import, size_t mesh, size_t primitive,
                                           gltf_primitive_state **state);
-/// Makes `state->mirrored_mesh`: the mesh reflected in x.
+/// Makes `state->mirrored_mesh`, the mesh reflected in x.
 lobe_result scenes_gltf_convert_mirrored(gltf_import *import, gltf_primitive_state *state);
 
 /// `material` of -1: the default material of glTF.
 lobe_result scenes_gltf_convert_material(gltf_import *import, int material, int64_t *converted);
 
-/// The index of an image in the scene, decoded where it was not yet, or -1.
+/// The index of an image in the scene, or -1. Decodes the image if it has not been decoded yet.
 lobe_result scenes_gltf_convert_image(gltf_import *import, int image, bool colour,
                                       int32_t *converted);
 
-/// Decodes an image of colours (RGBA8_SRGB) that is not to be the scene's. Free it with
-/// lobe_image_free. LOBE_ERROR_MALFORMED where there is none of this index.
+/// Decodes a colour image (RGBA8_SRGB) without adding it to the scene. Free it with
+/// lobe_image_free. LOBE_ERROR_MALFORMED if there is no image with this index.
 lobe_result scenes_gltf_decode_image(gltf_import *import, int image, lobe_image *decoded);
 
-/// Makes the scene's environment of the image-based light that it has, if it has one.
+/// Makes the scene's environment from its image-based light, if it has one.
 lobe_result scenes_gltf_convert_environment(gltf_import *import);
 
-/// The columns of the rotation that a quaternion (x, y, z, w) of any length stands for. False where
-/// it has no length.
+/// The columns of the rotation given by a quaternion (x, y, z, w) of any length. False if its
+/// length is 0.
 bool scenes_gltf_rotation(const double quaternion[4], double columns[3][3]);
-/// The scene that is opened; -1 where the file has none. LOBE_ERROR_MALFORMED where the file's
-/// default is not there.
+/// The index of the scene to open; -1 if the file has none. LOBE_ERROR_MALFORMED if the file's
+/// default scene does not exist.
 lobe_result scenes_gltf_choose_scene(const gltf_import *import, int *scene);
 
 /// Places instances, lights and the camera by walking through the nodes.
@@ -129,8 +127,7 @@ lobe_result scenes_gltf_convert_nodes(gltf_import *import);
 /// `world` is column-major.
 lobe_result scenes_gltf_convert_light(gltf_import *import, int light, const double world[16]);
 lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const double world[16]);
-/// Moves the camera's target to the depth of the middle of the scene, for those who turn about
-/// it.
+/// Moves the camera's target to the depth of the middle of the scene, for orbiting around it.
 void scenes_gltf_aim_camera(lobe_scene *scene);
 
 #endif

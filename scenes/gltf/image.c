@@ -27,7 +27,7 @@ static void decode_percent(const char *uri, char *out) {
     *out = 0;
 }
 
-// The path of a file that is named relative to the glTF file; to be freed.
+// The path of a file named relative to the glTF file; to be released.
 static char *resolve(const lobe_allocator *allocator, const char *base, const char *uri) {
     const char *slash = strrchr(base, '/');
     size_t folder = slash ? (size_t)(slash - base) + 1 : 0;
@@ -39,7 +39,7 @@ static char *resolve(const lobe_allocator *allocator, const char *base, const ch
     return path;
 }
 
-// Where encoded bytes come from: memory of the document, or a file, to be freed.
+// Source of encoded bytes: memory of the document, or a file's content, to be released.
 typedef struct image_source {
     char name[96];
     const void *bytes;

@@ -11,7 +11,7 @@ typedef struct json_parser {
     const json_text *text;
     const char *at, *end;
     unsigned line, depth;
-    char path[256]; // of the value at hand, cut where it is too long
+    char path[256]; // of the current value, truncated if it is too long
     size_t path_length;
     lobe_result result;
 } json_parser;
@@ -42,7 +42,7 @@ static bool fail(json_parser *parser, const char *format, ...) {
 static size_t push_path(json_parser *parser, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-// Returns the length to go back to.
+// Returns the previous length, to restore later.
 static size_t push_path(json_parser *parser, const char *format, ...) {
     size_t before = parser->path_length;
     size_t room = sizeof parser->path - before;
@@ -88,7 +88,7 @@ static bool expect(json_parser *parser, char c) {
     if (take(parser, c))
         return true;
     if (parser->at >= parser->end)
-        return fail(parser, "the text ends where '%c' should be", c);
+        return fail(parser, "the text ends where '%c' is expected", c);
     return fail(parser, "'%c' expected", c);
 }
 
@@ -104,8 +104,8 @@ static size_t skip_digits(json_parser *parser) {
 }
 
 typedef struct json_number {
-    bool integer;   // neither sign, fraction nor exponent
-    uint64_t value; // of an integer; UINT64_MAX where it is larger
+    bool integer;   // without sign, fraction and exponent
+    uint64_t value; // of an integer; UINT64_MAX if it is larger
 } json_number;
 
 static uint64_t digits_value(const char *digits, size_t count) {
@@ -123,7 +123,7 @@ static bool read_number(json_parser *parser, json_number *number) {
     const char *digits = parser->at;
     size_t count = skip_digits(parser);
     if (count == 0 || (count > 1 && *digits == '0'))
-        return fail(parser, "not a number of JSON");
+        return fail(parser, "not a JSON number");
     number->value = digits_value(digits, count);
     if (take(parser, '.')) {
         number->integer = false;
@@ -156,7 +156,7 @@ static bool read_hexadecimal(json_parser *parser, unsigned *code) {
     return true;
 }
 
-// Characters beyond ASCII matter to no name that a schema lists: '?' stands for them.
+// No name in a schema has characters beyond ASCII: '?' stands for them.
 static bool read_escape(json_parser *parser, char *c) {
     static const char escapes[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
     unsigned code;
@@ -196,7 +196,7 @@ static bool read_string(json_parser *parser, char text[STRING_SIZE]) {
 static bool read_literal(json_parser *parser, const char *literal) {
     size_t length = strlen(literal);
     if ((size_t)(parser->end - parser->at) < length || memcmp(parser->at, literal, length) != 0)
-        return fail(parser, "no value of JSON begins here");
+        return fail(parser, "a JSON value expected");
     parser->at += length;
     return true;
 }
@@ -337,7 +337,7 @@ static bool check_nested(json_parser *parser, const json_schema *schema, bool ob
 static bool check_value(json_parser *parser, const json_schema *schema) {
     skip_space(parser);
     if (parser->at >= parser->end)
-        return fail(parser, "the text ends where a value should be");
+        return fail(parser, "the text ends where a value is expected");
     char first = peek(parser);
     if (!is_kind(schema->kind, first))
         return fail(parser, "%s expected", kind_name(schema->kind));
@@ -357,7 +357,7 @@ static bool check_value(json_parser *parser, const json_schema *schema) {
     default:
         if (first == '-' || is_digit(first))
             return check_number(parser, schema);
-        return fail(parser, "no value of JSON begins here");
+        return fail(parser, "a JSON value expected");
     }
 }
 

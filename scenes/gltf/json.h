@@ -7,8 +7,8 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// Checks JSON text (RFC 8259) against the types that a reader expects, before the reader sees
-/// it. Builds nothing: memory does not depend on the text.
+/// Checks JSON text (RFC 8259) against the types that a reader expects, before the reader sees it.
+/// Builds no document: memory use does not depend on the text.
 
 typedef enum json_kind {
     JSON_ANY,
@@ -31,11 +31,11 @@ typedef struct json_member {
 
 struct json_schema {
     json_kind kind;
-    const json_member *members; ///< of an object; ends with a NULL name; at most 32
-    const json_schema *element; ///< of an array; of an object: all members not listed. NULL: any
+    const json_member *members; ///< of an object, at most 32; the last has a NULL name
+    const json_schema *element; ///< of an array; of an object: unlisted members. NULL: any
     unsigned length;            ///< of an array; 0: any
-    bool filled;                ///< an array must not be empty
-    /// Called with each string (cut at 255 bytes), where not NULL; an error, which it has
+    bool filled;                ///< the array must not be empty
+    /// Unless NULL, called with each string (truncated to 255 bytes). An error, which it must have
     /// logged, ends the check.
     lobe_result (*visit)(void *user, const char *text);
 };
@@ -48,10 +48,11 @@ typedef struct json_text {
     void *user; ///< for json_schema.visit
 } json_text;
 
-/// Deepest nesting that is accepted.
+/// Deepest nesting accepted.
 #define JSON_MAXIMUM_DEPTH 128
 
-/// LOBE_ERROR_MALFORMED, with a line that says where and what, or what a visit returned.
+/// LOBE_ERROR_MALFORMED, with a message that says where and what, or the error that a visit
+/// returned.
 lobe_result scenes_json_check(const json_text *text, const json_schema *schema);
 
 #endif

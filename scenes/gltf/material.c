@@ -5,7 +5,7 @@
 #include "scenes/gltf/gltf.h"
 #include "scenes/scene/scene.h"
 
-// OpenGL's numbers, which glTF 2.0 keeps (sections 5.26.1 and 5.26.3).
+// OpenGL's constants, which glTF 2.0 keeps (sections 5.26.1 and 5.26.3).
 enum {
     FILTER_NEAREST = 9728,
     FILTER_LINEAR = 9729,
@@ -98,7 +98,7 @@ static lobe_result convert_texture(gltf_import *import, const gltf_texture_refer
     return result;
 }
 
-// Brings a factor into its range.
+// Clamps a factor to its range and counts the clamped ones.
 static float clamp_factor(gltf_import *import, double factor, double maximum) {
     double clamped = fmin(fmax(factor, 0), maximum);
     import->notes.clamped_factors += clamped != factor;
@@ -106,7 +106,7 @@ static float clamp_factor(gltf_import *import, double factor, double maximum) {
 }
 
 static void convert_factors(gltf_import *import, const gltf_material *from, lobe_material *to) {
-    const double largest = 1e6; // of light; beyond it only overflow is to be had
+    const double largest = 1e6; // of emitted light; beyond it products overflow
     for (int i = 0; i < 4; i++)
         to->base_colour[i] = clamp_factor(import, from->base_colour[i], 1);
     for (int i = 0; i < 3; i++)
@@ -126,7 +126,7 @@ static bool is_black(const float colour[3]) {
     return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
 }
 
-// A map whose factor is zero changes nothing, and is neither decoded nor sampled.
+// A map whose factor is zero has no effect, and is neither decoded nor sampled.
 static lobe_result convert_maps(gltf_import *import, const gltf_material *from, lobe_material *to) {
     const struct {
         const gltf_texture_reference *reference;

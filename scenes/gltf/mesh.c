@@ -25,13 +25,13 @@ static lobe_result out_of_memory(const gltf_import *import, const char *name) {
                           import->path, name);
 }
 
-// Which element each vertex of the mesh comes from; NULL: the same.
+// The element that each vertex of the mesh comes from; NULL: the one with the same index.
 typedef struct vertex_source {
     uint32_t *elements;
     size_t count;
 } vertex_source;
 
-// glTF 2.0, section 3.7.2.1: without normals the triangles are flat, so none shares a vertex.
+// glTF 2.0, section 3.7.2.1: without normals the triangles are flat, so they share no vertices.
 static bool source_every_corner(const lobe_allocator *allocator, uint32_t *indices,
                                 size_t index_count, vertex_source *source) {
     source->elements = lobe_allocate(allocator, index_count, sizeof *source->elements);
@@ -44,12 +44,12 @@ static bool source_every_corner(const lobe_allocator *allocator, uint32_t *indic
     return true;
 }
 
-// Primitives often share long accessors and index a part: only that part is taken, in the order
-// of first use. Where all is used, the order stays.
+// Primitives often share long accessors and index a part of them. Only that part is taken, in the
+// order of first use. If all elements are used, the order is unchanged.
 static bool source_used_elements(const lobe_allocator *allocator, uint32_t *indices,
                                  size_t index_count, size_t element_count, vertex_source *source) {
     uint32_t *vertex_of =
-        lobe_allocate(allocator, element_count, sizeof *vertex_of); // plus one; 0: unused
+        lobe_allocate(allocator, element_count, sizeof *vertex_of); // index plus one; 0: unused
     uint32_t *elements = lobe_allocate(
         allocator, index_count < element_count ? index_count : element_count, sizeof *elements);
     size_t used = 0;
@@ -103,7 +103,7 @@ static lobe_result fill_mesh(gltf_import *import, const gltf_attributes *attribu
     return result;
 }
 
-// Brings the file's tangents to the form that lobe promises; counts those that have no direction.
+// Converts the file's tangents to the form that lobe guarantees; counts those without a direction.
 static size_t orthonormalise_tangents(lobe_mesh *mesh) {
     size_t bad = 0;
     for (size_t i = 0; i < mesh->vertex_count; i++) {
@@ -149,7 +149,7 @@ static void note_missing_coordinates(gltf_import *import, const lobe_material *m
     import->notes.missing_coordinates += missing;
 }
 
-// Leaves `mesh` without indices where no triangle has an area.
+// Leaves `mesh` without indices if no triangle has an area.
 static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primitive,
                               const lobe_material *material, const char *name, lobe_mesh *mesh) {
     gltf_attributes attributes;

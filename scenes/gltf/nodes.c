@@ -74,7 +74,8 @@ static lobe_result world_transform(const gltf_import *import, int index, const d
     else
         memcpy(out, local, sizeof local);
     for (int i = 0; i < 16; i++) {
-        // Squares up to here are finite in single precision; a NaN fails too.
+        // Squares of values up to this limit are finite in single precision. NaN fails the test,
+        // too.
         if (!(fabs(out[i]) <= 1e18))
             return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
                                   "%s: node %d: its transform is out of range", import->path,
@@ -140,7 +141,7 @@ static void push_children(const gltf_import *import, node_tree *tree, int node) 
         tree->stack[tree->depth++] = n->children[k - 1];
 }
 
-// With one parent each, the nodes that no root reaches are those of loops and below them.
+// Each node has one parent, so nodes that no root reaches are in loops or below loops.
 static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
     size_t count = import->document->node_count;
     tree->depth = 0;
@@ -169,7 +170,7 @@ static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
 
 typedef enum orientation { ORIENTATION_KEPT, ORIENTATION_MIRRORED, ORIENTATION_FLAT } orientation;
 
-// The sign of the determinant, 0 where the three axes span no volume worth the name.
+// The sign of the determinant; 0 if the three axes span practically no volume.
 static orientation orientation_of(const double m[16]) {
     double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
                          m[8] * (m[1] * m[6] - m[2] * m[5]);
@@ -183,7 +184,7 @@ static orientation orientation_of(const double m[16]) {
     return determinant < 0 ? ORIENTATION_MIRRORED : ORIENTATION_KEPT;
 }
 
-// A transform that mirrors is split into a mirrored mesh and a transform that does not: then
+// A mirroring transform is split into a mirrored mesh and a transform that does not mirror: then
 // winding, normals and tangent frames are right in object space as well as in the world.
 static lobe_result place(gltf_import *import, gltf_primitive_state *state, const double world[16]) {
     float transform[16];
@@ -241,7 +242,7 @@ static lobe_result convert_node(gltf_import *import, int index, const double wor
     return result;
 }
 
-// Depth first, in the order of the file, without recursion: a chain of nodes may be long.
+// Depth first, in the order of the file; not recursive, because a chain of nodes may be long.
 static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
     if (root < 0 || (size_t)root >= import->document->node_count)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
@@ -267,7 +268,7 @@ static lobe_result walk(gltf_import *import, node_tree *tree, int root) {
     return LOBE_OK;
 }
 
-// The default scene, else the first.
+// The default scene, or else the first.
 lobe_result scenes_gltf_choose_scene(const gltf_import *import, int *scene) {
     const gltf_document *document = import->document;
     *scene = document->scene >= 0 ? document->scene : document->scene_count > 0 ? 0 : -1;
@@ -277,7 +278,7 @@ lobe_result scenes_gltf_choose_scene(const gltf_import *import, int *scene) {
     return LOBE_OK;
 }
 
-// Without a scene all nodes that have no parent.
+// A file without scenes shows all nodes that have no parent.
 static lobe_result walk_scene(gltf_import *import, node_tree *tree) {
     const gltf_document *document = import->document;
     int scene;

@@ -40,9 +40,10 @@ void scenes_gltf_report_notes(const gltf_import *import) {
     report_count(import, notes->degenerate_triangles, "degenerate triangles dropped");
     report_count(import, notes->repaired_normals, "normals of length zero recomputed");
     report_count(import, notes->repaired_tangents,
-                 "tangents without a direction; those of their meshes recomputed");
-    report_count(import, notes->clamped_factors, "factors of materials brought into their range");
-    report_count(import, notes->flat_instances, "instances that are scaled to nothing left out");
+                 "tangents without a direction; recomputed all tangents of their meshes");
+    report_count(import, notes->clamped_factors, "material factors clamped to their ranges");
+    report_count(import, notes->flat_instances,
+                 "instances left out because they are scaled to nothing");
     report_count(import, notes->missing_coordinates,
-                 "meshes lack texture coordinates that their material asks for");
+                 "meshes lack texture coordinates that their material uses");
 }

@@ -5,7 +5,7 @@
 #include "scenes/gltf/json.h"
 
 // ---------------------------------------------------------------------------------------------
-// What every reader must know first
+// Version and extensions, which are checked first
 
 typedef struct gltf_head {
     const char *path;
@@ -16,7 +16,7 @@ static lobe_result fail(const gltf_head *head, const char *what, const char *whi
     return lobe_host_fail(head->host, LOBE_ERROR_UNSUPPORTED, "%s: %s %s", head->path, what, which);
 }
 
-// Minor versions are compatible: a reader of 2.0 reads 2.1 unless minVersion forbids.
+// Minor versions are compatible: a reader of 2.0 reads 2.1 unless minVersion forbids it.
 static lobe_result visit_version(void *user, const char *text) {
     return strncmp(text, "2.", 2) == 0 ? LOBE_OK
                                        : fail(user, "lobe reads glTF 2.0, this is version", text);
@@ -173,8 +173,8 @@ OBJECT(skin, {"joints", &indices, true}, {"skeleton", &integer, false},
        {"inverseBindMatrices", &integer, false}, {"name", &text, false});
 ARRAY_OF(skins, skin);
 
-// EXT_lights_image_based. The harmonics of irradiance and the size of the images, which it wants
-// as well, are not read.
+// EXT_lights_image_based. It also requires irradiance coefficients and the image size, which are
+// not read.
 static const json_schema cube_faces = {.kind = JSON_ARRAY, .element = &integer, .length = 6};
 static const json_schema cube_levels = {.kind = JSON_ARRAY, .element = &cube_faces, .filled = true};
 static const json_schema harmonics = {.kind = JSON_ARRAY, .element = &numbers_3, .length = 9};

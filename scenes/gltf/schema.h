@@ -7,12 +7,12 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// Whether lobe reads the extension of that name.
+/// Whether lobe supports the extension of that name.
 bool scenes_gltf_extension_supported(const char *name);
 
-/// Checks the JSON text of a glTF file as far as lobe reads it: first its version and the
-/// extensions it requires, then the type of every value, before a parser builds anything.
-/// Errors: LOBE_ERROR_MALFORMED; LOBE_ERROR_UNSUPPORTED (the version, or a required extension).
+/// Checks the JSON text of a glTF file as far as lobe reads it, before a parser builds anything:
+/// first its version and the extensions it requires, then the type of every value. Errors:
+/// LOBE_ERROR_MALFORMED; LOBE_ERROR_UNSUPPORTED (the version, or a required extension).
 lobe_result scenes_gltf_schema_check(const char *path, const char *json, size_t size,
                                      const lobe_host *host);
 

@@ -2,7 +2,7 @@
 
 #include "scenes/gltf/gltf.h"
 
-// The vertices of a primitive in the order of drawing: indexed, or one after the other.
+// The vertices of a primitive in drawing order: indexed, or consecutive.
 typedef struct vertex_order {
     gltf_elements elements;
     bool indexed;
@@ -48,7 +48,7 @@ static lobe_result count_triangles(const gltf_import *import, int mode, const ch
     return LOBE_OK;
 }
 
-// glTF 2.0, section 3.7.2.1: which vertices triangle `t` of a list, strip or fan has.
+// glTF 2.0, section 3.7.2.1: the vertices of triangle `t` of a list, strip or fan.
 static void triangle_corners(int mode, size_t t, size_t corner[3]) {
     size_t odd = t % 2;
     switch (mode) {

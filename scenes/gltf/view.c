@@ -78,7 +78,7 @@ static bool convert_projection(const gltf_camera *from, lobe_camera *to) {
         return from->field_of_view > 0 && from->field_of_view < M_PI &&
                in_range(from->near_plane, 1e-18, 1e18);
     }
-    // An orthographic near plane may lie in the eye; lobe's may not.
+    // glTF allows an orthographic near plane at the eye; lobe does not.
     to->near_plane = fmaxf(to->near_plane, 1e-4f);
     to->orthographic_height = (float)(2 * fabs(from->height));
     return in_range(fabs(from->height), 1e-18, 1e18) && in_range(from->near_plane, 0, 1e18);
@@ -99,7 +99,7 @@ lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const do
                               "%s: camera %d has a value out of its range", import->path, camera);
     vector3_store(eye, to.eye);
     vector3_store(up, to.up);
-    // Far from the origin one metre is less than the precision of a float.
+    // Far from the origin, one metre is less than the precision of a float.
     double distance = fmax(1, 1e-3 * vector3_length(eye));
     vector3_store(vector3_subtract(eye, vector3_scale(back, distance)), to.target);
     import->scene->camera = to;

@@ -14,10 +14,10 @@
 
 // Metres.
 static const double cloth_width = 2.2, cloth_height = 1.5, texel_size = 0.0005;
-// Of maps of few texels, which would else repeat too often to be told apart.
+// For maps with few texels, which would otherwise repeat too often to be recognisable.
 static const double smallest_tile = 0.05;
 
-// Waves run across the cloth and swing a little on their way down; they are free at the bottom.
+// Waves run across the cloth and swing slightly on the way down; the lower edge hangs free.
 static void place_on_cloth(const void *shape, double u, double v, lobe_scene_vertex *vertex) {
     const double *tile = shape;
     double wave[2];
@@ -69,8 +69,8 @@ static void look(lobe_scene *scene, lobe_carrier carrier) {
     }
 }
 
-// A plane is lit from behind, and cloth from the side that the camera does not stand on, so that
-// highlights lie between light and camera; a sphere from the front.
+// A plane is lit from behind, and cloth from the side opposite the camera, so that highlights lie
+// between light and camera; a sphere is lit from the front.
 static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
     static const float directions[][3] = {
         [LOBE_CARRIER_PLANE] = {-0.36f, -0.48f, 0.8f},
@@ -91,7 +91,7 @@ static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_
 
 lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
     lobe_mesh mesh;
-    // One walks round a cloth, and sees its back.
+    // A camera may move around the cloth and see its back.
     scene->materials[0].double_sided |= carrier == LOBE_CARRIER_CLOTH;
     lobe_result status = make_mesh(scene, carrier, host, &mesh);
     if (!status)

@@ -5,8 +5,8 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// Adds the carrier of a material to a scene, with its camera and lights. The scene's first
-/// material and its images must have been added.
+/// Adds the carrier of a material to a scene, with its camera and lights. The scene must already
+/// have its first material and images.
 lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host);
 
 #endif

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-// Longer names, which no common file system has, are not recognised.
+// Longer names, which common file systems do not allow, are not recognised.
 enum { MAXIMUM_LENGTH = 512, MAXIMUM_WORDS = 64 };
 
 typedef struct map_word {
@@ -14,7 +14,7 @@ typedef struct map_word {
     material_map map;
 } map_word;
 
-// One word, or two that follow one another, joined.
+// One word, or two consecutive words joined.
 static const map_word map_words[] = {
     {"albedo", MATERIAL_MAP_ALBEDO},
     {"base", MATERIAL_MAP_ALBEDO},
@@ -69,8 +69,8 @@ static const char *extension(const char *name) {
     return point ? point : name + strlen(name);
 }
 
-// Splits a name into words of small letters and digits, each ended by 0 in `text`; a word takes
-// at most twice its letters there. Returns how many.
+// Splits a name into lower-case words of letters and digits, each terminated by 0 in `text`; a word
+// takes at most twice its length there. Returns their number.
 static size_t split(const char *name, char text[2 * MAXIMUM_LENGTH + 1],
                     const char *words[MAXIMUM_WORDS]) {
     size_t count = 0;

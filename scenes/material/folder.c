@@ -12,10 +12,11 @@
 #include "scenes/material/image_channel.h"
 #include "scenes/scene/scene.h"
 
-// What stands in for a map that the folder lacks.
+// Used for maps that the folder lacks.
 static const float default_grey = 0.5f, default_roughness = 0.5f;
 
-// No file says how deep its relief is. Where no normal map tells, this is a usual one for stone.
+// Files do not state the depth of their relief. If no normal map tells it, this is common for
+// stone.
 static const float default_height_scale = 0.05f;
 
 typedef struct material_folder {
@@ -31,8 +32,8 @@ static lobe_result out_of_memory(const material_folder *folder) {
                           folder->path);
 }
 
-// Of several files for one map the first in alphabetical order is taken, whatever order the file
-// system lists them in.
+// Of several files for one map, the first in alphabetical order is used, independent of the order
+// in which the file system lists them.
 static lobe_result consider_file(material_folder *folder, const char *name) {
     material_map map = scenes_material_file_map(name);
     if (map == MATERIAL_MAP_COUNT)
@@ -91,7 +92,7 @@ static char *file_path(const material_folder *folder, material_map map) {
     return path;
 }
 
-// Loads the file of a map; where there is none, `image` stays empty.
+// Loads the file of a map; without one, `image` stays empty.
 static lobe_result load(const material_folder *folder, material_map map, scene_image_use use,
                         lobe_image *image) {
     *image = (lobe_image){0};
@@ -105,7 +106,7 @@ static lobe_result load(const material_folder *folder, material_map map, scene_i
     return status;
 }
 
-// Hands an image, which may be empty, to the scene and makes `use` refer to it.
+// Moves an image, which may be empty, to the scene and makes `use` refer to it.
 static lobe_result attach(material_folder *folder, const char *name, lobe_image *image,
                           lobe_texture_use *use) {
     uint32_t index;
@@ -153,7 +154,7 @@ static lobe_result add_heights(material_folder *folder) {
                   &folder->material.height_map);
 }
 
-// One image with roughness and metallic in their channels, as glTF wants them.
+// One image with roughness and metallic in the channels that glTF defines.
 static lobe_result add_packed(material_folder *folder) {
     lobe_material *material = &folder->material;
     bool occlusion = folder->files[MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC];
@@ -192,7 +193,8 @@ static lobe_result pack_separate(material_folder *folder) {
 static lobe_result add_roughness_and_metallic(material_folder *folder) {
     char *const *files = folder->files;
     folder->material.roughness = default_roughness;
-    // Where nothing says what it is made of: a grey surface shows its relief best as metal.
+    // With nothing known of the material, metal is assumed: a grey surface shows its relief best
+    // so.
     folder->material.metallic = files[MATERIAL_MAP_ALBEDO] ? 0 : 1;
     if (files[MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC] || files[MATERIAL_MAP_METALLIC_ROUGHNESS])
         return add_packed(folder);

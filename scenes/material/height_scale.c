@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 static const double least_correlation = 0.2;
-// Of a texel's normal: steeper ones would outweigh all others.
+// Smallest z of a normal that counts: steeper ones would outweigh all others.
 static const double least_cosine = 0.1;
 
 static double channel(const lobe_image *image, uint32_t column, uint32_t row, int index) {
@@ -15,7 +15,7 @@ static double channel(const lobe_image *image, uint32_t column, uint32_t row, in
     return ((const uint8_t *)image->texels)[offset] / 255.0;
 }
 
-// Per width of the map, towards higher columns and rows; the map repeats.
+// Slope per width of the map, towards higher columns and rows; the map repeats.
 static void height_slope(const lobe_image *image, uint32_t column, uint32_t row, double slope[2]) {
     uint32_t w = image->width, h = image->height;
     double across =

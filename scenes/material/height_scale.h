@@ -5,11 +5,11 @@
 
 #include <lobe/image.h>
 
-/// How deep a relief is that a height map and a normal map show alike: the height_scale of a
-/// lobe_material at which the slopes of the heights have the mean square of those of the normals.
-/// (Least squares would make it too flat: heights of eight bits are noisy.) Negative where the
-/// heights are depths. Both maps are RGBA8_UNORM or RGBA16_UNORM and repeat; heights in red,
-/// normals +Y. False where the extents differ, or where the two have little in common: their
+/// The depth of a relief that is given both as a height map and as a normal map: the height_scale
+/// of a lobe_material at which the slopes of the heights have the same mean square as those of the
+/// normals. (Least squares would make it too flat, because 8-bit heights are noisy.) Negative if
+/// the heights are depths. Both maps are RGBA8_UNORM or RGBA16_UNORM and repeat; heights are in
+/// red, normals are +Y. False if the extents differ, or if the two have little in common: their
 /// slopes' correlation is below 0.2.
 bool scenes_height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale);
 

@@ -12,8 +12,8 @@ static double read_texel(const image_channel *from, uint32_t column, uint32_t ro
     return ((const uint8_t *)from->image->texels)[index] / 255.0;
 }
 
-// The two texels of a line of `extent` on either side of a position in texels, which lies in
-// [-0.5, extent - 0.5), and how far it is from the first.
+// The two texels of a line of `extent` on either side of a position in texels, in [-0.5, extent -
+// 0.5), and its distance from the first.
 static double neighbours(double position, uint32_t extent, uint32_t *first, uint32_t *second) {
     double below = floor(position);
     *first = below < 0 ? extent - 1 : (uint32_t)below;
@@ -21,7 +21,7 @@ static double neighbours(double position, uint32_t extent, uint32_t *first, uint
     return position - below;
 }
 
-// At a point of the whole image, u and v in [0, 1).
+// Samples at a point of the whole image, u and v in [0, 1).
 static double interpolate(const image_channel *from, double u, double v) {
     uint32_t left, right, above, below;
     double x = neighbours(u * from->image->width - 0.5, from->image->width, &left, &right);
@@ -53,9 +53,10 @@ lobe_result scenes_image_channel_pack(const image_channel channels[4], const cha
             height = channels[i].image->height > height ? channels[i].image->height : height;
         }
     if ((size_t)width * height > SCENE_IMAGE_MAXIMUM_TEXELS)
-        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
-                              "%s: maps together make %u x %u texels, more than lobe takes", name,
-                              width, height);
+        return lobe_host_fail(
+            host, LOBE_ERROR_LIMIT,
+            "%s: packed together, the maps have %u x %u texels, more than lobe allows", name, width,
+            height);
     lobe_result status = lobe_image_allocate(packed, LOBE_FORMAT_RGBA8_UNORM, width, height, host);
     for (uint32_t i = 0; !status && i < 4; i++)
         fill_channel(&channels[i], i, packed);

@@ -7,7 +7,7 @@
 
 /// Single channels of RGBA8_UNORM and RGBA16_UNORM images.
 
-/// Where a channel of a packed image comes from.
+/// The source of a channel of a packed image.
 typedef struct image_channel {
     const lobe_image *image; ///< NULL or empty: `value` everywhere
     uint32_t channel;        ///< of `image` [0, 3]
@@ -15,12 +15,12 @@ typedef struct image_channel {
 } image_channel;
 
 /// Packs four channels into an RGBA8_UNORM image as wide as the widest and as high as the highest
-/// of them (1 x 1 where none has an image). Smaller ones are interpolated bilinearly, repeating
-/// at the edges. `name` is for messages. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
+/// of them (1 x 1 if none has an image). Smaller ones are interpolated bilinearly, repeating at the
+/// edges. `name` is for messages. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result scenes_image_channel_pack(const image_channel channels[4], const char *name,
                                       const lobe_host *host, lobe_image *packed);
 
-/// Replaces a channel by one minus it.
+/// Replaces a channel by one minus its value.
 void scenes_image_channel_invert(lobe_image *image, uint32_t channel);
 
 #endif

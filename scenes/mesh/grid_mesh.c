@@ -12,7 +12,7 @@ static void place_vertices(const grid_mesh *grid, lobe_mesh *mesh) {
                         vertex);
 }
 
-// Vertices that differ in texture coordinates alone share a normal, lest the seam be seen.
+// Vertices that differ in texture coordinates alone share a normal, to hide the seam.
 static void close_normals(const grid_mesh *grid, lobe_mesh *mesh) {
     for (uint32_t row = 0; row <= grid->rows; row++) {
         lobe_scene_vertex *first = mesh->vertices + (size_t)row * (grid->columns + 1);

@@ -11,10 +11,10 @@ typedef struct grid_mesh {
     const char *name;
     uint32_t rows, columns; ///< quadrilaterals, 1 or more of each
     bool closed;            ///< the last column of vertices lies on the first
-    /// Sets position and first texture coordinates of a vertex; u = column / columns from the left
-    /// and v = row / rows from the top, as seen on the front.
+    /// Sets the position and the first texture coordinates of a vertex; u = column / columns from
+    /// the left and v = row / rows from the top, as seen on the front.
     void (*place)(const void *shape, double u, double v, lobe_scene_vertex *vertex);
-    const void *shape; ///< what `place` is given
+    const void *shape; ///< argument of `place`
 } grid_mesh;
 
 /// Makes a mesh with smooth normals and tangents; `mesh` is overwritten. Errors: as

@@ -28,7 +28,7 @@ lobe_result scenes_mesh_allocate(lobe_mesh *mesh, const char *name, size_t verte
         index_count > MESH_MAXIMUM_COUNT || index_count % 3 != 0) {
         *mesh = (lobe_mesh){0};
         return lobe_host_fail(host, LOBE_ERROR_LIMIT,
-                              "mesh '%s': %zu vertices and %zu indices cannot be", name,
+                              "mesh '%s': %zu vertices and %zu indices are not possible", name,
                               vertex_count, index_count);
     }
     lobe_result result = allocate_arrays(lobe_host_allocator(host), mesh, name);

@@ -5,39 +5,41 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// Meshes: memory, and what can be computed from positions and triangles alone. How a mesh
-/// becomes part of a scene is in scenes/scene/scene.h.
+/// Meshes: memory, and what can be computed from positions and triangles alone. Adding a mesh to a
+/// scene is in scenes/scene/scene.h.
 
 /// Allocates zeroed vertices (colours 1) and zeroed indices; `mesh` is overwritten, `name` is
-/// copied. LOBE_ERROR_LIMIT where a count is 0, above 2^31, or the indices are no multiple of 3.
+/// copied. LOBE_ERROR_LIMIT if a count is 0 or above 2^31, or the number of indices is not a
+/// multiple of 3.
 lobe_result scenes_mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
                                  size_t index_count, const lobe_host *host);
 
-/// Frees the name, vertices and indices and zeroes the structure. An already freed one is fine.
+/// Frees the name, vertices and indices and zeroes the structure. May be called repeatedly.
 void scenes_mesh_free(lobe_mesh *mesh);
 
-/// Smooth normals: at each vertex the mean of its triangles' normals, weighted by their areas.
-/// A vertex of no triangle, or whose triangles cancel, gets +Y. Vertices are not welded: where
-/// positions repeat, an edge stays sharp.
+/// Smooth normals: at each vertex the mean of its triangles' normals, weighted by area. A vertex
+/// without triangles, or whose triangles cancel, gets +Y. Vertices are not welded: where positions
+/// repeat, edges stay sharp.
 lobe_result scenes_mesh_compute_normals(lobe_mesh *mesh, const lobe_host *host);
 
-/// Recomputes, as scenes_mesh_compute_normals would, only normals that are shorter than 1e-6 or not
-/// finite, and brings the others to unit length. `*repaired` counts the recomputed ones.
+/// Recomputes, like scenes_mesh_compute_normals, only normals that are shorter than 1e-6 or not
+/// finite, and normalises the others. `*repaired` counts the recomputed ones.
 lobe_result scenes_mesh_repair_normals(lobe_mesh *mesh, const lobe_host *host, size_t *repaired);
 
-/// Tangents along increasing u, orthonormal to the (unit) normals; w is such that the bitangent
-/// w * cross(normal, tangent) runs up the image, against v, as +Y normal maps ask for. `use` says
-/// which set of coordinates and how it is transformed before the fetch, so that a normal map's x
-/// axis is the tangent; NULL: the first set as it is. Where coordinates are missing or
-/// degenerate: any direction orthogonal to the normal, w = 1. A vertex whose triangles disagree
-/// about w is split in two, so vertices may be appended.
+/// Tangents along increasing u, orthonormal to the (unit) normals; w is such that the bitangent w *
+/// cross(normal, tangent) runs up the image, against v, as +Y normal maps require. `use` states the
+/// set of coordinates and their transform before the fetch, so that the x axis of a normal map is
+/// the tangent; NULL: the first set, not transformed. Where coordinates are missing or degenerate:
+/// any direction orthogonal to the normal, w = 1. A vertex whose triangles disagree about w is
+/// split in two, so vertices may be appended.
 lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                          const lobe_host *host);
 
 /// Any unit vector orthogonal to the unit vector `normal`.
 void scenes_mesh_orthogonal(const float normal[3], float tangent[3]);
 
-/// Drops triangles without area: two equal indices, or corners on one line. Returns how many.
+/// Drops triangles without area: those with two equal indices or with their corners on one line.
+/// Returns their number.
 size_t scenes_mesh_drop_degenerate(lobe_mesh *mesh);
 
 /// Sets minimum and maximum from the positions.

@@ -39,8 +39,8 @@ lobe_result scenes_shape_plane(float width, float depth, float tile, const lobe_
     return LOBE_OK;
 }
 
-// A face looks along `axis`, forwards or backwards; `right` and `down` are what a viewer in front
-// of it, whose up is +Y (of the upper and lower face: away from +Z), would say.
+// A face looks along `axis`, forwards or backwards; `right` and `down` are as seen by a viewer in
+// front of it with +Y up (for the upper and lower face: with -Z up).
 static void place_face(const float size[3], float tile, int face, lobe_scene_vertex vertices[4]) {
     static const int8_t normals[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
@@ -93,7 +93,7 @@ static void place_on_sphere(double u, double v, lobe_scene_vertex *vertex) {
     vertex->tangent[3] = 1;
 }
 
-// A quadrilateral at a pole has one side of no length, and thus one triangle of no area.
+// A quadrilateral at a pole has one side of length 0, and thus one triangle without area.
 static void connect_sphere(uint32_t rows, uint32_t columns, uint32_t *indices) {
     for (uint32_t row = 0; row < rows; row++)
         for (uint32_t column = 0; column < columns; column++) {

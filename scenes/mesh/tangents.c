@@ -3,12 +3,12 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/vector.h"
 
-// Which handednesses the triangles of a vertex ask for.
+// The handednesses that the triangles of a vertex require.
 enum { RIGHT_HANDED = 1, LEFT_HANDED = 2, BOTH_HANDED = 3 };
 
-// One triangle's share in the tangents of its corners.
+// One triangle's contribution to the tangents of its corners.
 typedef struct triangle_frame {
-    vector3 tangent; // unit length times the area
+    vector3 tangent; // length: the area
     vector3 normal;
     bool mirrored; // coordinates run clockwise as seen on the front, image rows downwards
 } triangle_frame;
@@ -36,7 +36,7 @@ static bool measure_triangle(const lobe_mesh *mesh, const uint32_t corner[3],
     double du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
     double determinant = du1 * dv2 - du2 * dv1;
     double extent = du1 * du1 + dv1 * dv1 + du2 * du2 + dv2 * dv2;
-    // Below this the direction is rounding noise of single-precision coordinates.
+    // Below this, the direction is rounding noise of single-precision coordinates.
     if (!(fabs(determinant) > 1e-10 * extent))
         return false;
     vector3 edge1 = vector3_subtract(p[1], p[0]), edge2 = vector3_subtract(p[2], p[0]);
@@ -50,8 +50,8 @@ static bool measure_triangle(const lobe_mesh *mesh, const uint32_t corner[3],
     return true;
 }
 
-// The bitangent runs up the image, against v: for an image that is not mirrored it is
-// cross(normal, tangent). A normal that points away from the front turns this round.
+// The bitangent runs up the image, against v: for an image that is not mirrored it is cross(normal,
+// tangent). A normal that points away from the front reverses this.
 static unsigned corner_handedness(const lobe_scene_vertex *vertex, const triangle_frame *frame) {
     bool away = vector3_dot(frame->normal, vector3_load(vertex->normal)) < 0;
     return frame->mirrored != away ? LEFT_HANDED : RIGHT_HANDED;
@@ -69,7 +69,7 @@ static void collect_handedness(const lobe_mesh *mesh, const lobe_texture_use *us
     }
 }
 
-// Copies each vertex that is asked for both; `copies` receives where to.
+// Copies each vertex that needs both handednesses; `copies` receives the indices of the copies.
 static bool append_copies(lobe_mesh *mesh, const unsigned char *handedness, uint32_t *copies) {
     size_t count = mesh->vertex_count;
     for (size_t i = 0; i < mesh->vertex_count; i++)
@@ -167,7 +167,7 @@ lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use
 
 void scenes_mesh_orthogonal(const float normal[3], float tangent[3]) {
     vector3 n = vector3_load(normal);
-    // The axis that the normal leans on least, so that the cross product stays long.
+    // The axis farthest from the normal, so that the cross product stays long.
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
     vector3 axis = {x <= y && x <= z, y < x && y <= z, z < x && z < y};
     vector3 t = vector3_cross(axis, n);

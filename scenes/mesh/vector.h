@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/// Three-component vectors in double precision, in which positions near the limits of float can
-/// be multiplied without overflow.
+/// Vectors of three doubles, so that positions near the limits of float can be multiplied without
+/// overflow.
 typedef struct vector3 {
     double x, y, z;
 } vector3;
@@ -40,7 +40,7 @@ static inline vector3 vector3_cross(vector3 a, vector3 b) {
     return (vector3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// A point under an affine transform, column-major.
+/// A point transformed by a column-major affine transform.
 static inline vector3 vector3_transform(const float m[16], vector3 p) {
     return (vector3){m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12],
                      m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
@@ -51,8 +51,7 @@ static inline double vector3_length(vector3 a) {
     return sqrt(vector3_dot(a, a));
 }
 
-/// Brings `*a` to unit length; false, `*a` unchanged, where it is no longer than `shortest` or
-/// not finite.
+/// Normalises `*a`. False, with `*a` unchanged, if it is no longer than `shortest` or not finite.
 static inline bool vector3_normalise(vector3 *a, double shortest) {
     double length = vector3_length(*a);
     if (!(length > shortest) || !isfinite(length))

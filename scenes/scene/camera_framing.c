@@ -5,25 +5,25 @@
 #include "scenes/mesh/vector.h"
 
 #define FIELD_OF_VIEW (40 * M_PI / 180)
-// Part of the picture's width or height that the scene fills.
+// Fraction of the picture's width or height that the scene fills.
 #define FILLED 0.95
 
-/// The picture's axes in the world, about a centre: which keeps small scenes far from the origin
-/// precise.
+/// The picture's axes in the world, relative to a centre, which keeps small scenes far from the
+/// origin precise.
 typedef struct picture_axes {
     vector3 centre, right, up, forward;
 } picture_axes;
 
 /// Along one axis of the picture, all lines of sight lie between two planes through the eye. A
-/// point at (x, z), z forward, lies between them where |x - eye_x| <= t (z - eye_z), t the tangent
-/// of half the angle: hence low = max(x - t z) <= eye_x - t eye_z and
-/// eye_x + t eye_z <= min(x + t z) = high.
+/// point at (x, z), z forward, lies between them if |x - eye_x| <= t (z - eye_z), where t is the
+/// tangent of half the angle: hence low = max(x - t z) <= eye_x - t eye_z and eye_x + t eye_z <=
+/// min(x + t z) = high.
 typedef struct picture_extent {
     double tangent, low, high;
 } picture_extent;
 
-/// Where the eye may be along one axis of the picture, and what it sees from the middle of that:
-/// the largest tangents to either side.
+/// Where the eye may be along one axis of the picture, and the largest tangents to either side as
+/// seen from the middle of that range.
 typedef struct eye_range {
     double low, high, below, above;
 } eye_range;
@@ -69,7 +69,7 @@ static void visit_points(picture_frame *frame, visit *visit) {
     }
     if (frame->radius > 0)
         return;
-    // Nothing, or a single point: it is seen as if it were a cube.
+    // An empty scene or a single point is framed as if it were a cube.
     for (int corner = 0; corner < 8; corner++)
         visit_point(
             frame, visit,
@@ -78,7 +78,7 @@ static void visit_points(picture_frame *frame, visit *visit) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// How near the eye may be
+// How near the eye may come
 
 static void extend(picture_extent *extent, double x, double z) {
     extent->low = fmax(extent->low, x - extent->tangent * z);
@@ -97,13 +97,13 @@ static double nearest_eye(const picture_extent *extent) {
 
 static void approach(picture_frame *frame) {
     visit_points(frame, include);
-    // From what is long and points at it, the eye would not keep away otherwise.
+    // Otherwise the eye would come too close to a long object that points at it.
     const double closest = frame->nearest - frame->radius / 2;
     frame->eye = fmin(fmin(nearest_eye(&frame->across), nearest_eye(&frame->upright)), closest);
 }
 
 // ---------------------------------------------------------------------------------------------
-// Where the eye stands aside, so that as much is free on the left as on the right
+// Where the eye is to the side, so that the free space on both sides is equal
 
 static eye_range range_from(const picture_extent *extent, double eye) {
     return (eye_range){.low = extent->low + extent->tangent * eye,
@@ -125,7 +125,7 @@ static void look_at(picture_frame *frame, double across, double upright, double 
     look(&frame->eye_upright, upright, forward - frame->eye);
 }
 
-/// To the half where the eye sees both ends under more equal angles.
+/// Keeps the half in which the eye sees both ends under more equal angles.
 static void halve(eye_range *range) {
     if (range->above > range->below)
         range->low = middle(range);
@@ -135,7 +135,7 @@ static void halve(eye_range *range) {
 }
 
 static void centre(picture_frame *frame) {
-    // The steps leave 1/256 of the play there is.
+    // Leaves 1/256 of the initial range.
     const int steps = 8;
     frame->eye_across = range_from(&frame->across, frame->eye);
     frame->eye_upright = range_from(&frame->upright, frame->eye);

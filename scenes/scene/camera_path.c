@@ -5,11 +5,11 @@
 #include "scenes/mesh/circle.h"
 #include "scenes/mesh/vector.h"
 
-// Powers of two by which the distance has grown where the path is farthest, and where it turns:
+// Powers of two by which the distance has grown at the farthest point of the path, and on its turn:
 // 64 and 8 times.
 static const double farthest = 6, middle = 3;
 
-// The path comes back from its farthest point as fast as it went there.
+// The path comes back from its farthest point at the speed it went there.
 static double growth(double part) {
     double out = fmin(part, 0.5) * 2 * farthest;
     double back = fmax(part - 0.5, 0) * 2 * farthest;

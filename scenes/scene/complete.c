@@ -4,7 +4,7 @@
 #include "scenes/mesh/vector.h"
 #include "scenes/scene/scene.h"
 
-// Squares and products of lengths up to here stay within single precision on the GPU.
+// Squares and products of lengths up to this stay within single precision on the GPU.
 #define SCENE_MAXIMUM_LENGTH 1e18
 
 static void include_point(vector3 p, vector3 *minimum, vector3 *maximum) {
@@ -33,7 +33,8 @@ static lobe_result set_bounds(lobe_scene *scene, const lobe_host *host) {
         include_instance(scene, &scene->instances[i], &minimum, &maximum);
     double largest = fmax(vector3_length(minimum), vector3_length(maximum));
     if (!(largest <= SCENE_MAXIMUM_LENGTH))
-        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: reaches farther than %g m", scene->name,
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT,
+                              "%s: extends farther than %g m from the origin", scene->name,
                               SCENE_MAXIMUM_LENGTH);
     vector3_store(minimum, scene->minimum);
     vector3_store(maximum, scene->maximum);
@@ -55,7 +56,7 @@ lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host) {
         return result;
     if (!scene->has_camera)
         lobe_scene_frame(scene, 16.0 / 9, &scene->camera);
-    // Of an empty scene, that it is empty is all there is to say; who draws it will.
+    // No notices about an empty scene: the renderer will report that it is empty.
     if (scene->instance_count == 0)
         return LOBE_OK;
     if (!scene->has_camera)

@@ -18,8 +18,8 @@ lobe_result scenes_allocate(const char *name, const lobe_host *host, lobe_scene 
     return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "scene '%s': out of memory", name);
 }
 
-// Room for one more element. Arrays carry no capacity: it is the power of two not below the
-// count, so that a full one is recognised by its count.
+// Makes room for one more element. Arrays store no capacity: it is the power of two not below the
+// count, so that a full array is recognised by its count.
 static bool grow(const lobe_allocator *allocator, void **array, size_t count, size_t element_size) {
     if ((count & (count - 1)) != 0)
         return true;
@@ -30,7 +30,7 @@ static bool grow(const lobe_allocator *allocator, void **array, size_t count, si
     return true;
 }
 
-// Appends a copy of `element`; false, nothing changed, without memory.
+// Appends a copy of `element`. False, with nothing changed, if memory runs out.
 static bool append(const lobe_host *host, void **array, size_t *count, const void *element,
                    size_t element_size, uint32_t *index) {
     if (*count >= UINT32_MAX || !grow(lobe_host_allocator(host), array, *count, element_size))

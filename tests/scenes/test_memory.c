@@ -1,5 +1,5 @@
-// Scenes and environments in memory of the host: all of it comes from its allocator and goes back,
-// and wherever that has nothing to give, the opening says so and leaves nothing.
+// Scenes and environments in a host's memory: everything comes from its allocator and goes back
+// there, and whenever an allocation fails, the call reports it and leaks nothing.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -31,8 +31,8 @@ static void write_image(const char *path, lobe_format format) {
 // ---------------------------------------------------------------------------------------------
 // glTF
 
-/// Two triangles without normals, one with, whose own are of no use; each once mirrored. A map
-/// beside it, one in it, light from all around.
+/// Two triangles without normals and one with unusable ones; each also mirrored. One map in a file
+/// beside it, one inside it, and an environment.
 static const char document[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"EXT_lights_image_based\"],"
     "\"buffers\":[{\"uri\":\"triangle.bin\",\"byteLength\":60}],"
@@ -120,7 +120,7 @@ static void environments_say_where_memory_ends(void **state) {
     assert_true(fail_each_allocation(work_with_environment, "sky") >= 3);
 }
 
-/// Less memory is better, but none is needed for it.
+/// Shrinking saves memory and needs none.
 static void environments_shrink_without_memory(void **state) {
     (void)state;
     for (size_t failing = 0; failing < 2; failing++) {
@@ -139,7 +139,7 @@ static void environments_shrink_without_memory(void **state) {
     }
 }
 
-/// What a host fills itself, lobe frees where it came from.
+/// lobe frees a scene that the host filled with the allocator it came from.
 static void the_hosts_own_scene_is_freed(void **state) {
     (void)state;
     counting_allocator counting;

@@ -1,4 +1,4 @@
-// Scenes whose files the host has: in memory, or given by a callback.
+// Scenes whose files come from the host: in memory, or through a callback.
 
 #include "tests/scenes/gltf/gltf_fixture.h"
 
@@ -27,7 +27,7 @@ static const char document[] =
 
 static const float triangle[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
 
-/// Some files in memory, and what is done with them.
+/// Files in memory, and a count of what is done with them.
 typedef struct archive {
     log_recorder recorder;
     const char *names[3];
@@ -115,7 +115,7 @@ static void the_hosts_files_are_read_and_released(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// The file itself comes from memory, which stays as it is; those it refers to from the host.
+/// The file itself comes from memory, which is not modified; the files it refers to from the host.
 static void a_file_in_memory_refers_to_the_hosts_files(void **state) {
     archive *a = *state;
     char copy[sizeof document];
@@ -186,7 +186,7 @@ static void what_the_host_lacks_is_named(void **state) {
     assert_refused(a, &parameters, LOBE_ERROR_MALFORMED, "empty");
 }
 
-/// Built-in scenes need no file, wherever files are.
+/// Built-in scenes need no file, also with a file source.
 static void built_in_scenes_come_first(void **state) {
     archive *a = *state;
     lobe_scene *scene =

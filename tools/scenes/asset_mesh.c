@@ -14,7 +14,7 @@
 #include "tools/scenes/box_projection.h"
 #include "tools/scenes/mesh_formats.h"
 
-// More text than any mesh is worth; what is packed may promise anything.
+// More text than any mesh needs: the size that a packed file claims is not trusted.
 #define MAXIMUM_UNPACKED ((size_t)1 << 29)
 
 // For messages: how to give the folder of assets.
@@ -29,8 +29,8 @@ static lobe_result read_file(const asset_mesh *wanted, const char *path, const l
     if (is_absent(path))
         return lobe_host_fail(
             host, LOBE_ERROR_NOT_FOUND,
-            "scene '%s': %s: no such file; the folder of assets must hold it (%s)", wanted->scene,
-            path, HOW_TO_GIVE);
+            "scene '%s': %s: no such file; the folder of assets must contain it (%s)",
+            wanted->scene, path, HOW_TO_GIVE);
     uint8_t *packed = NULL;
     lobe_result status = lobe_file_read(path, NULL, host, &packed, size);
     *bytes = packed;
@@ -71,7 +71,7 @@ static lobe_result load_file(const asset_mesh *wanted, const char *assets, const
     return status;
 }
 
-// A mesh that has an area may still be flat and lie: then its height cannot be changed.
+// A mesh may be flat and horizontal: its height, which is 0, cannot be scaled.
 static void stand_up(const asset_mesh *wanted, lobe_mesh *mesh) {
     scenes_mesh_compute_bounds(mesh);
     const float *low = mesh->minimum, *high = mesh->maximum;
@@ -91,7 +91,7 @@ lobe_result asset_mesh_load(const asset_mesh *wanted, const char *assets, const 
     *mesh = (lobe_mesh){0};
     if (!assets)
         return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
-                              "scene '%s': no folder of assets was given, which must hold %s (%s)",
+                              "scene '%s': no folder of assets was given; it must contain %s (%s)",
                               wanted->scene, wanted->file, HOW_TO_GIVE);
     lobe_result status = load_file(wanted, assets, host, mesh);
     if (status)

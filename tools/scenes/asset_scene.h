@@ -5,7 +5,7 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-#include "scenes/builtin/builtin.h"
+#include "scenes/builtin/assembly.h"
 #include "tools/scenes/asset_mesh.h"
 
 /// Scenes that show one mesh from a folder of assets (may be NULL). Each is one file,

@@ -7,8 +7,8 @@
 
 enum { AXES = 6, SMOOTHING_ROUNDS = 12 };
 
-// Directions of projection, with the directions of u and v: u to the right and v down as seen
-// against the axis, cross(u, -v) = axis.
+// Axes of projection, with the directions of u and v: u to the right and v down as seen against the
+// axis, cross(u, -v) = axis.
 typedef struct projection_axis {
     vector3 axis, u, v;
 } projection_axis;
@@ -18,12 +18,12 @@ static const projection_axis axes[AXES] = {
     {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
     {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
 
-// A triangle may follow its surroundings as long as its own normal makes no more than 60 degrees
-// with the axis: at 1 / cos(60 degrees) maps are stretched twofold.
+// A triangle may use the axis of its surroundings if its own normal is within 60 degrees of that
+// axis: at 1 / cos(60 degrees), maps are stretched twofold.
 static const double least_cosine = 0.5;
 
-// Each vertex takes the mean of the directions around it. Rounding makes charts few and their
-// borders short, where the surface is rough.
+// Each vertex takes the mean of the directions around it. On rough surfaces, smoothing makes charts
+// few and their borders short.
 static bool smooth_directions(const lobe_allocator *allocator, const lobe_mesh *mesh,
                               vector3 *directions) {
     vector3 *sums = lobe_allocate(allocator, mesh->vertex_count, sizeof *sums);
@@ -72,13 +72,13 @@ static unsigned choose_axis(const lobe_mesh *mesh, const vector3 *directions, co
 }
 
 // ---------------------------------------------------------------------------------------------
-// Splitting. Each old vertex becomes one for each axis of its triangles; the new ones of an old
-// vertex lie together, in the order of the axes.
+// Splitting: each old vertex becomes one for each axis of its triangles. The new vertices of an old
+// one are consecutive, in the order of the axes.
 
 typedef struct vertex_split {
     uint8_t *triangle_axes;
-    uint8_t *used;   // of each old vertex: a bit for each axis
-    uint32_t *first; // of each old vertex: its first new one
+    uint8_t *used;   // for each old vertex, a bit for each axis
+    uint32_t *first; // for each old vertex, its first new one
 } vertex_split;
 
 static uint32_t count_bits(unsigned bits) {
@@ -108,7 +108,7 @@ static void project(lobe_scene_vertex *vertex, const projection_axis *axis, doub
     vertex->texture_coordinates[0][1] = (float)(vector3_dot(position, axis->v) / tile);
 }
 
-// Replaces the vertices by the split ones, with their coordinates.
+// Replaces the vertices by the split ones, with texture coordinates.
 static bool split_vertices(const lobe_allocator *allocator, lobe_mesh *mesh, vertex_split *split,
                            double tile) {
     size_t count = 0;

@@ -5,7 +5,7 @@
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", section 5.2: a bunny with a normal map of
 // hemispherical bumps and a material map, 1024 x 1024 texels each. Bumps are metal or lacquer, so
-// that what reflects without colour lies beside what reflects with it.
+// that colourless reflections are next to coloured ones.
 
 static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     static const bump_style style = {

@@ -2,23 +2,23 @@
 
 #include <math.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", section 5.2: a dragon with a normal map of
-// 2048 x 2048 texels and a BRDF map of 671 x 457, tiled. The normal map shows overlapping scales
-// with grain on them; the BRDF is that of bronze, with patina in patches and in the scales' shade.
+// 2048 x 2048 texels and a BRDF map of 671 x 457, tiled. The normal map has overlapping, grainy
+// scales; the BRDF is bronze with patches of patina.
 
 enum { NORMAL_EXTENT = 2048, BRDF_WIDTH = 671, BRDF_HEIGHT = 457 };
 enum { SCALE_COLUMNS = 64, SCALE_ROWS = 128 };
 
-// Of a scale: how far it is rounded, and how far its tip stands above its root; in pitches.
+// The roundness of a scale, and the height of its tip above its root, in pitches.
 static const double rounding = 0.55, overlap = 0.35;
 
-// Where the scale of this row and column has its middle, in pitches of columns and rows; each a
-// little out of its place.
+// The middle of the scale in this row and column, slightly displaced, in pitches of columns and
+// rows.
 static void place_scale(int column, int row, double centre[2]) {
     uint32_t bits = scenes_random_lattice((uint32_t)(column & (SCALE_COLUMNS - 1)),
                                           (uint32_t)(row & (SCALE_ROWS - 1)), 31);
@@ -26,8 +26,8 @@ static void place_scale(int column, int row, double centre[2]) {
     centre[1] = row + ((bits >> 16) / 65535.0 - 0.5) * 0.2;
 }
 
-// The slope of the highest scale over a point; scales hang down, each over those below it. A scale
-// reaches 0.75 pitches of columns to the sides, and 1.5 pitches of rows (half as long) down.
+// The slope of the highest scale at a point; scales hang down, each over those below it. A scale
+// extends 0.75 column pitches to the sides and 1.5 row pitches (half as long) downwards.
 static void scale_slope(double x, double y, double slope[2]) {
     int near_row = (int)floor(y), near_column = (int)floor(x);
     double highest = -1;
@@ -55,7 +55,7 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
                                   slope[1] * 0.6 + grain[1] * 0.08);
 }
 
-// How much patina there is [0, 1]: none on most of the surface, and quickly much of it.
+// The amount of patina [0, 1]: none on most of the surface, with steep transitions.
 static double patina(uint32_t column, uint32_t row) {
     static const uint32_t periods[] = {6, 17, 49};
     double sum = 0;
@@ -77,7 +77,7 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     channels[3] = 255;
 }
 
-// Bronze is polished in fine, irregular strokes; patina is dull and no metal.
+// Bronze is polished in fine, irregular strokes; patina is dull and not a metal.
 static void fill_roughness(uint32_t column, uint32_t row, void *texel) {
     double amount = patina(column, row);
     double strokes = scenes_noise_gradient((column + 0.5) * 120 / BRDF_WIDTH,

@@ -9,11 +9,11 @@
 typedef struct javascript_mesh {
     const char *name;
     const lobe_host *host;
-    text_cursor text; // the whole
+    text_cursor text; // the whole file
     polygon_mesh polygons;
 } javascript_mesh;
 
-/// Reads three numbers and adds them. LOBE_ERROR_MALFORMED, unlogged, where they are none.
+/// Reads three numbers and adds them. LOBE_ERROR_MALFORMED, not logged, if there are none.
 typedef lobe_result add_triple(javascript_mesh *reader, text_cursor *cursor);
 
 static bool is_part_of_name(char c) {
@@ -21,7 +21,7 @@ static bool is_part_of_name(char c) {
            (c >= 'A' && c <= 'Z');
 }
 
-// Whether an array follows: `= [`, `: [`, or the same after the quotation mark that ends a name.
+// Whether an array follows: `= [`, `: [`, or the same after the closing quotation mark of a name.
 static bool take_array_start(text_cursor *cursor) {
     if (!scenes_text_cursor_take(cursor, '"'))
         scenes_text_cursor_take(cursor, '\'');
@@ -29,7 +29,7 @@ static bool take_array_start(text_cursor *cursor) {
            scenes_text_cursor_take(cursor, '[');
 }
 
-// Moves into the array that is called `member`.
+// Moves into the array named `member`.
 static bool find_array(const javascript_mesh *reader, const char *member, text_cursor *cursor) {
     size_t length = strlen(member);
     const char *begin = reader->text.at, *end = reader->text.end;
@@ -67,7 +67,7 @@ static lobe_result add_cell(javascript_mesh *reader, text_cursor *cursor) {
                : LOBE_ERROR_OUT_OF_MEMORY;
 }
 
-// [..., ..., ...], and a comma or the end of the array that holds it.
+// Reads [..., ..., ...] and a comma or the end of the array.
 static lobe_result read_triple(javascript_mesh *reader, text_cursor *cursor, add_triple *add,
                                bool *ended) {
     if (!scenes_text_cursor_take(cursor, '['))

@@ -11,10 +11,10 @@
 typedef struct ply_reader {
     const char *name;
     const lobe_host *host;
-    text_cursor cursor; // in the data; of text or of bytes
+    text_cursor cursor; // in the data, text or binary
     ply_header header;
     polygon_mesh polygons;
-    const char *kind; // of the element it is in, and which of them: for messages
+    const char *kind; // of the current element, with its number below: for messages
     size_t item;
 } ply_reader;
 
@@ -60,7 +60,7 @@ static lobe_result read_value(ply_reader *reader, ply_type type, double *value) 
     if (reader->header.ascii)
         return scenes_text_cursor_number(cursor, value)
                    ? LOBE_OK
-                   : fail(reader, LOBE_ERROR_MALFORMED, "not a number that lobe takes");
+                   : fail(reader, LOBE_ERROR_MALFORMED, "not a number in the range of float");
     uint64_t bits = 0;
     for (size_t i = 0; i < sizes[type]; i++)
         bits |= (uint64_t)(uint8_t)*cursor->at++ << 8 * i;
@@ -68,14 +68,14 @@ static lobe_result read_value(ply_reader *reader, ply_type type, double *value) 
     return LOBE_OK;
 }
 
-// A whole number that counts or points to something.
+// A whole number, for counts and indices.
 static lobe_result read_index(ply_reader *reader, ply_type type, uint32_t *index) {
     double value;
     lobe_result status = read_value(reader, type, &value);
     if (status)
         return status;
     if (!(value >= 0 && value <= UINT32_MAX) || value != floor(value))
-        return fail(reader, LOBE_ERROR_MALFORMED, "an index or count is no whole number from 0");
+        return fail(reader, LOBE_ERROR_MALFORMED, "an index or count is not a whole number from 0");
     *index = (uint32_t)value;
     return LOBE_OK;
 }
@@ -83,7 +83,7 @@ static lobe_result read_index(ply_reader *reader, ply_type type, uint32_t *index
 // ---------------------------------------------------------------------------------------------
 // Elements
 
-// A fan around the first corner; polygons of fewer than three corners have no area.
+// A fan around the first corner; polygons with fewer than three corners have no area.
 static lobe_result read_polygon(ply_reader *reader, ply_type type, uint32_t count) {
     uint32_t first = 0, previous = 0, corner = 0;
     for (uint32_t i = 0; i < count; i++) {

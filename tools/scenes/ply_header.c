@@ -11,10 +11,10 @@ typedef struct header_reader {
     text_cursor *cursor;
     ply_header *header;
     size_t line;
-    char text[MAXIMUM_LINE + 1]; // the line, cut into words
+    char text[MAXIMUM_LINE + 1]; // the line, split into words
     const char *words[MAXIMUM_WORDS];
     size_t word_count;
-    bool formatted, vertices, polygons; // what has been seen
+    bool formatted, vertices, polygons; // seen so far
 } header_reader;
 
 static lobe_result fail(const header_reader *reader, lobe_result result, const char *cause) {
@@ -22,7 +22,7 @@ static lobe_result fail(const header_reader *reader, lobe_result result, const c
                           reader->line, cause);
 }
 
-// Words beyond the last that any statement has are not kept; comments may have them.
+// No statement has more words than MAXIMUM_WORDS; further words, as in comments, are ignored.
 static void split(header_reader *reader) {
     char *at = reader->text;
     reader->word_count = 0;
@@ -110,7 +110,7 @@ static ply_role find_role(const ply_element *element, bool list, const char *nam
 static lobe_result read_property(header_reader *reader) {
     ply_header *header = reader->header;
     if (header->element_count == 0)
-        return fail(reader, LOBE_ERROR_MALFORMED, "a property of no element");
+        return fail(reader, LOBE_ERROR_MALFORMED, "a property outside of an element");
     ply_element *element = &header->elements[header->element_count - 1];
     if (element->property_count == PLY_MAXIMUM_PROPERTIES)
         return fail(reader, LOBE_ERROR_LIMIT, "more than 64 properties");
@@ -123,7 +123,7 @@ static lobe_result read_property(header_reader *reader) {
     property.type = find_type(reader->words[list ? 3 : 1]);
     property.role = find_role(element, list, reader->words[list ? 4 : 2]);
     if (property.type == PLY_TYPE_COUNT || property.count_type == PLY_TYPE_COUNT)
-        return fail(reader, LOBE_ERROR_MALFORMED, "a type that PLY does not have");
+        return fail(reader, LOBE_ERROR_MALFORMED, "a type unknown to PLY");
     element->properties[element->property_count++] = property;
     return LOBE_OK;
 }
@@ -141,7 +141,7 @@ static lobe_result read_statement(header_reader *reader) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What the statements come to
+// Checks of the whole header
 
 static unsigned roles_of(const ply_element *element) {
     unsigned roles = 0;
@@ -153,10 +153,10 @@ static unsigned roles_of(const ply_element *element) {
 static lobe_result check_element(header_reader *reader, ply_element *element) {
     const unsigned position = 1u << PLY_X | 1u << PLY_Y | 1u << PLY_Z;
     unsigned roles = roles_of(element);
-    // Whatever an element has, it takes a byte at least.
+    // Every element takes at least a byte.
     size_t left = (size_t)(reader->cursor->end - reader->cursor->at);
     if (element->count > left || (element->count > 0 && element->property_count == 0))
-        return fail(reader, LOBE_ERROR_MALFORMED, "promises more elements than the file can hold");
+        return fail(reader, LOBE_ERROR_MALFORMED, "claims more elements than the file can hold");
     element->vertices = element->vertices && (roles & position) == position;
     element->polygons = roles & 1u << PLY_POLYGON;
     reader->vertices |= element->vertices;
@@ -171,7 +171,7 @@ static lobe_result check_header(header_reader *reader) {
     if (status)
         return status;
     if (!reader->formatted)
-        return fail(reader, LOBE_ERROR_MALFORMED, "no format was said");
+        return fail(reader, LOBE_ERROR_MALFORMED, "no format is stated");
     if (!reader->vertices)
         return fail(reader, LOBE_ERROR_MALFORMED, "no element 'vertex' with x, y and z");
     if (!reader->polygons)
@@ -185,7 +185,7 @@ lobe_result ply_header_read(text_cursor *cursor, const char *name, const lobe_ho
     *header = (ply_header){0};
     lobe_result status = next_line(&reader);
     if (!status && !(reader.word_count == 1 && word_is(&reader, 0, "ply")))
-        status = fail(&reader, LOBE_ERROR_UNSUPPORTED, "this is no PLY file");
+        status = fail(&reader, LOBE_ERROR_UNSUPPORTED, "not a PLY file");
     if (!status)
         status = next_line(&reader);
     while (!status && !word_is(&reader, 0, "end_header")) {

@@ -9,7 +9,7 @@
 
 #include "scenes/format/text_cursor.h"
 
-/// What the header of a PLY file says of the data behind it.
+/// The description of the data in the header of a PLY file.
 
 enum { PLY_MAXIMUM_ELEMENTS = 16, PLY_MAXIMUM_PROPERTIES = 64 };
 
@@ -25,7 +25,7 @@ typedef enum ply_type {
     PLY_TYPE_COUNT ///< none of these
 } ply_type;
 
-/// What a property is to us.
+/// The meaning of a property to lobe.
 typedef enum ply_role { PLY_X, PLY_Y, PLY_Z, PLY_POLYGON, PLY_OTHER } ply_role;
 
 typedef struct ply_property {
@@ -49,9 +49,9 @@ typedef struct ply_header {
     size_t element_count;
 } ply_header;
 
-/// Reads the header and moves behind it. `name` is for messages. Errors: as for ply_read. No
-/// element promises more than the bytes behind the header can hold; one has vertices, one
-/// polygons.
+/// Reads the header and moves past it. `name` is for messages. Errors: as for ply_read. On success,
+/// no element has more items than the bytes after the header can hold, and there is an element with
+/// vertices and one with polygons.
 lobe_result ply_header_read(text_cursor *cursor, const char *name, const lobe_host *host,
                             ply_header *header);
 

@@ -4,7 +4,7 @@
 
 #include "scenes/mesh/mesh.h"
 
-// An array without a capacity of its own: its room is the power of two not below its count.
+// The array stores no capacity: it is the power of two not below its count.
 static bool grow(const polygon_mesh *polygons, void **array, size_t count, size_t element_size) {
     if ((count & (count - 1)) != 0)
         return true;

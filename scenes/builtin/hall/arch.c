@@ -6,8 +6,8 @@
 
 static const double outer_radius = 1.66; // of the moulding around the arch, metres
 
-// Across the arch, from the wall's front round the inside to its back: distance from the arch's
-// middle, and z. Two rolls, a face between them, and the flat inside.
+// Profile of the arch, from the front of the wall around the inside to the back: distance from the
+// arch's centre, and z. Two rolls, a face between them, and the flat inside.
 static const double moulding[][2] = {
     {1.70, 0.28},  {1.67, 0.33},  {1.64, 0.36},  {1.60, 0.36},  {1.57, 0.33},
     {1.50, 0.33},  {1.47, 0.36},  {1.43, 0.35},  {1.40, 0.31},  {1.40, 0.10},
@@ -39,8 +39,8 @@ lobe_result scenes_hall_make_arch(const lobe_host *host, lobe_mesh *mesh) {
     return scenes_grid_mesh_make(&grid, host, mesh);
 }
 
-// The wall between the arch and a rectangle: each point of the rectangle's sides and top is
-// joined with the one of the arch that lies towards the middle.
+// The wall between the arch and a rectangle: each point on the rectangle's sides and top is joined
+// to the point of the arch in the direction of the centre.
 static void place_spandrel(const void *unused, double u, double v, lobe_scene_vertex *vertex) {
     (void)unused;
     double half = HALL_BAY / 2, along = u * (2 * HALL_WALL_HEIGHT + HALL_BAY) - HALL_WALL_HEIGHT;
@@ -55,7 +55,8 @@ static void place_spandrel(const void *unused, double u, double v, lobe_scene_ve
 }
 
 lobe_result scenes_hall_make_spandrels(const lobe_host *host, lobe_mesh *mesh) {
-    // A column ends at each corner of the rectangle: its sides are 3.2, 3.6 and 3.2 m long.
+    // A column of vertices ends at each corner of the rectangle, whose sides are 3.2, 3.6 and 3.2 m
+    // long.
     static const grid_mesh grid = {
         .name = "spandrels", .rows = 1, .columns = 50, .place = place_spandrel};
     return scenes_grid_mesh_make(&grid, host, mesh);

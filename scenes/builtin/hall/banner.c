@@ -3,7 +3,7 @@
 #include "scenes/mesh/circle.h"
 #include "scenes/mesh/grid_mesh.h"
 
-// Folds that deepen downwards, and a swallow's tail.
+// The folds deepen downwards; the lower end is swallow-tailed.
 static void place_banner(const void *unused, double u, double v, lobe_scene_vertex *vertex) {
     (void)unused;
     static const double width = 1.2, length = 2.7; // metres

@@ -1,11 +1,11 @@
 #include <math.h>
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
-#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/scene/scene.h"
 
-// Hammered bronze. In its hollows verdigris has grown, which is no metal.
+// Hammered bronze with verdigris, which is not a metal, in its hollows.
 
 enum { EXTENT = 512, DENTS = 48 };
 

@@ -1,7 +1,7 @@
 #include <math.h>
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
-#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/scene/scene.h"
 
@@ -11,7 +11,7 @@
 enum { EXTENT = 512 };
 
 static bool is_gold(uint32_t column, uint32_t row) {
-    // Whole stitches of two texels.
+    // Whole stitches, two texels wide.
     double x = (column / 2 * 2 + 1) / (EXTENT / 2.0) - 1,
            y = (row / 2 * 2 + 1) / (EXTENT / 2.0) - 1;
     double upright = fmax(fabs(x), fabs(y)), slanted = (fabs(x) + fabs(y)) * 0.70710678;

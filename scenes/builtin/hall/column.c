@@ -3,8 +3,8 @@
 
 enum { COLUMNS = 24 };
 
-// An attic base (two rings with a hollow between them) and a shaft that narrows upwards with
-// entasis, the slight bulge that lets it look straight.
+// An Attic base (two rings with a hollow between them) and a shaft that narrows upwards with
+// entasis, the slight bulge that makes it look straight.
 lobe_result scenes_hall_make_column(const lobe_host *host, lobe_mesh *mesh) {
     static const double outline[][2] = {
         {0.305, 4.02}, {0.300, 3.97},  {0.318, 3.30},  {0.338, 2.50},  {0.353, 1.70},
@@ -21,7 +21,7 @@ lobe_result scenes_hall_make_column(const lobe_host *host, lobe_mesh *mesh) {
     return scenes_lathe_make(&shape, host, mesh);
 }
 
-// A bell that opens from a ring to the abacus.
+// A bell that widens from a ring to the abacus.
 lobe_result scenes_hall_make_capital(const lobe_host *host, lobe_mesh *mesh) {
     static const double outline[][2] = {{0.470, 4.24}, {0.478, 4.225}, {0.470, 4.20},
                                         {0.425, 4.17}, {0.38, 4.10},   {0.345, 4.00},

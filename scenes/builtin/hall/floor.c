@@ -1,18 +1,18 @@
 #include <math.h>
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
-#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
 
-// A floor of marble slabs, dark and light in turn, worn and wet: polished but for grit, with open
-// joints, and a lozenge of brass let into each light slab. Towards a light its small bumps glitter
-// in ever fewer texels of ever smaller pixels.
+// A floor of alternating dark and light marble slabs, worn and wet: polished apart from grit, with
+// open joints, and a brass lozenge let into each light slab. Towards a light its small bumps
+// glitter; the smaller the pixels, the fewer texels glitter in each.
 
 enum { NORMAL_EXTENT = 2048, COLOUR_EXTENT = 1024, SLABS = 8 };
 
-// A point of the floor's tile.
+// A point on the floor's tile.
 typedef struct floor_point {
     uint32_t column, row; // of the slab
     double x, y;          // within it, each in [-1, 1]
@@ -32,13 +32,13 @@ static floor_point find_slab(uint32_t column, uint32_t row, uint32_t extent) {
     return point;
 }
 
-// Where the floor is wet: 0 dry to 1 under a film of water. `column` and `row` are in tiles.
+// How wet the floor is: from 0, dry, to 1, under a film of water. `column` and `row` are in tiles.
 static double wetness(double column, double row) {
     double puddles = scenes_noise_gradient(column * 6, row * 6, 6, 31, NULL);
     return fmin(fmax(0.45 + 2.2 * puddles, 0), 1);
 }
 
-// A slab's number in [-1, 1), of which it has several.
+// A random number in [-1, 1) for a slab; `which` selects one of several.
 static double slab_number(const floor_point *point, uint32_t which) {
     return scenes_random_lattice(point->column, point->row, which) / 2147483648.0 - 1;
 }
@@ -52,7 +52,7 @@ static void fill_normal(uint32_t column, uint32_t row, void *texel) {
     double rough = point.brass ? 0.08 : 0.09 + 0.06 * slab_number(&point, 41);
     double slope[2] = {0.012 * slab_number(&point, 34) + 0.018 * swell[0] + rough * grit[0],
                        0.012 * slab_number(&point, 35) + 0.018 * swell[1] + rough * grit[1]};
-    // Slabs are rounded off towards their joints.
+    // Slabs are rounded towards their joints.
     double fall = fmax(point.edge - 0.93, 0) * 14;
     if (fabs(point.x) > fabs(point.y))
         slope[0] -= point.x > 0 ? fall : -fall;
@@ -67,7 +67,7 @@ static void fill_colour(uint32_t column, uint32_t row, void *texel) {
     floor_point point = find_slab(column, row, COLOUR_EXTENT);
     double across = (column + 0.5) / COLOUR_EXTENT, down = (row + 0.5) / COLOUR_EXTENT;
     double cloud = scenes_noise_gradient(across * 40, down * 40, 40, 36, NULL);
-    // Thin where the noise changes its sign; each slab is cut from another place.
+    // Thin where the noise changes sign; each slab is cut from a different place.
     double vein = scenes_noise_gradient(across * 14 + 0.4 * cloud,
                                         down * 14 + 3 * slab_number(&point, 37), 14, 38, NULL);
     double shade = 1 + 0.12 * slab_number(&point, 39) + 0.14 * cloud;

@@ -11,7 +11,7 @@ static double stretch_length(const double (*outline)[2], size_t index) {
     return sqrt(x * x + y * y);
 }
 
-// The curve's change at a point for each metre of chord: that between its neighbours.
+// Slope of the curve at a point per metre of chord: that of the chord between its neighbours.
 static double slope(const lathe_shape *shape, size_t index, int axis) {
     size_t before = index > 0 ? index - 1 : 0;
     size_t after = index + 1 < shape->count ? index + 1 : index;
@@ -21,8 +21,8 @@ static double slope(const lathe_shape *shape, size_t index, int axis) {
     return (shape->outline[after][axis] - shape->outline[before][axis]) / length;
 }
 
-// Catmull and Rom 1974, "A Class of Local Interpolating Splines", over the lengths of the chords,
-// so that it does not overshoot where short ones follow long ones.
+// Catmull and Rom 1974, "A Class of Local Interpolating Splines", parameterised by chord length, so
+// that it does not overshoot where short chords follow long ones.
 static double interpolate(const lathe_shape *shape, size_t index, double t, int axis) {
     double length = stretch_length(shape->outline, index), from = shape->outline[index][axis];
     double rise = shape->outline[index + 1][axis] - from;

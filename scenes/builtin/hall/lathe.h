@@ -10,15 +10,15 @@
 /// Turned shapes: columns, rings, vases.
 
 /// The outline is a smooth curve through `count` points, from the top downwards: distance from the
-/// Y axis (above 0) and height, in metres. Each stretch between two points is cut into `cuts`; two
-/// points close together make an edge.
+/// Y axis (above 0) and height, in metres. Each stretch between two points is divided into `cuts`;
+/// two points close together make an edge.
 typedef struct lathe_shape {
     const char *name;
     const double (*outline)[2];
     size_t count;
-    uint32_t cuts, columns; ///< quadrilaterals a stretch, and once around
-    double tile;            ///< metres of outline to a unit of v
-    double tiles_around;    ///< units of u once around
+    uint32_t cuts, columns; ///< quadrilaterals per stretch, and around the axis
+    double tile;            ///< metres of outline per unit of v
+    double tiles_around;    ///< units of u around the axis
 } lathe_shape;
 
 /// `mesh` is overwritten. Errors: as scenes_mesh_allocate.

@@ -1,7 +1,7 @@
 #include <math.h>
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
-#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/scene/scene.h"
 
@@ -9,7 +9,7 @@
 
 enum { EXTENT = 512 };
 
-// Signed distance from a vein, in no unit: thin where it crosses 0.
+// Signed distance from a vein, in no particular unit; veins are thin lines where it crosses 0.
 static double vein_field(uint32_t column, uint32_t row) {
     double across = (column + 0.5) / EXTENT, down = (row + 0.5) / EXTENT;
     double bend = scenes_noise_gradient(across * 9, down * 9, 9, 61, NULL);

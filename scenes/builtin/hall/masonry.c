@@ -1,12 +1,12 @@
 #include <math.h>
 
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/hall/hall.h"
-#include "scenes/builtin/map.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
 
-// Walls of sandstone ashlar, every other course half a block out of step.
+// Walls of sandstone ashlar; every other course is shifted by half a block.
 
 enum { EXTENT = 512, COURSES = 8, BLOCKS = 4 };
 

@@ -15,9 +15,10 @@
 extern "C" {
 #endif
 
-/// What is drawn, in host memory. Lengths are metres, +Y is up, right-handed, as in glTF.
-/// A scene owns everything it points to; it is plain data that a host may also fill itself. Of one
-/// that lobe_scene_destroy is to free, all comes from lobe_allocate: the structure, arrays, names.
+/// What is drawn, in host memory. Lengths are metres, +Y is up, right-handed, as in glTF. A scene
+/// owns everything it points to. It is plain data that a host may also fill itself; if
+/// lobe_scene_destroy is to free it, allocate all of it (the structure, arrays, names) with
+/// lobe_allocate.
 
 typedef enum lobe_scene_wrap {
     LOBE_SCENE_WRAP_REPEAT,
@@ -67,7 +68,7 @@ typedef enum lobe_distribution {
 /// x along the tangent).
 typedef struct lobe_base_lobe {
     float direction[3]; ///< unit length
-    float width;        ///< exponent or kappa, multiplied by the width map where there is one
+    float width;        ///< exponent or kappa, multiplied by the width map if there is one
     float colour[3];    ///< linear RGB reflectance, multiplied by the specular map
 } lobe_base_lobe;
 
@@ -130,14 +131,14 @@ typedef struct lobe_scene_vertex {
     float tangent[4]; ///< unit length, orthogonal to the normal; w = +1 or -1 gives the
                       ///< bitangent w * cross(normal, tangent); along increasing u
     float texture_coordinates[2][2];
-    float colour[4]; ///< linear RGB and alpha, multiplies base_colour; 1 where there is none
+    float colour[4]; ///< linear RGB and alpha, multiplies base_colour; 1 if the mesh has none
 } lobe_scene_vertex;
 
 typedef struct lobe_mesh {
     char *name;
     lobe_scene_vertex *vertices;
     size_t vertex_count;
-    uint32_t *indices; ///< three a triangle, counter-clockwise in front
+    uint32_t *indices; ///< three per triangle, counter-clockwise as seen from the front
     size_t index_count;
     bool has_texture_coordinates[2];
     bool has_colour;
@@ -186,12 +187,12 @@ typedef struct lobe_scene {
     lobe_light *lights;
     size_t light_count;
     lobe_environment *environment; ///< light from all around; NULL: none
-    bool has_added_light;          ///< the file brought no light: the environment is the sky
+    bool has_added_light;          ///< the file has no light: the environment is the sky
     bool environment_visible;      ///< it is seen where nothing is hit, instead of `background`
     lobe_camera camera;
-    bool has_camera;     ///< false: the file brought none; `camera` is that of lobe_scene_frame
-                         ///< for a picture of 16:9
-    float background[3]; ///< linear RGB radiance where nothing is hit
+    bool has_camera;              ///< false: the file has none; `camera` is set by lobe_scene_frame
+                                  ///< for a picture of 16:9
+    float background[3];          ///< linear RGB radiance where nothing is hit
     float minimum[3], maximum[3]; ///< bounds of all instances in the world
 } lobe_scene;
 
@@ -210,11 +211,11 @@ void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camer
 /// The eye moves continuously. `scene->camera` must be set, with eye and target apart.
 void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera);
 
-/// Gives a scene another environment, which it then owns, in place of its own, which is freed.
-/// NULL: none.
+/// Replaces the environment of a scene. The old one is freed; the scene owns the new one. NULL:
+/// none.
 void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment);
 
-/// Frees all and clears the pointer. NULL is fine.
+/// Frees everything and clears the pointer. NULL is allowed.
 void lobe_scene_destroy(lobe_scene **scene);
 
 /// A scene made by code, from a fixed seed.
@@ -227,13 +228,13 @@ size_t lobe_builtin_scene_count(void);
 /// NULL for an index out of range.
 const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
-/// What is opened, and what it is made of.
+/// What to open, and from where.
 typedef struct lobe_scene_open_parameters {
     /// The name of a built-in scene, the path of a .gltf or .glb file, or a folder of PBR maps,
     /// which lobe_scene_open_material then puts on a cloth.
     const char *scene;
-    /// A whole .gltf or .glb file in memory, which `scene` then only names: in messages, and the
-    /// files that it refers to lie in the folder of that name. Needed during the call only. NULL:
+    /// A whole .gltf or .glb file in memory. `scene` is then only its name: in messages, and for
+    /// the folder in which the files that it refers to lie. Needed only during the call. NULL:
     /// none.
     const void *data;
     size_t size; ///< bytes of `data`
@@ -242,14 +243,13 @@ typedef struct lobe_scene_open_parameters {
     const lobe_file_source *files;
 } lobe_scene_open_parameters;
 
-/// Opens a scene.
-/// Of a file, what its default scene reaches is imported. Unsupported parts are named in one
-/// warning; triangles without area are dropped and normals of length zero recomputed, each
-/// counted in a warning. Triangles without normals are flat, as glTF asks. A missing camera or
-/// light is added, with a notice. A file without anything to draw opens; lobe_renderer_set_scene
-/// refuses it. On failure `*result` is NULL and the log has one line that names
-/// the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
-/// _OUT_OF_MEMORY.
+/// Opens a scene. From a file, everything that its default scene reaches is imported. One warning
+/// names unsupported parts; triangles without area are dropped and normals of length zero
+/// recomputed, each with a warning that counts them. Triangles without normals are flat, as glTF
+/// requires. A missing camera or light is added, with a notice. A file with nothing to draw opens;
+/// lobe_renderer_set_scene rejects it. On failure `*result` is NULL and the log has one message
+/// that names the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED,
+/// _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
 lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
                                  const lobe_host *host, lobe_scene **result);
 

@@ -76,8 +76,8 @@ static void building_twice_gives_the_same_bytes(void **state) {
     }
 }
 
-// The bytes that every machine and compiler must make. Who changes a scene on purpose changes
-// its number here, and knows that results measured before no longer compare.
+// Hash of the bytes that every machine and compiler must make. If you change a scene on purpose,
+// change its number here; results measured before are then no longer comparable.
 static void every_machine_makes_these_bytes(void **state) {
     (void)state;
     static const struct {
@@ -121,20 +121,20 @@ static void checkerboard_has_two_widths_in_equal_parts(void **state) {
     assert_true(first * 10 < last);
     for (size_t i = 0; i < 1024 * 1024; i++) {
         assert_true(texel[i] == first || texel[i] == last);
-        // One colour goes with each width.
+        // There is one colour for each width.
         assert_memory_equal(colour + 4 * i, texel[i] == first ? colour : colour + 4 * 1023, 4);
         of_first += texel[i] == first;
         changes += i % 1024 > 0 && texel[i] != texel[i - 1];
     }
     assert_int_equal(of_first, 1024 * 1024 / 2);
-    // Squares of a few texels: 127 edges in each row; and the map goes on into itself.
+    // Squares of a few texels, so 127 edges in each row; the map repeats without a seam.
     assert_int_equal(changes, 1024 * 127);
     assert_true(texel[1023] != texel[0] && texel[1024 * 1023] != texel[0]);
     lobe_scene_destroy(&scene);
 }
 
-// Counts the texels, and sums the squares of the steps of two neighbours, within a map and
-// across its edges.
+// Counts the texels, and sums the squared differences of neighbours, within a map and across its
+// edges.
 static double step_over_edge(const lobe_image *image, bool rows, bool edge) {
     const uint8_t *texels = image->texels;
     uint32_t extent = rows ? image->height : image->width;
@@ -151,7 +151,7 @@ static double step_over_edge(const lobe_image *image, bool rows, bool edge) {
     return sqrt(sum / count);
 }
 
-// An edge that did not fit would jump by far more than neighbours in the middle do.
+// At a mismatched edge, the difference would be far larger than between neighbours elsewhere.
 static void assert_tiles(const lobe_image *image) {
     for (int rows = 0; rows < 2; rows++)
         assert_true(step_over_edge(image, rows, true) < 1.6 * step_over_edge(image, rows, false));
@@ -189,7 +189,7 @@ static void bumps_are_packed_hemispheres_of_many_metals(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-// On a sphere the normal's x grows with the column as fast as its -y with the row.
+// On a sphere, the normal's x grows with the column as fast as its -y grows with the row.
 static void bumps_are_round(void **state) {
     (void)state;
     lobe_scene *scene = build("bumps");
@@ -201,7 +201,7 @@ static void bumps_are_round(void **state) {
             const uint8_t *here = texel + (row * 1024 + column) * 4;
             int along_column = here[4] - here[0], along_row = here[4 * 1024 + 1] - here[1];
             int across = abs(here[5] - here[1]);
-            // Neighbours on one bump: the component across stays as it is.
+            // Neighbours on one bump: the component across is constant.
             if (across > 1 || along_column < 1 || along_column > 16)
                 continue;
             inside++;
@@ -252,12 +252,12 @@ static void tablecloth_lies_on_its_table(void **state) {
         const float *p = mesh->vertices[i].position;
         double radius = sqrt((double)p[0] * p[0] + (double)p[2] * p[2]);
         assert_true(p[1] > 0 && p[1] <= 0.8f);
-        // Cloth that hangs does not go through the table.
+        // The hanging cloth does not pass through the table.
         assert_true(p[1] > 0.8f - 0.04f || radius > 0.6 - 1e-6);
         flat += p[1] == 0.8f;
     }
     assert_in_range(flat, mesh->vertex_count / 4, mesh->vertex_count / 3);
-    // Woven cloth neither stretches nor shrinks much along the fall; it gathers across it.
+    // Woven cloth hardly stretches or shrinks along the fall; it gathers across it.
     for (size_t i = 0; i < mesh->index_count; i += 3)
         for (int k = 0; k < 3; k++) {
             const lobe_scene_vertex *a = &mesh->vertices[mesh->indices[i + k]];
@@ -305,11 +305,11 @@ static double area(double a[2], double b[2], double c[2]) {
 
 typedef struct coverage {
     double seen;    // pixels
-    double fitting; // of them, those under which texels lie in the range
+    double fitting; // of them, those with a number of texels in the range
 } coverage;
 
-// Measures fronts of a mesh that lie in the picture; one unit of the coordinates is a map of
-// `width` x `height` texels. Texels a pixel are told along one axis of the pixel.
+// Measures front faces of a mesh that lie in the picture; one unit of the coordinates is a map of
+// `width` x `height` texels. Texels per pixel are counted along one axis of the pixel.
 static coverage measure_texels(const lobe_scene *scene, const lobe_instance *instance, double width,
                                double height, double least, double most) {
     const lobe_mesh *mesh = &scene->meshes[instance->mesh];
@@ -327,7 +327,7 @@ static coverage measure_texels(const lobe_scene *scene, const lobe_instance *ins
             texel[k][0] = vertex->texture_coordinates[0][0] * width;
             texel[k][1] = vertex->texture_coordinates[0][1] * height;
         }
-        // Rows of pixels run downwards: a front is clockwise.
+        // Rows of pixels run downwards, so a front face is clockwise.
         double pixels = -area(pixel[0], pixel[1], pixel[2]);
         if (!inside || pixels <= 0)
             continue;
@@ -370,7 +370,7 @@ static void pillow_is_woven_of_sharp_and_broad_threads(void **state) {
         assert_true(is_sharp ? exponent[i] < 200 : exponent[i] > 5 && exponent[i] < 12);
         assert_true(is_sharp == (colour[4 * i + 2] > 0.7 * colour[4 * i]));
         sharp += is_sharp;
-        // All of a crossing of threads shows the one on top.
+        // All texels of a crossing of threads show the thread on top.
         assert_true(is_sharp == (exponent[i & ~(size_t)3] > 100));
     }
     assert_in_range(sharp, 2048 * 1024 * 5 / 10, 2048 * 1024 * 7 / 10);
@@ -412,7 +412,7 @@ static void hall_has_five_materials(void **state) {
     (void)state;
     static const struct {
         const char *name;
-        uint32_t normals, others; // texels along a side
+        uint32_t normals, others; // texels per side
     } expected[] = {{"floor", 2048, 1024},
                     {"masonry", 512, 512},
                     {"marble", 512, 512},
@@ -452,13 +452,13 @@ static void metals_of_the_hall(void **state) {
         const uint8_t *texel = map->texels;
         size_t count = (size_t)map->width * map->height, metal = 0;
         for (size_t k = 0; k < count; k++) {
-            // No mirror, which no number of samples would resolve.
+            // No mirrors, which no number of samples would resolve.
             assert_true(texel[4 * k + 1] > 30);
             metal += texel[4 * k + 2] > 127;
         }
         share[i] = (double)metal / (double)count;
     }
-    // Brass inlays in the floor; most of the bronze is bare.
+    // Brass inlays in the floor, and bronze that is mostly bare.
     assert_true(share[0] > 0.02 && share[0] < 0.1);
     assert_true(share[1] == 0 && share[2] == 0);
     assert_true(share[3] > 0.5 && share[3] < 0.95);
@@ -503,7 +503,7 @@ static void arches_rest_on_columns(void **state) {
         if (&scene->meshes[instance->mesh] != mesh_named(scene, "arch"))
             continue;
         arches++;
-        // A column half a bay to either side.
+        // The column is half a bay to either side.
         for (int side = -1; side <= 1; side += 2) {
             size_t under = 0;
             vector3 foot = vector3_transform(instance->transform, (vector3){side * 1.8, 0, 0});

@@ -46,7 +46,7 @@ static void lattice_depends_on_each_argument(void **state) {
             for (int bit = 0; bit < 32; bit++)
                 ones[bit] += bits >> bit & 1;
         }
-    // Of independent uniform numbers a product has variance 1/9.
+    // The product of independent uniform numbers has variance 1/9.
     for (int i = 0; i < 3; i++)
         assert_true(fabs(correlation[i]) < 5 * EXTENT / 3.0);
     for (int bit = 0; bit < 32; bit++)

@@ -1,4 +1,4 @@
-// The sky's formulae, at points that are known apart from them.
+// The sky's formulae, at points with independently known values.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -10,7 +10,7 @@ static vector3 from_angles(double height, double turn) {
     return (vector3){cos(height) * sin(turn), sin(height), cos(height) * cos(turn)};
 }
 
-// Straight up, the distribution is 1: Preetham et al. 1999, appendix A.2, worked out by hand for a
+// Straight up, the distribution is 1: Preetham et al. 1999, appendix A.2, computed by hand for a
 // turbidity of 3 and the sun 30 degrees from the zenith.
 static void the_zenith_is_as_printed(void **state) {
     (void)state;
@@ -25,8 +25,8 @@ static void the_zenith_is_as_printed(void **state) {
     assert_true(rgb[2] > rgb[1] && rgb[1] > rgb[0]); // blue
 }
 
-// A clear noon brings 80 to 110 klx from the sun and 10 to 30 from the sky; the ratio of blue to
-// red falls as the sun does.
+// A clear noon has 80 to 110 klx from the sun and 10 to 30 klx from the sky; the ratio of blue to
+// red falls as the sun sets.
 static void illuminance_is_that_of_a_clear_day(void **state) {
     (void)state;
     double redness = 0;

@@ -1,4 +1,4 @@
-// Where directions lie on the image of each layout, forth and back.
+// Where directions lie on the image of each layout, and back again.
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -52,7 +52,7 @@ static void expect_position(const shape *s, double x, double y, double z, double
     assert_near(position[1] / s->height, v, 1e-12);
 }
 
-// Each shape's axes, written out from the documentation.
+// The axes of each layout, written out from the documentation.
 static void axes_lie_where_the_documentation_says(void **state) {
     (void)state;
     const shape latitude_longitude = {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 10, 5};
@@ -82,7 +82,8 @@ static void axes_lie_where_the_documentation_says(void **state) {
 }
 
 // Points off the middle of each face, as OpenEXR 3.1's own functions (ImfEnvmap.h) place them on a
-// map of 101 x 606 texels: of (3, 1, 2)/3 and the like, from texels' middles to a part of the face.
+// map of 101 x 606 texels: (3, 1, 2)/3 and the like, converted from texel centres to a fraction of
+// the face.
 static void columns_are_oriented_as_openexr_does(void **state) {
     (void)state;
     const struct {
@@ -121,7 +122,7 @@ static void position_and_direction_are_inverse(void **state) {
     for (int i = 0; i < SHAPE_COUNT; i++) {
         const shape *s = &shapes[i];
         for (int k = 0; k < 4000; k++) {
-            // Directions spread evenly (a spiral of the golden angle).
+            // Evenly spread directions (a spiral of the golden angle).
             const double y = 1 - (2 * k + 1) / 4000.0, r = sqrt(1 - y * y), angle = 2.399963 * k;
             const double direction[3] = {r * sin(angle), y, r * cos(angle)};
             double position[2], back[3];
@@ -135,7 +136,7 @@ static void position_and_direction_are_inverse(void **state) {
     }
 }
 
-// Going on over an edge of a face on a cross's picture is going on over the same edge of the cube.
+// Crossing an edge of a face on the picture of a cross is crossing the same edge of the cube.
 static void crosses_fold_without_a_seam(void **state) {
     (void)state;
     for (int i = 5; i < 7; i++) {
@@ -160,7 +161,7 @@ static void crosses_fold_without_a_seam(void **state) {
                 }
             }
         }
-        assert_int_equal(edges, 5 * 2 * (int)size); // five edges hold the six faces together
+        assert_int_equal(edges, 5 * 2 * (int)size); // five edges connect the six faces
     }
 }
 
@@ -211,7 +212,7 @@ static void solid_angles_cover_the_sphere(void **state) {
     }
 }
 
-// Against the area of the small spherical quadrilateral that the texel's corners span.
+// Compared with the area of the small spherical quadrilateral between the texel's corners.
 static void a_small_solid_angle_is_that_of_its_corners(void **state) {
     (void)state;
     const shape s = {LOBE_ENVIRONMENT_CUBE_ROW, 6 * 512, 512};

@@ -1,4 +1,4 @@
-// Environments from files: shapes, sizes, damage, and files of the wild.
+// Environments from files: shapes, sizes, damage, and real files.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -87,7 +87,7 @@ static void the_shape_tells_the_layout(void **state) {
         assert_true(environment->intensity == 1);
         for (int k = 0; k < 9; k++)
             assert_true(environment->world_from_environment[k / 3][k % 3] == (k % 4 == 0));
-        // The rows of the file are those of the image.
+        // The rows of the file are the rows of the image.
         const float *texels = environment->image.texels;
         const size_t last = (size_t)files[i].width * files[i].height - 1;
         if (files[i].layout == LOBE_ENVIRONMENT_CUBE_COLUMN)
@@ -177,7 +177,7 @@ static void expect_halves(const char *path, uint32_t width, uint32_t height,
     lobe_environment_destroy(&environment);
 }
 
-// Wide and low, so that little is to be decoded; 4:1 may still be latitude and longitude.
+// Wide and low, so that little needs to be decoded; 4:1 may still be latitude and longitude.
 static void images_finer_than_needed_are_halved(void **state) {
     (void)state;
     const char *path = temporary_folder_file(&test_folder, "wide.hdr");
@@ -188,7 +188,7 @@ static void images_finer_than_needed_are_halved(void **state) {
 static void the_largest_image_is_read(void **state) {
     (void)state;
 #if defined(__SANITIZE_ADDRESS__)
-    skip(); // takes a minute and six gibibytes
+    skip(); // would take a minute and six gibibytes
 #endif
     expect_halves(temporary_folder_file(&test_folder, "large.hdr"), 16384, 8192, 8192);
 }
@@ -275,7 +275,7 @@ static void environments_of_the_wild_are_read(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Files of a host
+// Files from a host
 
 typedef struct host_file {
     uint8_t *data;
@@ -371,9 +371,9 @@ static void turning_is_counter_clockwise_from_above(void **state) {
     lobe_environment_turn(&environment, -30);
     lobe_environment_turn(&environment, -60);
     expect_turned(&environment, (float[3]){0.6f, 0, 0.8f}, (float[3]){0.6f, 0, 0.8f});
-    // The world turns what was turned about another axis before.
+    // The world's axis turns an environment that was turned about another axis before.
     lobe_environment upside = {.world_from_environment = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
-    lobe_environment_turn(&upside, 90); // its +Y looks to +Z of the world, which turns to +X
+    lobe_environment_turn(&upside, 90); // its +Y faces +Z of the world, which turns to +X
     expect_turned(&upside, (float[3]){0, 1, 0}, (float[3]){1, 0, 0});
 }
 

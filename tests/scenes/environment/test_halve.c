@@ -1,4 +1,4 @@
-// Halved images bring the same light.
+// Halved images give the same light.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -42,7 +42,7 @@ static lobe_environment *environment_of(const shape *s) {
     return environment;
 }
 
-// The light of a channel, and where its weight lies.
+// The light of a channel, and the position of its centre.
 static void moments(const lobe_environment *environment, int channel, double out[4]) {
     const lobe_image *image = &environment->image;
     memset(out, 0, 4 * sizeof *out);
@@ -82,7 +82,7 @@ static void no_light_is_lost(void **state) {
     }
 }
 
-// A texel of even extents: the mean of four, written out.
+// A texel with even extents: the mean of four, written out.
 static void four_texels_become_their_mean(void **state) {
     (void)state;
     const shape s = {LOBE_ENVIRONMENT_CUBE_ROW, 24, 4, 12, 2};
@@ -124,7 +124,7 @@ static void evenness_stays_even(void **state) {
     }
 }
 
-// What shines from one side still does: nothing is put where it was not.
+// Light from one side stays on that side: no other texel gets any.
 static void light_stays_in_its_place(void **state) {
     (void)state;
     const shape big[2] = {{LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 129, 65, 64, 32},
@@ -158,7 +158,7 @@ static void an_environment_shrinks_to_what_is_allowed(void **state) {
         assert_true(environment->image.width <= 8 && environment->image.height <= 8);
         assert_true(scenes_environment_layout_fits(shapes[i].layout, environment->image.width,
                                                    environment->image.height));
-        lobe_environment_shrink(environment, 1); // as far as it goes
+        lobe_environment_shrink(environment, 1); // as far as possible
         assert_false(scenes_environment_can_be_halved(environment));
         lobe_environment_destroy(&environment);
     }

@@ -1,4 +1,4 @@
-// Numbers that no light has.
+// Repair of impossible radiance: negative, NaN and infinite numbers.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -44,7 +44,7 @@ static void expect_repair(lobe_environment *environment, const char *warning) {
 static void light_stays_as_it_is(void **state) {
     (void)state;
     lobe_environment *environment = environment_of(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 4, 2);
-    texel(environment, 1, 1)[3] = NAN; // means nothing
+    texel(environment, 1, 1)[3] = NAN; // ignored
     texel(environment, 2, 1)[0] = 0;
     expect_repair(environment, NULL);
     for (uint32_t i = 0; i < 8; i++) {
@@ -66,12 +66,12 @@ static void each_kind_is_mended_and_counted(void **state) {
     expect_repair(environment, "2 negative, 1 NaN, 2 infinite");
     assert_true(texel(environment, 0, 0)[0] == 0);
     assert_true(texel(environment, 3, 1)[0] == 0 && texel(environment, 3, 1)[2] == 0);
-    // Green of its neighbours: 1 2 3, 6 8, 11 12 13.
+    // Green of the neighbours: 1 2 3, 6 8, 11 12 13.
     assert_true(texel(environment, 1, 1)[1] == 7);
-    assert_true(texel(environment, 1, 1)[0] == 7); // its own
-    // Blue around the corner (4, 3): 14 and 15 above; beside it nothing is finite.
+    assert_true(texel(environment, 1, 1)[0] == 7); // unchanged
+    // Blue around the corner (4, 3): 14 and 15 above; nothing beside it is finite.
     assert_true(texel(environment, 4, 3)[2] == 14.5f);
-    // Around (3, 3): 13, 14, 15 above and 18 at the left, all as they were.
+    // Around (3, 3): 13, 14, 15 above and 18 on the left, all unrepaired.
     assert_true(texel(environment, 3, 3)[2] == 15);
     lobe_environment_destroy(&environment);
 }
@@ -102,11 +102,11 @@ static void without_a_neighbour_it_is_dark(void **state) {
     lobe_environment_destroy(&environment);
 }
 
-// Beyond the edge of a face lies another part of the sphere, or nothing at all.
+// Beyond the edge of a face there is another part of the sphere, or nothing at all.
 static void neighbours_are_of_the_same_face(void **state) {
     (void)state;
     lobe_environment *environment = environment_of(LOBE_ENVIRONMENT_CUBE_COLUMN, 2, 12);
-    texel(environment, 0, 2)[0] = NAN; // the top left of the second face: 6, 7, 8 are beside it
+    texel(environment, 0, 2)[0] = NAN; // the top left of the second face, next to 6, 7, 8
     expect_repair(environment, "1 NaN");
     assert_true(texel(environment, 0, 2)[0] == 7);
     lobe_environment_destroy(&environment);

@@ -1,4 +1,4 @@
-// The environment made by code: how much light it brings, and from where.
+// The built-in environment "sky": how much light it gives, and from where.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -9,7 +9,7 @@
 #include "scenes/environment/environment.h"
 #include "scenes/environment/sky.h"
 
-// The light of a channel from within `cosine` about a direction, and how it lies on a surface.
+// The light of a channel from within `cosine` around a direction, and the irradiance from it.
 static double light_about(const lobe_environment *environment, int channel, vector3 direction,
                           double cosine, bool projected) {
     const lobe_image *image = &environment->image;
@@ -69,7 +69,7 @@ static void a_disc_keeps_its_light_at_any_resolution(void **state) {
     }
 }
 
-// On texels far smaller than it, the disc is even, of its own radius, and dark around.
+// On texels much smaller than itself, the disc is uniform, with its own radius, and dark around it.
 static void a_disc_is_even_and_round(void **state) {
     (void)state;
     const vector3 direction = {0, 0, 1};
@@ -130,7 +130,7 @@ static void the_sun_is_where_it_is_said_to_be(void **state) {
     lobe_environment_destroy(&environment);
 }
 
-// The sun apart, texels of the sky are means of it: coarse images bring nearly the same light.
+// Apart from the sun, texels of the sky are means: coarse images give nearly the same light.
 static void all_sizes_bring_the_same_light(void **state) {
     (void)state;
     lobe_environment *fine = sky_of(256, 128);

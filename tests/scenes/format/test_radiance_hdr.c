@@ -1,4 +1,4 @@
-// Radiance pictures of every packing and direction, and broken ones.
+// Radiance pictures in every packing and direction, and broken ones.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -33,7 +33,7 @@ static void append_byte(byte_buffer *buffer, unsigned byte) {
 
 typedef enum packing { FLAT, OLD, NEW, PACKING_COUNT } packing;
 
-// Texel (line, i) of a picture: runs of a few lengths between texels of their own.
+// Texel (line, i) of a picture: runs of several lengths between individual texels.
 static void texel_bytes(uint32_t line, uint32_t i, uint8_t texel[4]) {
     const bool run = (i / 7 + line) % 3 == 0;
     const uint32_t value = run ? i / 7 + line : 1000 * line + i;
@@ -104,7 +104,7 @@ static byte_buffer picture(const char *variables, const char *resolution, uint32
 static lobe_result decode(const byte_buffer *file, size_t size, log_recorder *recorder,
                           lobe_image *image) {
     log_recorder_start(recorder);
-    // A copy of the exact size lets the sanitizer see a byte too far.
+    // A copy of the exact size lets the sanitizer detect reads past the end.
     uint8_t *copy = malloc(size ? size : 1);
     if (size > 0)
         memcpy(copy, file->bytes, size);
@@ -140,7 +140,7 @@ static const float *texel(const lobe_image *image, uint32_t x, uint32_t y) {
     return (const float *)image->texels + 4 * ((size_t)y * image->width + x);
 }
 
-// Half a step of the mantissa above what is written.
+// Half a step of the mantissa above the written value.
 static double radiance_of(const uint8_t texel[4], int component) {
     return (texel[component] + 0.5) / 256 * pow(2, texel[3] - 128);
 }
@@ -161,7 +161,7 @@ static void every_packing_and_size_is_read(void **state) {
         for (packing packing = FLAT; packing < PACKING_COUNT; packing++) {
             const uint32_t width = sizes[s][0], height = sizes[s][1];
             if (packing == NEW && (width < 8 || width > 32767))
-                continue; // such lines are never packed so
+                continue; // such lines are never packed this way
             char resolution[64];
             snprintf(resolution, sizeof resolution, "-Y %u +X %u", height, width);
             lobe_image image = must_decode(picture("", resolution, height, width, packing));
@@ -176,7 +176,7 @@ static void every_packing_and_size_is_read(void **state) {
     }
 }
 
-// Of 5 columns and 3 rows; where the texel (line, i) must come to lie.
+// Of 5 columns and 3 rows: where the texel (line, i) must be.
 static void every_direction_is_read(void **state) {
     (void)state;
     static const char *const resolutions[8] = {"-Y 3 +X 5", "-Y 3 -X 5", "+Y 3 -X 5", "+Y 3 +X 5",
@@ -229,13 +229,13 @@ static void an_exponent_of_zero_is_black(void **state) {
 
 static void xyz_becomes_rgb(void **state) {
     (void)state;
-    // Equal parts are white, which RGB of the same primaries shows as equal parts, too.
+    // Equal parts are white, which is also equal parts of RGB with the same primaries.
     lobe_image image =
         must_decode(one_texel("FORMAT=32-bit_rle_xyze\n", (uint8_t[4]){200, 200, 200, 129}));
     for (int i = 0; i < 3; i++)
         assert_true(fabs(texel(&image, 0, 0)[i] - 200.5 / 128) < 1e-6);
     lobe_image_free(&image);
-    // The primary red, x = 0.64, y = 0.33, z = 0.03, has neither green nor blue in it.
+    // The primary red, x = 0.64, y = 0.33, z = 0.03, contains no green and blue.
     image = must_decode(one_texel("FORMAT=32-bit_rle_xyze\n", (uint8_t[4]){191, 98, 8, 128}));
     const float *red = texel(&image, 0, 0);
     assert_true(red[0] > 1 && fabsf(red[1]) < 0.02f && fabsf(red[2]) < 0.02f);
@@ -311,7 +311,7 @@ static void a_file_cut_off_anywhere_is_refused(void **state) {
     }
 }
 
-// Whatever is changed, there is an image or one line, and never a crash.
+// Whatever changes, the result is an image or one message, and never a crash.
 static void any_byte_may_be_wrong(void **state) {
     (void)state;
     random_sequence random = scenes_random_start(7);

@@ -68,7 +68,7 @@ static void what_is_no_number_is_left_alone(void **state) {
         assert_false(scenes_text_cursor_number(&cursor, &value));
         assert_ptr_equal(cursor.at, texts[i]);
     }
-    // It does not look behind the end.
+    // Nothing is read past the end.
     text_cursor cursor = {"12345", "12345" + 0};
     double value;
     assert_false(scenes_text_cursor_number(&cursor, &value));

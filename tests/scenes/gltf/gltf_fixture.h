@@ -1,7 +1,7 @@
 #ifndef TESTS_SCENES_GLTF_GLTF_FIXTURE_H
 #define TESTS_SCENES_GLTF_GLTF_FIXTURE_H
 
-// cmocka.h wants these before it.
+// cmocka.h needs these before it.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,10 +15,10 @@
 
 #include "third_party/tinygltf.h"
 
-/// A temporary folder in which a test writes files and opens them, with what the log said.
+/// A temporary folder in which a test writes files and opens them, with the log's messages.
 typedef struct gltf_fixture {
     char folder[64];
-    size_t errors, warnings, notices; // of the last opening
+    size_t errors, warnings, notices; // of the last open
     char error[1024];
     char warnings_text[4096]; // all lines
 } gltf_fixture;
@@ -26,7 +26,7 @@ typedef struct gltf_fixture {
 int gltf_fixture_setup(void **state);
 int gltf_fixture_teardown(void **state);
 
-/// The path of a file in the folder; good until the next call.
+/// The path of a file in the folder, valid until the next call.
 const char *gltf_fixture_path(const gltf_fixture *fixture, const char *name);
 
 void gltf_fixture_write(const gltf_fixture *fixture, const char *name, const void *bytes,
@@ -36,14 +36,14 @@ void gltf_fixture_write_text(const gltf_fixture *fixture, const char *name, cons
 void gltf_fixture_write_glb(const gltf_fixture *fixture, const char *name, const char *json,
                             const void *binary, size_t size);
 
-/// Opens a file of the folder. Asserts that success comes with a scene and without an error
-/// line, failure without a scene and with exactly one line, which names the file.
+/// Opens a file in the folder. Asserts that success comes with a scene and without an error
+/// message, failure without a scene and with exactly one message, which names the file.
 lobe_result gltf_fixture_open(gltf_fixture *fixture, const char *name, lobe_scene **scene);
 /// The same for any path.
 lobe_result gltf_fixture_open_path(gltf_fixture *fixture, const char *path, lobe_scene **scene);
 /// Asserts success.
 lobe_scene *gltf_fixture_must_open(gltf_fixture *fixture, const char *name);
-/// Asserts the failure, and that its line has `cause` in it.
+/// Asserts the failure, and that its message contains `cause`.
 void gltf_fixture_must_fail(gltf_fixture *fixture, const char *name, lobe_result result,
                             const char *cause);
 

@@ -1,5 +1,5 @@
-// Real models and collected broken files. They lie beside the project; without them these tests
-// are skipped.
+// Real models and collected broken files. They are stored beside the project; without them these
+// tests are skipped.
 
 #include "tests/scenes/gltf/gltf_fixture.h"
 
@@ -29,8 +29,8 @@ static lobe_scene *must_open(gltf_fixture *fixture, const char *path) {
 }
 
 static void models_have_the_counts_of_their_files(void **state) {
-    // Counted in the files' text: triangle primitives, their vertices, indices, materials and
-    // images in use (the transform's image is used as colour and as data), and warnings:
+    // Counted in the text of the files: triangle primitives, their vertices, indices, materials and
+    // images in use (the image with a transform is used both as colour and as data), and warnings:
     // FlightHelmet blends its lenses, the vertex colours come with points and lines.
     static const struct {
         const char *path;
@@ -77,8 +77,7 @@ static void maps_use_their_own_set_of_coordinates(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-// The files' tangents were made by their authors' tools; ours must be the same ones, and above
-// all of the same hand.
+// The files' tangents were made by their authors' tools; ours must agree, above all in handedness.
 static void computed_tangents_agree_with_those_of_the_files(void **state) {
     static const char *const paths[] = {MODELS "01_textured_sphere/01_textured_sphere.gltf",
                                         MODELS "FlightHelmet/FlightHelmet.gltf"};
@@ -96,7 +95,7 @@ static void computed_tangents_agree_with_those_of_the_files(void **state) {
             assert_int_equal(scenes_mesh_compute_tangents(mesh, NULL, NULL), LOBE_OK);
             for (size_t v = 0; v < count; v++) {
                 const float *t = mesh->vertices[v].tangent;
-                // At the poles of the sphere all coordinates are equal: any tangent will do.
+                // At the poles of the sphere all coordinates are equal, so any tangent is right.
                 if (fabsf(mesh->vertices[v].normal[1]) > 0.97f)
                     continue;
                 vertices++;
@@ -117,7 +116,7 @@ static bool has_suffix(const char *name, const char *suffix) {
     return length >= end && strcmp(name + length - end, suffix) == 0;
 }
 
-// gltf_fixture_open_path does the asserting: a scene, or one line that names the file.
+// gltf_fixture_open_path asserts a scene, or one message that names the file.
 static void open_all(gltf_fixture *fixture, const char *folder, size_t *opened, size_t *failed) {
     DIR *directory = opendir(folder);
     assert_non_null(directory);
@@ -142,7 +141,7 @@ static void every_broken_file_is_survived(void **state) {
     size_t opened = 0, failed = 0;
     skip_without(BROKEN);
     open_all(*state, BROKEN, &opened, &failed);
-    assert_true(opened > 30); // many validate clean, or are odd where lobe does not look
+    assert_true(opened > 30); // many are valid, or wrong where lobe does not look
     assert_true(failed > 50);
 }
 

@@ -1,4 +1,4 @@
-// Broken glTF files: each fails with the right code and one line that names file and cause.
+// Broken glTF files: each fails with the right code and one message that names file and cause.
 
 #include "tests/scenes/gltf/gltf_fixture.h"
 
@@ -21,7 +21,7 @@ static void files_that_are_not_there_or_cannot_be_read(void **state) {
     gltf_fixture_must_fail(fixture, ".", LOBE_ERROR_NOT_FOUND, "no PNG or JPEG file");
     assert_int_equal(mkfifo(gltf_fixture_path(fixture, "pipe.glb"), 0600), 0);
     gltf_fixture_must_fail(fixture, "pipe.glb", LOBE_ERROR_READ, "not a regular file");
-    // A file with a hole is huge without taking any room.
+    // A sparse file is huge without taking up space.
     gltf_fixture_write_text(fixture, "huge.glb", "glTF");
     assert_int_equal(truncate(gltf_fixture_path(fixture, "huge.glb"), 3l << 30), 0);
     gltf_fixture_must_fail(fixture, "huge.glb", LOBE_ERROR_LIMIT, "larger than 2 GiB");
@@ -117,17 +117,17 @@ static void broken_chunks_are_refused(void **state) {
         {1, 1, LOBE_ERROR_UNSUPPORTED, "GLB version 1"},
         {2, 65, LOBE_ERROR_MALFORMED, "shorter than its header says"},
         {2, 0xffffffff, LOBE_ERROR_MALFORMED, "shorter than its header says"},
-        {2, 0, LOBE_ERROR_MALFORMED, "ends inside the head of a chunk"},
-        {2, 16, LOBE_ERROR_MALFORMED, "ends inside the head of a chunk"},
+        {2, 0, LOBE_ERROR_MALFORMED, "ends inside a chunk header"},
+        {2, 16, LOBE_ERROR_MALFORMED, "ends inside a chunk header"},
         {2, 40, LOBE_ERROR_MALFORMED, "a chunk is longer than the file"},
-        {2, 52, LOBE_ERROR_MALFORMED, "ends inside the head of a chunk"},
+        {2, 52, LOBE_ERROR_MALFORMED, "ends inside a chunk header"},
         {3, 0, LOBE_ERROR_MALFORMED, "a chunk is longer than the file"},
-        {3, 27, LOBE_ERROR_MALFORMED, "no multiple of 4"},
+        {3, 27, LOBE_ERROR_MALFORMED, "not a multiple of 4"},
         {3, 0xfffffffc, LOBE_ERROR_MALFORMED, "a chunk is longer than the file"},
         {4, 0x004e4942, LOBE_ERROR_MALFORMED, "the first chunk is not JSON"},
         {12, 12, LOBE_ERROR_MALFORMED, "a chunk is longer than the file"},
         {12, 0xfffffff8, LOBE_ERROR_MALFORMED, "a chunk is longer than the file"},
-        {12, 7, LOBE_ERROR_MALFORMED, "no multiple of 4"},
+        {12, 7, LOBE_ERROR_MALFORMED, "not a multiple of 4"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         glb_words glb = make_glb();
@@ -168,7 +168,7 @@ static void every_truncation_of_a_glb_is_refused(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Buffers, views and accessors. The binary chunk: three positions, three indices of 16 bits.
+// Buffers, views and accessors. The binary chunk holds three positions and three 16-bit indices.
 
 static const char parts[] =
     "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"name\":\"part\","
@@ -185,7 +185,7 @@ typedef struct parts_content {
 
 static const parts_content good_parts = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 0}};
 
-// Writes the parts with the first `from` of their text replaced by `to`.
+// Writes the parts with the first `from` in their text replaced by `to`.
 static void write_parts(const gltf_fixture *fixture, const char *from, const char *to,
                         const parts_content *content) {
     char json[2048];
@@ -212,29 +212,29 @@ static void ranges_are_checked_before_memory_is_taken(void **state) {
         {"\"byteLength\":44", "\"byteLength\":0", LOBE_ERROR_MALFORMED, ""},
         {"\"byteLength\":44", "\"byteLength\":9007199254740992", LOBE_ERROR_MALFORMED, ""},
         {"\"byteLength\":36", "\"byteLength\":45", LOBE_ERROR_MALFORMED,
-         "buffer view 0: 45 bytes from 0 on reach beyond the 44 bytes of buffer 0"},
+         "buffer view 0: 45 bytes from 0 on end beyond the 44 bytes of buffer 0"},
         {"\"byteLength\":36", "\"byteLength\":35", LOBE_ERROR_MALFORMED,
-         "POSITION of part: 3 elements reach beyond the 35 bytes of buffer view 0"},
-        {"\"byteLength\":36", "\"byteLength\":0", LOBE_ERROR_MALFORMED, "reach beyond"},
+         "POSITION of part: 3 elements end beyond the 35 bytes of buffer view 0"},
+        {"\"byteLength\":36", "\"byteLength\":0", LOBE_ERROR_MALFORMED, "end beyond"},
         {"\"byteOffset\":36", "\"byteOffset\":39", LOBE_ERROR_MALFORMED, "buffer view 1"},
         {"\"byteOffset\":36", "\"byteOffset\":9007199254740992", LOBE_ERROR_MALFORMED,
          "buffer view 1"},
         {"\"buffer\":0", "\"buffer\":1", LOBE_ERROR_MALFORMED, "there is no buffer 1"},
         {"\"bufferView\":0", "\"bufferView\":2", LOBE_ERROR_MALFORMED, "there is no buffer view 2"},
         {"\"bufferView\":0", "\"bufferView\":0,\"byteOffset\":4", LOBE_ERROR_MALFORMED,
-         "reach beyond"},
+         "end beyond"},
         {"\"bufferView\":0", "\"bufferView\":0,\"byteOffset\":9007199254740992",
-         LOBE_ERROR_MALFORMED, "reach beyond"},
+         LOBE_ERROR_MALFORMED, "end beyond"},
         {"\"byteLength\":36", "\"byteLength\":36,\"byteStride\":8", LOBE_ERROR_MALFORMED,
          "overlap at a stride of 8"},
         {"\"byteLength\":36", "\"byteLength\":36,\"byteStride\":16", LOBE_ERROR_MALFORMED,
-         "reach beyond"},
+         "end beyond"},
         {"\"byteLength\":36", "\"byteLength\":36,\"byteStride\":256", LOBE_ERROR_MALFORMED,
          "byteStride"},
-        // A 2-GB accessor, and counts whose sizes overflow 32 and 64 bits.
-        {"\"count\":3", "\"count\":178956971", LOBE_ERROR_MALFORMED, "reach beyond"},
-        {"\"count\":3", "\"count\":357913942", LOBE_ERROR_MALFORMED, "reach beyond"},
-        {"\"count\":3", "\"count\":9007199254740992", LOBE_ERROR_MALFORMED, "reach beyond"},
+        // A 2 GB accessor, and counts whose sizes overflow 32 and 64 bits.
+        {"\"count\":3", "\"count\":178956971", LOBE_ERROR_MALFORMED, "end beyond"},
+        {"\"count\":3", "\"count\":357913942", LOBE_ERROR_MALFORMED, "end beyond"},
+        {"\"count\":3", "\"count\":9007199254740992", LOBE_ERROR_MALFORMED, "end beyond"},
         {"\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3",
          "\"componentType\":5126,\"type\":\"VEC3\",\"count\":178956971", LOBE_ERROR_LIMIT,
          "178956971 elements without a buffer view"},
@@ -266,7 +266,7 @@ static void ranges_are_checked_before_memory_is_taken(void **state) {
 }
 
 static void sparse_ranges_are_checked(void **state) {
-    // Indices and values both lie in view 1: 0, 1, 2 as shorts.
+    // Indices and values are both in view 1: 0, 1, 2 as 16-bit integers.
     static const char sparse[] =
         "\"count\":3,\"sparse\":{\"count\":%s,\"indices\":{\"bufferView\":%s,"
         "\"componentType\":%s},\"values\":{\"bufferView\":%s}}";
@@ -275,10 +275,10 @@ static void sparse_ranges_are_checked(void **state) {
     } cases[] = {
         {"4", "1", "5121", "0", "sparse indices of type"},
         {"3", "1", "5126", "0", "sparse indices of type"},
-        {"3", "1", "5125", "0", "reach beyond the 6 bytes"},
+        {"3", "1", "5125", "0", "end beyond the 6 bytes"},
         {"3", "7", "5123", "0", "there is no buffer view 7"},
         {"3", "1", "5123", "7", "there is no buffer view 7"},
-        {"1", "1", "5123", "1", "reach beyond the 6 bytes"},
+        {"1", "1", "5123", "1", "end beyond the 6 bytes"},
         {"2", "1", "5121", "0", "do not increase"},
         {"1", "0", "5125", "0", NULL},
         {"3", "1", "5123", "0", NULL},
@@ -376,7 +376,7 @@ static void alignment_does_not_matter(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// External buffers, and what a small file may ask for
+// External buffers, and the limits of a small file
 
 static void write_external(const gltf_fixture *fixture, const char *uri) {
     char json[1024];
@@ -411,7 +411,7 @@ static void external_buffers_are_found_and_measured(void **state) {
     gltf_fixture_must_fail(*state, "external.gltf", LOBE_ERROR_MALFORMED, "data:");
 }
 
-// One mesh of a thousand primitives with a thousand nodes: a million instances and some.
+// One mesh of a thousand primitives with a thousand nodes: slightly over a million instances.
 static void instances_are_limited(void **state) {
     enum { COUNT = 1100 };
     static char json[COUNT * 64];

@@ -23,7 +23,7 @@ static void write_png(const gltf_fixture *fixture, const char *name, uint32_t wi
         png_image_write_to_file(&image, gltf_fixture_path(fixture, name), 0, texels, 0, NULL));
 }
 
-// Face f is 2 x 2 texels: red tells the face, green the texel.
+// Face f is 2 x 2 texels: red encodes the face, green the texel.
 static void write_faces(const gltf_fixture *fixture) {
     for (uint8_t face = 0; face < 6; face++) {
         uint8_t texels[12];
@@ -40,7 +40,7 @@ static const char images[] = "{\"uri\":\"0.png\"},{\"uri\":\"1.png\"},{\"uri\":\
                              "{\"uri\":\"3.png\"},{\"uri\":\"4.png\"},{\"uri\":\"5.png\"}";
 static const char all_faces[] = "\"specularImages\":[[0,1,2,3,4,5],[0,0,0,0,0,0]]";
 
-// A triangle, lit by light `index` of lights `lights`.
+// A triangle, lit by light `index` of `lights`.
 static void write_file(const gltf_fixture *fixture, const char *lights, int index) {
     char json[4096];
     snprintf(json, sizeof json,
@@ -72,7 +72,7 @@ static const float *texel_at(const lobe_environment *environment, const double d
            4 * ((size_t)position[1] * image->width + (size_t)position[0]);
 }
 
-// The first level alone lights the scene, and nothing is added to it.
+// The first level alone lights the scene, and no light is added.
 static void faces_look_where_the_extension_says(void **state) {
     gltf_fixture *fixture = *state;
     write_faces(fixture);
@@ -84,8 +84,8 @@ static void faces_look_where_the_extension_says(void **state) {
     const lobe_environment *environment = scene->environment;
     assert_non_null(environment);
     assert_true(environment->intensity == 1);
-    // The standard orientation of cube maps: where u and v of each face grow to; then the images
-    // are flipped about their vertical axis.
+    // The standard orientation of cube maps: the directions in which u and v of each face grow;
+    // then the images are flipped about their vertical axis.
     static const double u[6][3] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0},
                                    {1, 0, 0},  {1, 0, 0}, {-1, 0, 0}};
     static const double v[6][3] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1},
@@ -109,7 +109,7 @@ static void faces_look_where_the_extension_says(void **state) {
 static void rotation_and_intensity_are_read(void **state) {
     gltf_fixture *fixture = *state;
     write_faces(fixture);
-    // A third of a turn about (1, 1, 1), x -> y -> z -> x, given twice as long as unit.
+    // A third of a turn about (1, 1, 1), x -> y -> z -> x, as a quaternion of length 2.
     lobe_scene *scene = open_lit(fixture, ",\"rotation\":[1,1,1,1],\"intensity\":2.5");
     static const float expected[9] = {0, 1, 0, 0, 0, 1, 1, 0, 0};
     gltf_fixture_assert_near(&scene->environment->world_from_environment[0][0], expected, 9, 1e-6f);
@@ -182,7 +182,7 @@ static void broken_lights_are_refused(void **state) {
     }
 }
 
-// Whatever is changed, there is a scene or one line, and never a crash.
+// Whatever changes, the result is a scene or one message, and never a crash.
 static void any_byte_may_be_wrong(void **state) {
     gltf_fixture *fixture = *state;
     static const char replacements[] = "0]}\"-,:x";

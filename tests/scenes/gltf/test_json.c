@@ -1,4 +1,4 @@
-// The check of JSON text that goes before a parser.
+// The check of JSON text that precedes parsing.
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -166,7 +166,7 @@ static void faults_of_syntax_are_found(void **state) {
     assert_int_equal(check_bytes("{\"a\0b\":1}", 9, &o), LOBE_ERROR_MALFORMED);
 }
 
-// Every beginning of a valid text is invalid, and is read within its end.
+// Every proper prefix of a valid text is invalid, and is not read past its end.
 static void every_truncation_is_refused(void **state) {
     (void)state;
     static const char json[] =

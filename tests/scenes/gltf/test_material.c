@@ -28,7 +28,7 @@ static lobe_scene *open_material(gltf_fixture *fixture, const char *root) {
     return gltf_fixture_must_open(fixture, "material.glb");
 }
 
-// Encodes RGBA of 8 or 16 bits a channel (big-endian, as PNG has it); to be freed.
+// Encodes RGBA with 8 or 16 bits per channel (big-endian, as in PNG); to be freed.
 static uint8_t *encode_png(uint32_t width, uint32_t height, int bits, const void *texels,
                            size_t *size) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
@@ -97,7 +97,7 @@ static void factors_out_of_range_are_clamped_and_counted(void **state) {
     gltf_fixture_assert_near(m->base_colour, (const float[]){1, 1, 0, 1}, 4, 0);
     assert_true(m->roughness == 1);
     assert_int_equal(fixture->warnings, 1);
-    assert_non_null(strstr(fixture->warnings_text, "3 factors"));
+    assert_non_null(strstr(fixture->warnings_text, "3 material factors"));
     lobe_scene_destroy(&scene);
 }
 
@@ -123,7 +123,7 @@ static void images_become_colour_or_data_by_their_use(void **state) {
         "\"textures\":[{\"source\":0},{\"source\":0},{\"source\":1}],"
         "\"images\":[{\"uri\":\"both.png\"},{\"uri\":\"unused.png\"},{\"uri\":\"absent.png\"}]");
     const lobe_material *m = &scene->materials[0];
-    // The emissive factor is black, so its map is not read; both uses of data share one image.
+    // The emissive factor is black, so its map is not read; both uses as data share one image.
     assert_int_equal(scene->image_count, 2);
     assert_int_equal(m->emissive_map.image, -1);
     assert_int_equal(m->occlusion_map.image, m->normal_map.image);
@@ -202,7 +202,7 @@ static void coordinates_are_transformed(void **state) {
         "\"KHR_texture_transform\":{\"texCoord\":1,\"scale\":[2,3]}}}}],"
         "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"turned.png\"}]");
     const lobe_material *m = &scene->materials[0];
-    // The extension's own example: the lower left quarter of the image, turned clockwise.
+    // The example from the extension: the lower left quarter of the image, turned clockwise.
     const float quarter[6] = {0, 0.5f, 0, -0.5f, 0, 1};
     gltf_fixture_assert_near(&m->base_colour_map.transform[0][0], quarter, 6, NEAR);
     const float c = cosf(0.3f), s = sinf(0.3f);
@@ -212,7 +212,7 @@ static void coordinates_are_transformed(void **state) {
     gltf_fixture_assert_near(&m->occlusion_map.transform[0][0], scaled, 6, 0);
     assert_int_equal(m->occlusion_map.texture_coordinates, 1);
     assert_int_equal(m->normal_map.texture_coordinates, 0);
-    // Tangents follow the normal map's own u, which its transform has turned by 0.3.
+    // Tangents follow the normal map's own u, which its transform turns by 0.3.
     gltf_fixture_assert_near(
         scene->meshes[0].vertices[0].tangent,
         (const float[]){5 * c / hypotf(5 * c, 4 * s), 4 * s / hypotf(5 * c, 4 * s), 0, -1}, 4,
@@ -262,7 +262,7 @@ static void encode_base64(const uint8_t *bytes, size_t size, char *text) {
     *text = 0;
 }
 
-// Buffer and image inside the text, and the image once more inside the buffer.
+// Buffer and image inside the text, and the image again inside the buffer.
 static void everything_may_be_embedded(void **state) {
     size_t size;
     uint8_t *png = encode_png(2, 1, 8, texels, &size);

@@ -117,11 +117,11 @@ static void colours_may_have_alpha(void **state) {
 }
 
 static void quantised_attributes_need_their_extension(void **state) {
-    // Positions scaled by the node, as quantising exporters do; -32768 stands for -1.
+    // Positions scaled by the node, as quantising exporters write them; -32768 means -1.
     static const int16_t positions[] = {0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, -32768, 0};
     static const int8_t normals[] = {0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0};
     static const uint16_t coordinates[] = {0, 0, 3, 0, 0, 2};
-    // Rows of short vectors are padded to four bytes: a stride is needed.
+    // Rows of short vectors are padded to four bytes, so a stride is needed.
     const char *json =
         "{\"asset\":{\"version\":\"2.0\"},%s\"nodes\":[{\"mesh\":0,\"scale\":[2,2,2]}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,"
@@ -178,8 +178,8 @@ static void interleaved_attributes_are_read_at_their_stride(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-// Four positions, of which sparse values replace the second and last; `base` is a buffer view
-// or nothing at all, on which the others are zero.
+// Four positions, of which sparse values replace the second and the last; `base` is a buffer view
+// or none, in which case the others are zero.
 static const char sparse_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":"
     "[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"mode\":5}]}],"
@@ -294,7 +294,7 @@ static void tangents_without_direction_are_recomputed(void **state) {
     gltf_fixture *fixture = *state;
     lobe_scene *scene = open_mesh(fixture, &mesh);
     assert_non_null(strstr(fixture->warnings_text, "2 tangents without a direction"));
-    // u grows along y, v falls along x: seen on the front the image is mirrored.
+    // u grows along y, v falls along x: seen from the front, the image is mirrored.
     for (int i = 0; i < 3; i++)
         gltf_fixture_assert_near(scene->meshes[0].vertices[i].tangent, (const float[]){0, 1, 0, -1},
                                  4, NEAR);

@@ -1,5 +1,5 @@
-// A few hundred damaged copies of small valid files, from a fixed seed. Whatever a copy says, it
-// opens or fails with one line; the sanitizers watch the rest.
+// A few hundred damaged copies of small valid files, from a fixed seed. Each copy opens or fails
+// with one message; the sanitizers check the rest.
 
 #include "tests/scenes/gltf/gltf_fixture.h"
 
@@ -21,7 +21,7 @@ static uint32_t next_random(uint32_t *seed) {
     return *seed >> 8;
 }
 
-// A file that has a little of everything.
+// A file with a little of everything.
 static file_content make_file(gltf_fixture *fixture) {
     static const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const float coordinates[] = {0, 0, 1, 0, 0, 1};
@@ -83,7 +83,7 @@ static void change_digit(file_content *file, uint32_t *seed) {
     }
 }
 
-// Copies one piece over another, which moves values to names they do not belong to.
+// Copies one piece over another, which moves values to the wrong names.
 static void move_piece(file_content *file, uint32_t *seed) {
     size_t length = 1 + next_random(seed) % 16;
     size_t from = next_random(seed) % (file->size - length);
@@ -114,7 +114,7 @@ static void damaged_files_are_survived(void **state) {
         lobe_scene_destroy(&scene);
     }
     assert_true((double)(clock() - start) / CLOCKS_PER_SEC < MAXIMUM_SECONDS);
-    // Both ways are walked, or the damage is too little or too much to find anything.
+    // Both outcomes occur; otherwise the damage is too small or too large to find anything.
     assert_true(opened > MUTATIONS / 20);
     assert_true(failed > MUTATIONS / 20);
 }

@@ -1,4 +1,4 @@
-// Nodes of glTF files: transforms, lights, cameras, and what is added where there are none.
+// Nodes of glTF files: transforms, lights, cameras, and what is added when they are missing.
 
 #include "tests/scenes/gltf/gltf_fixture.h"
 
@@ -8,7 +8,7 @@
 
 #define NEAR 1e-6f
 
-// One mesh of one triangle, after which `members` (each preceded by a comma) define the rest.
+// One mesh with one triangle, after which `members` (each preceded by a comma) define the rest.
 static void write_nodes(const gltf_fixture *fixture, const char *name, const char *members) {
     char json[4096];
     snprintf(json, sizeof json,
@@ -26,8 +26,8 @@ static lobe_scene *open_nodes(gltf_fixture *fixture, const char *members) {
 }
 
 static void transforms_are_composed_along_the_hierarchy(void **state) {
-    // Root: a quarter turn about z (given twice as long as unit), then up by one; child: twice
-    // as large, three to the right; grandchild: a matrix that only moves.
+    // Root: a quarter turn about z (a quaternion of length 2), then up by one; child: twice as
+    // large, three to the right; grandchild: a matrix with only a translation.
     lobe_scene *scene =
         open_nodes(*state, ",\"nodes\":[{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},"
                            "{\"children\":[2],\"rotation\":[0,0,1.41421356,1.41421356],"
@@ -44,7 +44,7 @@ static void transforms_are_composed_along_the_hierarchy(void **state) {
 }
 
 static void rotations_turn_the_right_way(void **state) {
-    // A third of a turn about (1, 1, 1), x -> y -> z -> x, given twice as long as unit.
+    // A third of a turn about (1, 1, 1), x -> y -> z -> x, as a quaternion of length 2.
     lobe_scene *scene = open_nodes(*state, ",\"nodes\":[{\"mesh\":0,\"rotation\":[1,1,1,1]}]");
     static const float expected[16] = {0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1};
     gltf_fixture_assert_near(scene->instances[0].transform, expected, 16, NEAR);
@@ -74,7 +74,7 @@ static float triangle_normal_z(const lobe_scene *scene, const lobe_instance *ins
 }
 
 static void mirroring_keeps_fronts_in_front(void **state) {
-    // The mirror image in the plane y = 0 of a triangle that faces +z faces +z.
+    // Mirrored in the plane y = 0, a triangle that faces +z still faces +z.
     lobe_scene *scene =
         open_nodes(*state, ",\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"scale\":[1,-1,1]},"
                            "{\"mesh\":0,\"scale\":[-1,1,1]},{\"mesh\":0,\"scale\":[-1,-1,1]}]");
@@ -91,7 +91,7 @@ static void mirroring_keeps_fronts_in_front(void **state) {
     }
     gltf_fixture_assert_near(scene->minimum, (const float[]){-1, -1, 0}, 3, NEAR);
     gltf_fixture_assert_near(scene->maximum, (const float[]){1, 1, 0}, 3, NEAR);
-    // The reflected frame is the reflection of the frame.
+    // The tangent frame is mirrored, too.
     const lobe_scene_vertex *plain = &scene->meshes[0].vertices[1];
     const lobe_scene_vertex *mirrored = &scene->meshes[1].vertices[1];
     assert_true(mirrored->position[0] == -plain->position[0]);
@@ -126,7 +126,7 @@ static void lights_are_placed_by_their_nodes(void **state) {
     snprintf(members, sizeof members, lights, "", "");
     lobe_scene *scene = open_nodes(fixture, members);
     assert_int_equal(fixture->warnings, 0);
-    assert_int_equal(fixture->notices, 1); // the camera only
+    assert_int_equal(fixture->notices, 1); // only the camera
     assert_int_equal(scene->light_count, 3);
     const lobe_light *sun = &scene->lights[0], *lamp = &scene->lights[1], *spot = &scene->lights[2];
     assert_int_equal(sun->type, LOBE_LIGHT_DIRECTIONAL);
@@ -177,7 +177,7 @@ static void first_camera_is_used(void **state) {
                  "\"orthographic\":{\"xmag\":1,\"ymag\":1,\"znear\":0,\"zfar\":9}},"
                  "{\"type\":\"perspective\",\"perspective\":{\"yfov\":0.75,\"znear\":0.125}}]");
     assert_true(scene->has_camera);
-    assert_int_equal(fixture->notices, 1); // the sky only
+    assert_int_equal(fixture->notices, 1); // only the sky
     const lobe_camera *camera = &scene->camera;
     gltf_fixture_assert_near(camera->eye, (const float[]){0, 0, 4}, 3, NEAR);
     gltf_fixture_assert_near(camera->target, (const float[]){0, 0, 0}, 3, NEAR);
@@ -195,7 +195,7 @@ static void orthographic_cameras_give_their_height(void **state) {
     const lobe_camera *camera = &scene->camera;
     assert_true(camera->vertical_field_of_view == 0 && camera->orthographic_height == 6);
     assert_true(camera->near_plane > 0);
-    // Everything lies behind it or beside it: it keeps looking along -x.
+    // Everything is behind or beside the camera: it keeps looking along -x.
     gltf_fixture_assert_near(camera->target, (const float[]){-1, 0, 0}, 3, NEAR);
     lobe_scene_destroy(&scene);
 }

@@ -36,7 +36,7 @@ static void names_tell_the_map(void **state) {
         {"emissive.png", MATERIAL_MAP_EMISSIVE},
         {"displacement.jpg", MATERIAL_MAP_DISPLACEMENT},
         {"depth.png", MATERIAL_MAP_DISPLACEMENT},
-        // A word is a whole word, and the extension is none.
+        // Parts of words do not count, nor does the extension.
         {"Metal053C.png", MATERIAL_MAP_COUNT},
         {"charm.png", MATERIAL_MAP_COUNT},
         {"abnormal.jpg", MATERIAL_MAP_COUNT},
@@ -60,7 +60,7 @@ static void absurd_names_are_not_recognised(void **state) {
     memset(name, 'a', sizeof name);
     strcpy(name + sizeof name - 12, "_normal.png");
     assert_int_equal(scenes_material_file_map(name), MATERIAL_MAP_COUNT);
-    // As many words as a name of 512 bytes can have: aB aB ...
+    // As many words as a name of 512 bytes can contain: aB aB ...
     for (int i = 0; i < 512; i++)
         name[i] = i % 2 ? 'B' : 'a';
     name[512] = 0;

@@ -51,7 +51,7 @@ static int tear_down(void **state) {
     return result;
 }
 
-// An image whose texels all have the same colour.
+// An image with the same colour in all texels.
 static void write_image(const folder_fixture *fixture, const char *name, uint32_t width,
                         uint32_t height, uint8_t red, uint8_t green, uint8_t blue) {
     lobe_image image;
@@ -86,7 +86,7 @@ static const lobe_material *must_open(folder_fixture *fixture, lobe_carrier carr
     return &fixture->scene->materials[0];
 }
 
-// The failure comes with one line that names the file and the cause.
+// The failure comes with one message that names the file and the cause.
 static void must_fail(folder_fixture *fixture, const char *path, lobe_result expected,
                       const char *name, const char *cause) {
     log_recorder_start(&fixture->recorder);
@@ -170,7 +170,7 @@ static void directx_normals_are_turned_up(void **state) {
     write_image(fixture, "nor_dx.png", 2, 2, 100, 30, 220);
     const lobe_material *material = must_open(fixture, LOBE_CARRIER_PLANE);
     assert_texel(image_of(fixture, &material->normal_map), 100, 225, 220);
-    // An OpenGL map, once there, is taken instead and stays as it is.
+    // An OpenGL map takes precedence and is used unchanged.
     write_image(fixture, "nor_gl.png", 2, 2, 101, 31, 221);
     material = must_open(fixture, LOBE_CARRIER_PLANE);
     assert_int_equal(fixture->scene->image_count, 1);
@@ -228,7 +228,7 @@ static void carriers_repeat_the_maps(void **state) {
     assert_true(sphere->vertices[sphere->vertex_count - 1].texture_coordinates[0][0] == 4);
 }
 
-// Texels of a map of that extent, across a pixel of 1280 x 720, at the three corners' middle.
+// Texels of a map of that extent across a pixel of 1280 x 720, at the middle of the three corners.
 static double texels_across(const lobe_camera *camera, const lobe_mesh *mesh, size_t first,
                             double extent, bool *inside) {
     vector3 eye = vector3_load(camera->eye);
@@ -278,7 +278,7 @@ static double distance(const lobe_scene_vertex *a, const lobe_scene_vertex *b) {
     return vector3_length(vector3_subtract(vector3_load(a->position), vector3_load(b->position)));
 }
 
-// It waves, but hardly stretches: edges are as long as the maps on them say.
+// It waves, but hardly stretches: edges are as long as the maps on them.
 static void cloth_keeps_its_lengths(void **state) {
     folder_fixture *fixture = *state;
     write_image(fixture, "albedo.png", 400, 16, 1, 2, 3);
@@ -341,7 +341,7 @@ static void bad_images_are_named(void **state) {
     char path[512];
     file_path(fixture, "normal.png", path);
     assert_int_equal(remove(path), 0);
-    // The last map to be read fails: what was read before is freed.
+    // The last map to be read fails: everything read before is freed.
     file_path(fixture, "metallic.png", path);
     write_image(fixture, "roughness.png", 64, 64, 1, 1, 1);
     assert_int_equal(mkdir(path, 0700), 0);
@@ -351,13 +351,13 @@ static void bad_images_are_named(void **state) {
     must_fail(fixture, fixture->path, LOBE_ERROR_MALFORMED, "albedo.png", ":");
 }
 
-// Real sets, where they are at hand.
+// Real material folders, if available.
 static void real_sets_are_understood(void **state) {
     static const struct {
         const char *folder;
         size_t images;
         bool albedo, normal, packed, occlusion, height;
-        double height_scale[2]; // between these
+        double height_scale[2]; // minimum and maximum
     } sets[] = {
         {"ambientcg_Bark014", 4, true, true, true, false, true, {0.01, 0.05}},
         {"ambientcg_Metal053C", 4, true, true, true, false, true, {0.001, 0.02}},

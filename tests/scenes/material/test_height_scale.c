@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 #include "scenes/builtin/noise.h"
 #include "scenes/material/height_scale.h"
 
@@ -12,8 +12,8 @@ typedef struct relief {
     lobe_image heights, normals;
 } relief;
 
-// Noise in 16 bits, as heights and as their normals, where the range of the heights spans `scale`
-// of the width. The same noise where the seeds agree.
+// Noise in 16 bits, as heights and as their normals; the range of the heights spans `scale` of the
+// width. Equal seeds give the same noise.
 static relief make_relief(double scale, uint32_t height_seed, uint32_t normal_seed) {
     relief made;
     assert_int_equal(
@@ -47,7 +47,8 @@ static void the_scale_of_a_relief_is_found(void **state) {
         relief made = make_relief(scales[i], 5, 5);
         float scale = 0;
         assert_true(scenes_height_scale_find(&made.heights, &made.normals, &scale));
-        // Differences of neighbours are a little flatter than slopes; normals have eight bits.
+        // Differences of neighbours are slightly flatter than the slopes, and normals have eight
+        // bits.
         assert_true(fabs(scale / scales[i] - 1) < 0.06);
         free_relief(&made);
     }

@@ -17,7 +17,7 @@ static void packs_channels_of_one_size_exactly(void **state) {
     lobe_image b = make_image(LOBE_FORMAT_RGBA16_UNORM, 5, 3), packed;
     for (int i = 0; i < 5 * 3 * 4; i++) {
         ((uint8_t *)a.texels)[i] = (uint8_t)(i * 4 + 1);
-        ((uint16_t *)b.texels)[i] = (uint16_t)((255 - i) * 257); // 257 times what 8 bits hold
+        ((uint16_t *)b.texels)[i] = (uint16_t)((255 - i) * 257); // 257 times the 8-bit value
     }
     const image_channel channels[4] = {{&a, 2, 0}, {&b, 1, 0}, {NULL, 0, 0.2f}, {.value = 1}};
     assert_int_equal(scenes_image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
@@ -44,7 +44,7 @@ static void smaller_channels_are_interpolated_and_repeat(void **state) {
     const image_channel channels[4] = {{&small, 0, 0}, {&large, 1, 0}, {.value = 0}, {.value = 1}};
     assert_int_equal(scenes_image_channel_pack(channels, "test", NULL, &packed), LOBE_OK);
     assert_true(packed.width == 4 && packed.height == 2);
-    // Texel centres lie at 1/4 and 3/4 of a small texel; the first one reaches round the edge.
+    // Texel centres are at 1/4 and 3/4 of a small texel; the first one reaches around the edge.
     static const uint8_t expected[4] = {50, 50, 150, 150};
     const uint8_t *texel = packed.texels;
     for (int i = 0; i < 8; i++, texel += 4) {

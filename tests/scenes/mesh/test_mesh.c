@@ -1,4 +1,4 @@
-// What is computed from positions, triangles and texture coordinates.
+// Properties computed from positions, triangles and texture coordinates.
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -89,7 +89,7 @@ static void normals_are_weighted_by_area(void **state) {
     assert_vector(mesh.vertices[1].normal, 2 / length, 0, 1 / length);
     assert_vector(mesh.vertices[2].normal, 0, 0, 1);
     assert_vector(mesh.vertices[3].normal, 1, 0, 0);
-    assert_vector(mesh.vertices[4].normal, 0, 1, 0); // of no triangle
+    assert_vector(mesh.vertices[4].normal, 0, 1, 0); // in no triangle
     scenes_mesh_free(&mesh);
 }
 
@@ -162,7 +162,7 @@ static void tangents_follow_set_and_transform(void **state) {
     lobe_mesh mesh;
     make_grid(&mesh);
     mesh.has_texture_coordinates[1] = true;
-    for (int i = 0; i < GRID_VERTICES; i++) { // u along y, v along x: turned, not mirrored
+    for (int i = 0; i < GRID_VERTICES; i++) { // u along y, v along x: rotated, not mirrored
         mesh.vertices[i].texture_coordinates[1][0] = mesh.vertices[i].position[1];
         mesh.vertices[i].texture_coordinates[1][1] = mesh.vertices[i].position[0];
     }
@@ -171,7 +171,7 @@ static void tangents_follow_set_and_transform(void **state) {
     assert_int_equal(scenes_mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
     assert_vector(mesh.vertices[4].tangent, 0, 1, 0);
     assert_true(mesh.vertices[4].tangent[3] == 1);
-    // A quarter turn of the coordinates, and the image mirrored.
+    // The coordinates turned by a quarter, and the image mirrored.
     use.texture_coordinates = 0;
     memcpy(use.transform, ((const float[2][3]){{0, 1, 0}, {1, 0, 0}}), sizeof use.transform);
     assert_int_equal(scenes_mesh_compute_tangents(&mesh, &use, NULL), LOBE_OK);
@@ -231,7 +231,7 @@ static void degenerate_triangles_are_dropped(void **state) {
                                           {2, 0, 0}, {0, 0, 0}, {0.5f, 1e-5f, 0}};
     for (int i = 0; i < 6; i++)
         memcpy(mesh.vertices[i].position, positions[i], sizeof positions[i]);
-    // Good; an index twice; on one line; a position twice; thin but real.
+    // Good; a repeated index; on one line; a repeated position; thin but real.
     static const uint32_t indices[] = {0, 1, 2, 1, 1, 2, 0, 1, 3, 0, 4, 2, 0, 1, 5};
     memcpy(mesh.indices, indices, sizeof indices);
     assert_int_equal(scenes_mesh_drop_degenerate(&mesh), 3);

@@ -41,7 +41,7 @@ static void sphere_is_round_and_closed(void **state) {
                    a[2] * (b[0] * c[1] - b[1] * c[0])) /
                   6.0;
     }
-    // A little less than the sphere's; a hole or a triangle turned over would cost far more.
+    // A little less than the sphere's; a hole or a reversed triangle would differ far more.
     assert_true(volume < 4.18879 && volume > 4.18879 * 0.97);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         assert_memory_equal(mesh.vertices[i].position, mesh.vertices[i].normal, 12);
@@ -74,7 +74,7 @@ static void box_is_closed_and_maps_each_face_upright(void **state) {
     }
     assert_true(fabs(surface - 62) < 1e-5 && fabs(flux - 30) < 1e-5);
     assert_true(fabs(coordinates - 62 / 0.25) < 1e-4);
-    // On upright faces v runs downwards.
+    // On upright faces, v runs downwards.
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const lobe_scene_vertex *vertex = &mesh.vertices[i];
         if (vertex->normal[1] == 0)

@@ -29,9 +29,9 @@ static void check_vertex(const lobe_mesh *mesh, const lobe_scene_vertex *vertex)
 }
 
 typedef struct triangle {
-    vector3 normal;           // of twice the area's length
-    vector3 along_u, along_v; // of the position
-    double coordinate_area;   // twice
+    vector3 normal;           // its length is twice the area
+    vector3 along_u, along_v; // derivatives of the position
+    double coordinate_area;   // twice the area
 } triangle;
 
 static triangle measure(const lobe_mesh *mesh, const uint32_t *index) {
@@ -124,7 +124,7 @@ normal_statistics scene_check_normal_map(const lobe_image *image) {
     const uint8_t *texel = image->texels;
     for (size_t i = 0; i < count; i++, texel += 4) {
         vector3 normal = {texel[0] / 127.5 - 1, texel[1] / 127.5 - 1, texel[2] / 127.5 - 1};
-        // Each component is off by at most half a step of 1/127.5.
+        // Each component differs by at most half a step of 1/127.5.
         assert_near(vector3_length(normal), 1, sqrt(3) / 255 + 1e-9);
         assert_true(normal.z > 0.1);
         assert_int_equal(texel[3], 255);

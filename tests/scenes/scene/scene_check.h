@@ -5,28 +5,29 @@
 
 #include <lobe/scene.h>
 
-/// What must hold for every scene made by code. Each asserts.
+/// Assertions that hold for every scene made by code.
 
-/// Finite, unit normals, orthonormal tangents, indices in range, every triangle with an area and
-/// its front on the side of its normals, texture coordinates and tangents that agree: the tangent
-/// along increasing u, the bitangent against increasing v.
+/// Everything is finite, normals have unit length, tangents are orthonormal, indices are in range,
+/// every triangle has an area and its front on the side of its normals, and texture coordinates and
+/// tangents agree: the tangent along increasing u, the bitangent against increasing v.
 void scene_check_mesh(const lobe_mesh *mesh);
 
-/// The meshes, indices of instances, materials and images, lights, a camera, the bounds.
+/// Checks the meshes, the indices of instances, materials and images, lights, a camera, the bounds.
 void scene_check(const lobe_scene *scene);
 
-/// Every texel of an RGBA8_UNORM normal map is of unit length within what eight bits allow, and
-/// points above the surface. Returns the mean normal, and the mean and greatest tilt in degrees.
+/// Every texel of an RGBA8_UNORM normal map has unit length, within the precision of eight bits,
+/// and points above the surface. Returns the mean normal, and the mean and greatest tilt in
+/// degrees.
 typedef struct normal_statistics {
     double mean[3], mean_tilt, greatest_tilt;
 } normal_statistics;
 normal_statistics scene_check_normal_map(const lobe_image *image);
 
-/// FNV-1a over bytes, going on from `hash`; start with SCENE_CHECK_HASH.
+/// FNV-1a over bytes, continuing from `hash`; start with SCENE_CHECK_HASH.
 #define SCENE_CHECK_HASH 14695981039346656037u
 uint64_t scene_check_hash_bytes(uint64_t hash, const void *bytes, size_t size);
 
-/// Over images and the positions, coordinates and triangles of meshes.
+/// Hash over images and the positions, coordinates and triangles of meshes.
 uint64_t scene_check_hash(const lobe_scene *scene);
 
 /// Every byte of the images, vertices and indices, lights and the camera of two scenes is equal.

@@ -1,4 +1,4 @@
-// The camera that frames a scene: all of it is in the picture, and as large as it can be.
+// The camera that frames a scene: the picture contains all of it, as large as possible.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -9,7 +9,8 @@
 
 #include "scenes/mesh/vector.h"
 
-/// Where a box lies in the picture, [-1, 1] across and upright, and how far its nearest corner is.
+/// The bounds of a box in the picture, [-1, 1] across and upright, and the distance of its nearest
+/// corner.
 typedef struct placement {
     double left, right, bottom, top, nearest;
 } placement;
@@ -39,8 +40,8 @@ static placement place(const lobe_camera *camera, const float low[3], const floa
 
 static const double aspects[] = {16.0 / 9, 1, 0.5, 2};
 
-/// A scene of one mesh whose vertices are the corners of a box; half of them in an instance of
-/// their own that is moved, so that transforms matter.
+/// A scene of one mesh whose vertices are the corners of a box; half of them are in a separate,
+/// moved instance, so that transforms matter.
 typedef struct box_scene {
     lobe_scene_vertex corners[8];
     lobe_mesh meshes[2];
@@ -59,7 +60,7 @@ static void make_scene(const float low[3], const float high[3], box_scene *box) 
         box->instances[i] = (lobe_instance){.mesh = i};
         memcpy(box->instances[i].transform, identity, sizeof identity);
     }
-    // The second half, at z = high, is given about its own origin.
+    // The second half, at z = high, is relative to its own origin.
     for (int corner = 4; corner < 8; corner++)
         box->corners[corner].position[2] = 0;
     box->instances[1].transform[14] = high[2];
@@ -102,7 +103,7 @@ static void scenes_touch_the_margin_and_are_in_the_middle(void **state) {
         }
 }
 
-/// A corner of the bounds where nothing is takes no room.
+/// An empty corner of the bounds takes up no space in the picture.
 static void empty_corners_take_no_room(void **state) {
     (void)state;
     const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
@@ -115,7 +116,7 @@ static void empty_corners_take_no_room(void **state) {
     assert_true(fabs(seen.right - 0.95) < 0.002 || fabs(seen.top - 0.95) < 0.002);
 }
 
-/// Along the line of sight a scene could reach up to the eye.
+/// A scene that is long in the direction of sight could reach up to the eye.
 static void the_eye_keeps_away_from_what_is_long(void **state) {
     (void)state;
     const float low[3] = {-0.001f, -0.001f, -50}, high[3] = {0.001f, 0.001f, 50};

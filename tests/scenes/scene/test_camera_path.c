@@ -86,7 +86,7 @@ static void it_moves_in_small_steps(void **state) {
     for (int i = 1; i <= STEPS; i++) {
         lobe_camera camera = at(&still, (double)i / STEPS);
         vector3 step = vector3_subtract(reach(&camera), reach(&before));
-        // By its own growth and by 4 pi / STEPS of the radius at most.
+        // Its own growth, and at most 4 pi / STEPS of the radius.
         assert_true(vector3_length(step) < vector3_length(reach(&before)) * (12.6 + 8.4) / STEPS);
         assert_memory_equal(camera.target, still.target, sizeof still.target);
         before = camera;
@@ -101,7 +101,7 @@ static void it_zooms_straight_and_turns_once_about_the_vertical(void **state) {
         assert_same_direction(reach(&camera), reach(&still));
     }
     vector3 start = reach(&still);
-    // Counter-clockwise from above: +Z turns to +X.
+    // Counter-clockwise from above: +Z turns towards +X.
     camera = at(&still, 0.625);
     assert_same_direction(reach(&camera), (vector3){start.z, start.y, -start.x});
     camera = at(&still, 0.75);
@@ -122,7 +122,7 @@ static void the_up_vector_stays_upright_and_a_tilted_one_turns_along(void **stat
         assert_true(camera.up[0] == 0 && camera.up[1] == 1 && camera.up[2] == 0);
         camera = at(&tilted, i / 32.0);
         assert_near(camera.up[1], tilted.up[1], 0);
-        // It keeps its angle with the line of sight.
+        // The angle to the line of sight is constant.
         vector3 sight = reach(&camera), first = reach(&tilted);
         double angle = vector3_dot(vector3_load(camera.up), sight) / vector3_length(sight);
         assert_near(angle, vector3_dot(up, first) / vector3_length(first), 1e-6);

@@ -1,4 +1,4 @@
-// What lights a scene that brings no light, and what takes its place.
+// The light that is added to a scene without light, and its replacement.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -50,7 +50,7 @@ static void an_environment_takes_the_place_of_added_light(void **state) {
     lobe_scene_set_environment(scene, environment);
     assert_ptr_equal(scene->environment, environment);
     assert_false(scene->has_added_light);
-    lobe_scene_set_environment(scene, small_sky()); // the sanitizer sees to the first
+    lobe_scene_set_environment(scene, small_sky()); // the sanitizer checks that the first is freed
     lobe_scene_set_environment(scene, NULL);
     assert_null(scene->environment);
     lobe_scene_destroy(&scene);

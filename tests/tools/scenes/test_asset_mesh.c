@@ -16,7 +16,7 @@
 #include "tests/scenes/scene/scene_check.h"
 #include "tools/scenes/asset_mesh.h"
 
-// A tetrahedron of 2 metres' height beside the origin.
+// A tetrahedron, 2 metres high, away from the origin.
 static const char tetrahedron[] = "positions=[[1,2,3],[2,2,3],[1,2,4],[1,4,3]]\n"
                                   "cells=[[0,1,2],[0,2,3],[0,3,1],[1,3,2]]\n";
 
@@ -71,7 +71,7 @@ static void a_mesh_stands_on_the_ground_with_its_height(void **state) {
         assert_memory_equal(mesh.maximum, high, sizeof high);
         assert_int_equal(mesh.index_count, 12);
         assert_true(mesh.has_texture_coordinates[0]);
-        // The edge of 0.25 metres along +X.
+        // The edge along +X is 0.25 metres long.
         const lobe_scene_vertex *a = &mesh.vertices[mesh.indices[0]];
         const lobe_scene_vertex *b = &mesh.vertices[mesh.indices[1]];
         assert_true(fabsf(b->texture_coordinates[0][0] - a->texture_coordinates[0][0]) == 2);
@@ -107,13 +107,13 @@ static void broken_files_are_named(void **state) {
         uint8_t bytes[sizeof packed];
         memcpy(bytes, packed, sizeof packed);
         bytes[i] ^= 0x10;
-        // The time, and from where, are not checked by gzip.
+        // gzip does not check the time and the operating system.
         if (i >= 4 && i < 10)
             continue;
         write_file(bytes, sizeof bytes);
         load(LOBE_ERROR_MALFORMED, test_folder.path, "/m: ", &mesh);
     }
-    // Something behind it that is no further part.
+    // Followed by bytes that are no further member.
     uint8_t longer[sizeof packed + 3] = {0};
     memcpy(longer, packed, sizeof packed);
     write_file(longer, sizeof longer);
@@ -140,7 +140,7 @@ static void meshes_of_files_say_where_memory_ends(void **state) {
     assert_true(fail_each_allocation(work_with_mesh, NULL) > 15);
 }
 
-// The real meshes, where they are at hand.
+// The real meshes, if available.
 static void real_meshes_are_sound(void **state) {
     (void)state;
     static const struct {

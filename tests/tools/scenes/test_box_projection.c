@@ -13,7 +13,7 @@
 
 static const double tile = 0.25;
 
-// A sphere of two metres across, whose surface is uneven by `roughness`.
+// A sphere with a diameter of two metres, whose surface is uneven by `roughness`.
 static lobe_mesh make_sphere(double roughness) {
     lobe_mesh mesh;
     random_sequence sequence = scenes_random_start(3);
@@ -32,7 +32,7 @@ static lobe_mesh make_sphere(double roughness) {
     return mesh;
 }
 
-// Metres along an edge, and along the map that covers it.
+// The length of an edge in metres, relative to its length on the map that covers it.
 static double edge_ratio(const lobe_scene_vertex *a, const lobe_scene_vertex *b) {
     vector3 edge = vector3_subtract(vector3_load(b->position), vector3_load(a->position));
     double u = b->texture_coordinates[0][0] - a->texture_coordinates[0][0];
@@ -96,8 +96,8 @@ static void the_mesh_stays_sound(void **state) {
     scenes_mesh_free(&before);
 }
 
-// Seams cost vertices: on a sphere of 48 x 96 quadrilaterals the twelve edges of the box are some
-// 350 vertices long. A rough surface must not be cut into shreds.
+// Seams cost vertices: on a sphere of 48 x 96 quadrilaterals, the twelve edges of the box are some
+// 350 vertices long. Rough surfaces must not be cut into many pieces.
 static void seams_are_few(void **state) {
     (void)state;
     for (int rough = 0; rough < 2; rough++) {
@@ -109,7 +109,7 @@ static void seams_are_few(void **state) {
     }
 }
 
-// A plane that faces an axis is mapped without stretch, one tile a unit, upright.
+// A plane that faces an axis is mapped without stretch, upright, with one tile per unit.
 static void a_wall_is_mapped_as_it_is(void **state) {
     (void)state;
     lobe_mesh mesh;

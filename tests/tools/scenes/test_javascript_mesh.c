@@ -50,7 +50,7 @@ static void other_ways_to_write_it_are_read(void **state) {
     static const char *const texts[] = {
         "{\"cells\": [[0, 1, 2]], \"positions\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}",
         "module.exports = { 'positions' : [ [0,0,0,] , [1,0,0], [0,1,0], ], cells : [[0,1,2],], }",
-        // Names that only begin or end like them, and mentions without a value.
+        // Names that only begin or end like these, and mentions without a value.
         "// positions and cells\nvar npositions=[7], positionsOld=[8], positions =\n[\n[0,0,0],"
         "[1,0,0],[0,1,0]]; var subcells=[[9,9,9]]; cells=[[0,1,2]];",
     };
@@ -85,7 +85,7 @@ static void broken_modules_are_named(void **state) {
     must_fail("positions=[[0,0,0],", "ends within 'positions'");
 }
 
-// Whatever the bytes are, it ends with a mesh or with one line.
+// Whatever the bytes, the result is a mesh or one message.
 static void mutations_do_no_harm(void **state) {
     (void)state;
     random_sequence sequence = scenes_random_start(11);

@@ -60,7 +60,7 @@ static void text_is_read(void **state) {
     assert_is_pyramid(&mesh);
 }
 
-// Lines that end as they do on other systems.
+// Line ends of other systems.
 static void carriage_returns_are_space(void **state) {
     (void)state;
     char text[2 * sizeof pyramid];
@@ -89,7 +89,7 @@ static void put_text(byte_buffer *buffer, const char *text) {
     put(buffer, text, strlen(text));
 }
 
-// Numbers with the low byte first, whatever this machine does.
+// Numbers with the low byte first, independent of this machine.
 static void put_number(byte_buffer *buffer, uint64_t bits, size_t size) {
     for (size_t i = 0; i < size; i++)
         buffer->bytes[buffer->size++] = (uint8_t)(bits >> 8 * i);
@@ -107,7 +107,7 @@ static void put_double(byte_buffer *buffer, double value) {
     put_number(buffer, bits, 8);
 }
 
-// The pyramid with a number of every type.
+// The pyramid, with numbers of every type.
 static void make_binary(byte_buffer *buffer, float first_x) {
     static const float positions[5][3] = {
         {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 0.5f, 1}};
@@ -179,12 +179,12 @@ static void broken_text_is_named(void **state) {
         const char *cause;
     } cases[] = {
         {"", LOBE_ERROR_MALFORMED, "line 1: the file ends"},
-        {"plz\n", LOBE_ERROR_UNSUPPORTED, "no PLY"},
+        {"plz\n", LOBE_ERROR_UNSUPPORTED, "not a PLY file"},
         {"ply\nformat binary_big_endian 1.0\n", LOBE_ERROR_UNSUPPORTED, "line 2"},
         {"ply\nformat ascii 2.0\n", LOBE_ERROR_UNSUPPORTED, "version"},
         {"ply\nformat ascii 1.0\nelement vertex\nend_header\n", LOBE_ERROR_MALFORMED, "COUNT"},
         {"ply\nelement vertex -1\nend_header\n", LOBE_ERROR_MALFORMED, "COUNT"},
-        {"ply\nproperty float x\nend_header\n", LOBE_ERROR_MALFORMED, "no element"},
+        {"ply\nproperty float x\nend_header\n", LOBE_ERROR_MALFORMED, "outside of an element"},
         {"ply\nelement vertex 1\nproperty half x\n", LOBE_ERROR_MALFORMED, "type"},
         {"ply\nelement vertex 1\nproperty list uchar x\n", LOBE_ERROR_MALFORMED, "property list"},
         {"ply\nsurprise\n", LOBE_ERROR_MALFORMED, "line 2: neither"},
@@ -194,9 +194,9 @@ static void broken_text_is_named(void **state) {
         {"ply\nformat ascii 1.0\n" VERTICES "end_header\n" POSITIONS, LOBE_ERROR_MALFORMED,
          "'face'"},
         {"ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n0\n",
-         LOBE_ERROR_MALFORMED, "promises more"},
+         LOBE_ERROR_MALFORMED, "claims more"},
         {"ply\nformat ascii 1.0\nelement x 3\nend_header\n0 0 0\n", LOBE_ERROR_MALFORMED,
-         "promises more"},
+         "claims more"},
         {"ply\nformat ascii 1.0\n" VERTICES FACES "end_header\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n",
          LOBE_ERROR_MALFORMED, "vertex 1: not a number"},
         {"ply\nformat ascii 1.0\n" VERTICES FACES "end_header\n0 0 0\n1 0 1e39\n0 1 0\n3 0 1 2\n",
@@ -234,7 +234,7 @@ static void headers_have_limits(void **state) {
     must_fail(buffer.bytes, buffer.size, LOBE_ERROR_LIMIT, "64 properties");
 }
 
-// Whatever the bytes are, it ends with a mesh or with one line.
+// Whatever the bytes, the result is a mesh or one message.
 static void mutate(const void *original, size_t full, random_sequence *sequence) {
     uint8_t bytes[4096];
     size_t size = full;

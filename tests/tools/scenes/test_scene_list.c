@@ -100,7 +100,7 @@ static const lobe_image *image_of(const lobe_scene *scene, const lobe_texture_us
     return image;
 }
 
-// Sums the squares of the steps from one column, or row, to the next.
+// Root mean square of the differences between neighbouring columns or rows.
 static double step(const lobe_image *image, bool rows, uint32_t from) {
     const uint8_t *texels = image->texels;
     uint32_t extent = rows ? image->height : image->width;
@@ -115,7 +115,7 @@ static double step(const lobe_image *image, bool rows, uint32_t from) {
     return sqrt(sum / along);
 }
 
-// An edge that did not fit would jump by more than any neighbours in the middle do.
+// At a mismatched edge, the difference would be larger than between any neighbours elsewhere.
 static void assert_tiles(const lobe_image *image) {
     for (int rows = 0; rows < 2; rows++) {
         uint32_t extent = rows ? image->height : image->width;
@@ -126,8 +126,8 @@ static void assert_tiles(const lobe_image *image) {
     }
 }
 
-// As for the scenes made by code alone: the bytes that every machine makes. Who changes a scene on
-// purpose changes its number.
+// As for built-in scenes: the hash of the bytes that every machine makes. If you change a scene on
+// purpose, change its number.
 static void assert_hash(const lobe_scene *scene, uint64_t expected) {
     uint64_t hash = scene_check_hash(scene);
     if (hash != expected)

@@ -32,15 +32,15 @@ static double radius_of(const lobe_scene_vertex *vertex) {
 
 static void a_straight_outline_makes_a_cone(void **state) {
     (void)state;
-    // Long and short stretches of one line.
+    // Long and short stretches of a straight outline.
     static const double outline[][2] = {{1, 2}, {1.5, 1}, {1.6, 0.8}, {2, 0}};
     lobe_mesh mesh = turn(outline, 4);
     for (size_t i = 0; i < mesh.vertex_count; i++) {
         const lobe_scene_vertex *vertex = &mesh.vertices[i];
         assert_true(fabs(radius_of(vertex) + vertex->position[1] / 2 - 2) < 1e-6);
-        // Outwards, and up as the cone narrows.
+        // Outwards, and up because the cone narrows.
         assert_true(fabs(vertex->normal[1] - sqrt(0.2)) < 1e-3);
-        // v is the length of the outline from its top.
+        // v is the length of the outline from the top.
         double length = (2 - vertex->position[1]) * sqrt(1.25);
         assert_true(fabs(vertex->texture_coordinates[0][1] - length / 0.5) < 1e-5);
     }

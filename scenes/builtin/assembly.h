@@ -1,5 +1,5 @@
-#ifndef SCENES_BUILTIN_MAP_H
-#define SCENES_BUILTIN_MAP_H
+#ifndef SCENES_BUILTIN_ASSEMBLY_H
+#define SCENES_BUILTIN_ASSEMBLY_H
 
 #include <stdint.h>
 
@@ -7,8 +7,16 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// Maps of built-in scenes, computed texel by texel.
+/// What scenes made by code are put together with.
 
+/// One step of building: adds its part to the scene.
+typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_host *host);
+
+/// Runs the steps, an array that ends with NULL, on an empty scene, and completes it.
+lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
+                                    const lobe_host *host, lobe_scene **scene);
+
+/// A map that is computed texel by texel.
 typedef struct builtin_map {
     const char *name;
     lobe_format format;

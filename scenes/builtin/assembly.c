@@ -1,8 +1,21 @@
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 
 #include <math.h>
 
 #include "scenes/scene/scene.h"
+
+lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
+                                    const lobe_host *host, lobe_scene **scene) {
+    *scene = NULL;
+    lobe_result status = scenes_allocate(name, host, scene);
+    for (; !status && *steps; steps++)
+        status = (*steps)(*scene, host);
+    if (!status)
+        status = scenes_complete(*scene, host);
+    if (status)
+        lobe_scene_destroy(scene);
+    return status;
+}
 
 lobe_result scenes_builtin_add_map(lobe_scene *scene, const builtin_map *map, const lobe_host *host,
                                    int32_t *index) {

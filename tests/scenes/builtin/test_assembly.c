@@ -1,9 +1,9 @@
 #include "tests/engine/support/cmocka_all.h"
 
-#include "scenes/builtin/map.h"
+#include "scenes/builtin/assembly.h"
 
-// Where an image's rows run down a plane and its columns to the right, height that grows along
-// them must tilt the normal back along the tangent and forward along the bitangent.
+// The rows of the image run down a plane and its columns to the right: height that grows along them
+// must tilt the normal back along the tangent and forward along the bitangent.
 static void normal_map_has_y_up(void **state) {
     (void)state;
     uint8_t texel[4];
