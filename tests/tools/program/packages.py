@@ -60,7 +60,7 @@ def test_each_file_is_where_it_belongs():
 
 def test_how_to_embed_comes_along():
     folder = UNPACKED / "usr/share/doc/liblobe-dev"
-    for name in ("embed.md.gz", "examples/host_device.c", "pictures/appearance.png"):
+    for name in ("embed.md.gz", "examples/host_device.c", "pictures/appearance.jpg"):
         check((folder / name).exists(), name)
 
 
@@ -73,7 +73,7 @@ def test_program_renders():
 
 def test_example_is_built_and_runs():
     example = FOLDER / "example.c"
-    text = (ROOT / "README.md").read_text()
+    text = (ROOT / "docs/embed.md").read_text()
     example.write_text(re.search(r"```c\n(.*?)```", text, re.DOTALL)[1])
     pkgconfig = next(UNPACKED.rglob("lobe.pc")).parent
     flags = run(["pkg-config", "--cflags", "--libs", "lobe"], PKG_CONFIG_PATH=str(pkgconfig),

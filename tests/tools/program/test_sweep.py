@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -179,13 +180,15 @@ def test_a_sweep_of_nothing_fails():
 
 
 def test_tables_are_made_from_json():
-    # The script that fills the README reads what the program wrote.
+    # tools/targets, which fills README.md and docs/measured.md, reads what the program wrote.
     folder, _, results = two_scenes()
     result = subprocess.run([sys.executable, ROOT / "tools/targets", "--json", folder / "a.json"],
                             capture_output=True, text=True, check=False)
     check(result.returncode == 0, result.stderr)
     check("| error(lobes) / error(direct) | – | – |" in result.stdout, result.stdout)
     check(result.stdout.count("\n| bumps |") == 3, result.stdout)
+    check(re.search(r"^\| `direct` \| \d\.\d{3} \| 1\.0 \| 1\.0 \| \d+ \|$", result.stdout,
+                    re.MULTILINE), result.stdout)
     errors = [row["error"]["relative_l2"] for row in results["rows"]
               if row["scene"] == "bumps" and row["varied"] == ""]
     check("| bumps | " + " | ".join(f"{error:.3f}" for error in errors) + " |" in result.stdout,
