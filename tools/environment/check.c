@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/environment/check.h"
+#include "passes/environment/standalone_maps.h"
 #include "tools/bench/median.h"
+#include "tools/environment/check_passes.h"
 
 #define MOST_ROUNDS 16
 /// Updates whose median is taken: each is long.
@@ -37,7 +38,7 @@ const char *environment_method_name(environment_method method) {
 
 static environment_check_request begin(const measurement *m, lobe_graph **graph,
                                        environment_maps *cubes) {
-    *graph = passes_environment_maps_begin(m->maps, cubes);
+    *graph = passes_standalone_maps_begin(m->maps, cubes);
     uint32_t count = m->job->directions;
     return (environment_check_request){
         .directions =
@@ -63,7 +64,7 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
     lobe_graph *graph;
     environment_maps cubes;
     environment_check_request request = begin(m, &graph, &cubes);
-    lobe_resource sums = passes_environment_check_exact(graph, &cubes, &request,
+    lobe_resource sums = environment_check_exact(graph, &cubes, &request,
                                                         m->findings->concentrations, first, count);
     lobe_graph_read_back(graph, sums, (lobe_range){0});
     lobe_result result = lobe_graph_execute(graph);
@@ -72,7 +73,7 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
     const float *data = lobe_graph_data(graph, sums, NULL);
     for (size_t i = 0; i < (size_t)CHECK_LOBES * m->job->directions; ++i) {
         double peak =
-            passes_environment_check_peak(m->findings->concentrations[i / m->job->directions]);
+            environment_check_peak(m->findings->concentrations[i / m->job->directions]);
         for (int channel = 0; channel < 3; ++channel)
             m->exact[3 * i + channel] += peak * (double)data[4 * i + channel];
     }
@@ -124,7 +125,7 @@ static lobe_result look_up(measurement *m, uint32_t lobe, environment_method met
     request.concentration = m->findings->concentrations[lobe];
     request.samples = samples;
     request.rounds = m->repeats;
-    lobe_resource lights = passes_environment_check(graph, &cubes, &request);
+    lobe_resource lights = environment_check_look_up(graph, &cubes, &request);
     lobe_graph_read_back(graph, lights, (lobe_range){0});
     lobe_result result = lobe_graph_execute(graph);
     if (result != LOBE_OK)
@@ -257,7 +258,7 @@ static lobe_result allocate(measurement *m) {
     m->exact = calloc((size_t)3 * CHECK_LOBES * count, sizeof *m->exact);
     if (!m->directions || !m->exact)
         return lobe_host_fail(m->job->host, LOBE_ERROR_OUT_OF_MEMORY, "environment: out of memory");
-    passes_environment_check_directions(count, m->directions);
+    environment_check_directions(count, m->directions);
     return LOBE_OK;
 }
 

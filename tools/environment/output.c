@@ -6,7 +6,7 @@
 
 #include <lobe/lobe.h>
 
-#include "passes/environment/kept/cache.h"
+#include "passes/environment/cache/cube_file.h"
 
 /// Levels of the widest cube there is.
 #define MOST_LEVELS 12
@@ -72,7 +72,7 @@ static void add_text(header *header, const char *name, const char *text) {
 }
 
 static void fill_header(const environment_output *output, const cube_image *cube, header *header) {
-    uint64_t key = passes_environment_cache_key(output->environment, output->size, output->map);
+    uint64_t key = passes_cube_file_key(output->environment, output->size, output->map);
     snprintf(header->key, sizeof header->key, "%016" PRIx64, key);
     add_text(header, "lobeVersion", lobe_version());
     add_text(header, "environment", output->environment->name);

@@ -146,7 +146,7 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     for (uint32_t i = 0; i < 32 * 16; i++)
         environment_texel(&s.environment, i, 0)[0] += 1;
     assert_int_equal(lobe_texture_update(s.texture, &s.environment.image), LOBE_OK);
-    passes_environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_invalidate(&maps, &s.progress);
     for (maps.up_to_date = false; !maps.up_to_date;) {
         maps = run_frame(&s);
         assert_true(maps.complete);
@@ -157,10 +157,10 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     }
     free(former);
     // A change of mind half way begins again, still with the same former cubes.
-    passes_environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_invalidate(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
-    passes_environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_invalidate(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
     assert_int_equal(maps.parts_done, 3);

@@ -9,7 +9,7 @@
 
 #include <lobe/file.h>
 
-#include "passes/environment/kept/cache.h"
+#include "passes/environment/cache/cube_file.h"
 #include "scenes/environment/direction.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/temporary_folder.h"
@@ -140,22 +140,22 @@ static void keys_tell_content_apart(void **state) {
     b.name = "b";
     b.intensity = 3;
     b.image.texels = texels[1];
-    uint64_t key = passes_environment_cache_key(&a, 64, LOBE_ENVIRONMENT_GGX);
-    assert_true(key == passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
-    assert_true(key != passes_environment_cache_key(&b, 128, LOBE_ENVIRONMENT_GGX));
-    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_VON_MISES_FISHER));
+    uint64_t key = passes_cube_file_key(&a, 64, LOBE_ENVIRONMENT_GGX);
+    assert_true(key == passes_cube_file_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_cube_file_key(&b, 128, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_cube_file_key(&b, 64, LOBE_ENVIRONMENT_VON_MISES_FISHER));
     for (int i = 0; i < 7; ++i) {
         float kept = texels[1][i];
         texels[1][i] = nextafterf(kept, 9);
-        assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+        assert_true(key != passes_cube_file_key(&b, 64, LOBE_ENVIRONMENT_GGX));
         texels[1][i] = kept;
     }
     b.layout = LOBE_ENVIRONMENT_CUBE_ROW;
-    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_cube_file_key(&b, 64, LOBE_ENVIRONMENT_GGX));
     b.layout = a.layout;
     b.image.width = 1;
     b.image.height = 2;
-    assert_true(key != passes_environment_cache_key(&b, 64, LOBE_ENVIRONMENT_GGX));
+    assert_true(key != passes_cube_file_key(&b, 64, LOBE_ENVIRONMENT_GGX));
 }
 
 static void what_was_kept_is_found(void **state) {
@@ -163,13 +163,13 @@ static void what_was_kept_is_found(void **state) {
     cube_image cube = cube_of_directions(16), found;
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_false(passes_environment_cache_load(test_folder.path, 7, 16, &recorder.host, &found));
-    passes_environment_cache_store(test_folder.path, 7, &cube, &recorder.host);
+    assert_false(passes_cube_file_load(test_folder.path, 7, 16, &recorder.host, &found));
+    passes_cube_file_save(test_folder.path, 7, &cube, &recorder.host);
     assert_int_equal(temporary_folder_count(&test_folder), 1);
-    assert_true(passes_environment_cache_load(test_folder.path, 7, 16, &recorder.host, &found));
+    assert_true(passes_cube_file_load(test_folder.path, 7, 16, &recorder.host, &found));
     expect_same(&found, &cube);
     passes_cube_image_free(&found);
-    assert_false(passes_environment_cache_load(test_folder.path, 8, 16, &recorder.host, &found));
+    assert_false(passes_cube_file_load(test_folder.path, 8, 16, &recorder.host, &found));
     assert_null(found.texels);
     assert_int_equal(recorder.notices + recorder.warnings + recorder.errors, 0);
     passes_cube_image_free(&cube);
@@ -184,7 +184,7 @@ static void expect_passed_over(uint32_t width) {
     log_recorder recorder;
     cube_image found;
     log_recorder_start(&recorder);
-    assert_false(passes_environment_cache_load(test_folder.path, 7, width, &recorder.host, &found));
+    assert_false(passes_cube_file_load(test_folder.path, 7, width, &recorder.host, &found));
     assert_null(found.texels);
     assert_int_equal(recorder.notices, 1);
     assert_int_equal(recorder.warnings + recorder.errors, 0);
@@ -214,7 +214,7 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     cube_image cube = cube_of_directions(16), found;
     uint8_t *data;
     size_t size;
-    passes_environment_cache_store(test_folder.path, 7, &cube, NULL);
+    passes_cube_file_save(test_folder.path, 7, &cube, NULL);
     expect_passed_over(32);
     assert_int_equal(lobe_file_read(kept_file(), NULL, NULL, &data, &size), LOBE_OK);
     for (size_t at = 0; at < size; at += size / 23) {
@@ -229,13 +229,13 @@ static void damaged_and_foreign_files_are_passed_over(void **state) {
     lobe_release(data);
     change_a_texel(&cube);
     expect_passed_over(16);
-    passes_environment_cache_store(test_folder.path, 8, &cube, NULL);
+    passes_cube_file_save(test_folder.path, 8, &cube, NULL);
     char other[512];
     snprintf(other, sizeof other, "%s", kept_file());
     assert_int_equal(rename(temporary_folder_file(&test_folder, "0000000000000008.exr"), other), 0);
     expect_passed_over(16);
-    passes_environment_cache_store(test_folder.path, 7, &cube, NULL);
-    assert_true(passes_environment_cache_load(test_folder.path, 7, 16, NULL, &found));
+    passes_cube_file_save(test_folder.path, 7, &cube, NULL);
+    assert_true(passes_cube_file_load(test_folder.path, 7, 16, NULL, &found));
     expect_same(&found, &cube);
     passes_cube_image_free(&found);
     passes_cube_image_free(&cube);
@@ -247,8 +247,8 @@ static void a_folder_that_takes_nothing_is_told(void **state) {
     const char *folder = temporary_folder_file(&test_folder, "none");
     log_recorder recorder;
     log_recorder_start(&recorder);
-    assert_false(passes_environment_cache_load(folder, 7, 4, &recorder.host, &found));
-    passes_environment_cache_store(folder, 7, &cube, &recorder.host);
+    assert_false(passes_cube_file_load(folder, 7, 4, &recorder.host, &found));
+    passes_cube_file_save(folder, 7, &cube, &recorder.host);
     assert_int_equal(recorder.warnings, 1);
     assert_int_equal(recorder.errors, 0);
     passes_cube_image_free(&cube);

@@ -8,7 +8,7 @@
 
 #include <lobe/vulkan.h>
 
-#include "passes/environment/kept/cache.h"
+#include "passes/environment/cache/cube_file.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/temporary_folder.h"
 #include "tests/passes/support/picture.h"
@@ -145,7 +145,7 @@ static void what_one_renderer_makes_another_finds(void **state) {
 /// Any of the two files.
 static const char *a_kept_file(const lobe_scene *scene) {
     char name[32];
-    uint64_t key = passes_environment_cache_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
+    uint64_t key = passes_cube_file_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
     snprintf(name, sizeof name, "%016llx.exr", (unsigned long long)key);
     return temporary_folder_file(&test_folder, name);
 }

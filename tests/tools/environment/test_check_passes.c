@@ -7,8 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/environment/check.h"
+#include "passes/environment/standalone_maps.h"
 #include "tests/reference/light/cube_texel.h"
+#include "tools/environment/check_passes.h"
 
 #define SIZE       16
 #define DIRECTIONS 100
@@ -50,7 +51,7 @@ static void start(fixture *f, bool constant, uint32_t size, checked *c) {
         &c->maps);
     if (result != LOBE_OK)
         fail_msg("%s", f->error);
-    passes_environment_check_directions(DIRECTIONS, c->directions);
+    environment_check_directions(DIRECTIONS, c->directions);
 }
 
 static void stop(checked *c) {
@@ -59,7 +60,7 @@ static void stop(checked *c) {
 }
 
 static environment_check_request begin(checked *c, lobe_graph **graph, environment_maps *cubes) {
-    *graph = passes_environment_maps_begin(c->maps, cubes);
+    *graph = passes_standalone_maps_begin(c->maps, cubes);
     return (environment_check_request){
         .directions = lobe_graph_upload(*graph, "directions", c->directions, sizeof c->directions),
         .count = DIRECTIONS,
@@ -88,7 +89,7 @@ static float *look_up(checked *c, uint32_t method, double kappa, uint32_t sample
     request.concentration = kappa;
     request.samples = samples;
     request.rounds = rounds;
-    return take(c, graph, passes_environment_check(graph, &cubes, &request));
+    return take(c, graph, environment_check_look_up(graph, &cubes, &request));
 }
 
 static float *add_up(checked *c, uint32_t first, uint32_t count) {
@@ -97,7 +98,7 @@ static float *add_up(checked *c, uint32_t first, uint32_t count) {
     environment_check_request request = begin(c, &graph, &cubes);
     return take(
         c, graph,
-        passes_environment_check_exact(graph, &cubes, &request, concentrations, first, count));
+        environment_check_exact(graph, &cubes, &request, concentrations, first, count));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -106,7 +107,7 @@ static void directions_cover_the_sphere_evenly(void **state) {
     (void)state;
     static float directions[1000][4];
     double second[3][3] = {{0}}, first[3] = {0};
-    passes_environment_check_directions(1000, directions);
+    environment_check_directions(1000, directions);
     for (int i = 0; i < 1000; ++i) {
         const float *d = directions[i];
         double length = sqrt((double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2]);
@@ -210,7 +211,7 @@ static void samples_converge(void **state) {
             float *lights =
                 look_up(&c, METHOD_SAMPLED, concentrations[lobe], i == 0 ? 32 : 8192, 1);
             for (int k = 0; k < 4 * DIRECTIONS; ++k) {
-                double exact = passes_environment_check_peak(concentrations[lobe]) *
+                double exact = environment_check_peak(concentrations[lobe]) *
                                (double)sums[4 * lobe * DIRECTIONS + k];
                 errors[i] += pow((double)lights[k] - exact, 2);
                 total += i == 0 ? exact * exact : 0;
@@ -225,6 +226,12 @@ static void samples_converge(void **state) {
     stop(&c);
 }
 
+static int create(void **state) {
+    fixture_create(state);
+    fixture *f = *state;
+    return environment_check_add_shaders(f->device) == LOBE_OK ? 0 : 1;
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_cover_the_sphere_evenly),
@@ -233,5 +240,5 @@ int main(void) {
         cmocka_unit_test(constant_light_is_kept),
         cmocka_unit_test(samples_converge),
     };
-    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+    return cmocka_run_group_tests(tests, create, fixture_destroy);
 }
