@@ -34,7 +34,7 @@ static bool blends(const filter_context *context) {
 /// Whether any instance has microfacets of this distribution.
 static bool uses_distribution(const filter_context *context, uint32_t distribution) {
     const device_scene *scene = context->scene;
-    for (size_t i = 0; i < scene->scene->instance_count; ++i) {
+    for (size_t i = 0; i < scene->scene->instance_count; i++) {
         const lobe_material *material = scene->materials[scene->instances[i].material].material;
         if (material->model == LOBE_MATERIAL_MICROFACET &&
             (uint32_t)material->distribution == distribution)
@@ -50,7 +50,7 @@ static bool uses_ggx(const filter_context *context) {
 }
 
 static void build_albedo(const filter_context *context, environment_light *light) {
-    for (uint32_t i = 0; i < DISTRIBUTION_COUNT; ++i) {
+    for (uint32_t i = 0; i < DISTRIBUTION_COUNT; i++) {
         if (uses_distribution(context, i))
             light->albedo[i] = passes_directional_albedo(context->graph, (lobe_distribution)i);
     }
@@ -86,7 +86,7 @@ static environment_maps_request request_of(const filter_context *context,
 /// Reads back finished cubes that the cache lacks.
 static void read_back_missing(lobe_graph *graph, environment_state *state,
                               const environment_maps *maps) {
-    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (!passes_cached_cubes_lack(&state->store, maps, map))
             continue;
         lobe_graph_read_back(graph, maps->cubes[map], (lobe_range){0});
@@ -143,7 +143,7 @@ lobe_result passes_environment_light_load(const filter_context *context,
 void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,
                                    const lobe_host *host) {
     environment_state *state = work->state;
-    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (passes_cached_cubes_lack(&state->store, &state->last, map))
             passes_cached_cubes_save(&state->store, work->cache, graph, &state->last, map, host);
     }
@@ -186,7 +186,7 @@ static struct environment_constants constants_of(const filter_context *context,
         .sample_number = sample->number,
         .pattern = sample->pattern,
     };
-    for (int row = 0; row < 3; ++row)
+    for (int row = 0; row < 3; row++)
         memcpy(constants.environment_from_world[row], environment->world_from_environment[row],
                3 * sizeof(float));
     return constants;
@@ -230,7 +230,7 @@ void passes_environment_light_bind(const environment_light *light, const filter_
          .resource =
              lobe_graph_upload(context->graph, "environment", &constants, sizeof constants)},
     };
-    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; ++i)
+    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++)
         lobe_pass_read(pass, &bindings[i]);
 }
 

@@ -31,7 +31,7 @@ static uint32_t parts_of_level(uint32_t width, uint32_t level) {
 
 static uint32_t parts_of_cube(uint32_t width) {
     uint32_t count = 0;
-    for (uint32_t level = 0; width >> level > 0; ++level)
+    for (uint32_t level = 0; width >> level > 0; level++)
         count += parts_of_level(width, level);
     return count;
 }
@@ -55,9 +55,9 @@ static void add_part(declaration *d, part_kind kind, uint32_t level, uint32_t fi
 
 /// Adds the first `*left` parts of a cube, and subtracts them from `*left`.
 static void add_parts(declaration *d, part_kind kind, uint32_t *left) {
-    for (uint32_t level = 0; level < d->cubes[kind].levels; ++level) {
+    for (uint32_t level = 0; level < d->cubes[kind].levels; level++) {
         uint32_t parts = parts_of_level(d->cubes[kind].width, level);
-        for (uint32_t part = 0; part<parts && * left> 0; ++part, --*left)
+        for (uint32_t part = 0; part<parts && * left> 0; part++, --*left)
             add_part(d, kind, level, part * (6 / parts), 6 / parts);
     }
 }
@@ -132,7 +132,7 @@ static void declare_lobes(declaration *d, const environment_maps_progress *progr
              left = maps->parts_done;
     d->sources = passes_environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
                                               d->request->size);
-    for (uint32_t kind = 0; kind < kinds_wanted(d->request); ++kind) {
+    for (uint32_t kind = 0; kind < kinds_wanted(d->request); kind++) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
         add_parts(d, kind, &left);
         if (d->request->wanted[made[kind]])
@@ -146,7 +146,7 @@ static void declare_cached(declaration *d, environment_maps *maps) {
         [LOBE_ENVIRONMENT_VON_MISES_FISHER] = PART_LOBES,
         [LOBE_ENVIRONMENT_BETWEEN] = PART_BETWEEN,
         [LOBE_ENVIRONMENT_GGX] = PART_MIXTURE};
-    for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (!d->request->wanted[map])
             continue;
         reduced_map cube = declare_filtered(d->graph, kinds[map], d->set, d->request->size);
@@ -185,7 +185,7 @@ environment_maps passes_environment_maps_declare(lobe_graph *graph,
     else if (maps.part_count > 0)
         declare_lobes(&d, progress, &maps);
     if (maps.up_to_date)
-        for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)
+        for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; i++)
             progress->former[i] = false;
     return maps;
 }
@@ -196,6 +196,6 @@ void passes_environment_maps_invalidate(const environment_maps *last,
     if (!last->up_to_date)
         return;
     progress->set = 1 - progress->set;
-    for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)
+    for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; i++)
         progress->former[i] = last->cubes[i].version != 0;
 }

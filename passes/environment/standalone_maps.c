@@ -48,7 +48,7 @@ static void update_information(lobe_environment_maps *maps, const environment_ma
 
 /// Unfinished cubes are retained as they are.
 static void mark_outputs(lobe_graph *graph, const environment_maps *made) {
-    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (made->cubes[map].version != 0)
             lobe_graph_output(graph, made->cubes[map]);
     }
@@ -99,7 +99,7 @@ static lobe_result load_from_cache(lobe_environment_maps *maps,
 /// One cube per frame, so that host memory holds only one at a time.
 static lobe_result save_to_cache(lobe_environment_maps *maps) {
     lobe_result result = LOBE_OK;
-    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         environment_maps cubes;
         lobe_graph *graph = passes_standalone_maps_begin(maps, &cubes);
         if (!passes_cached_cubes_lack(&maps->store, &cubes, map))

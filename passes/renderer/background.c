@@ -6,8 +6,8 @@
 #include "passes/renderer/camera.h"
 #include "shaders/interface/background.h"
 
-/// What the picture's middle, its right and its lower edge add to the direction of a pixel, in the
-/// world. An orthographic camera sees the environment in one direction only.
+/// The direction of a pixel is centre + x right + y down, with x and y in [-1, 1], in the world. An
+/// orthographic camera sees the environment in one direction only.
 static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
     mat3 rotation;
     passes_camera_rotation(context->view.camera, rotation);
@@ -42,7 +42,7 @@ static void move_to_sample(const filter_context *context, const float sample[2],
 }
 
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                       const float sample[2], bool outputs) {
+                       const float sample[2], bool aov) {
     const lobe_environment *environment = context->scene->scene->environment;
     vec3 centre, right, down;
     picture_axes(context, centre, right, down);
@@ -61,8 +61,8 @@ void passes_background(lobe_pass *pass, const filter_context *context, lobe_reso
         .sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP, LOBE_WRAP_CLAMP, 0}};
     lobe_pass_draw(pass, &(lobe_draw){
                              .vertex_shader = "shading/background.vert",
-                             .fragment_shader = outputs ? "shading/background_aov.frag"
-                                                        : "shading/background.frag",
+                             .fragment_shader =
+                                 aov ? "shading/background_aov.frag" : "shading/background.frag",
                              .index_count = 3,
                              .constants = &constants,
                              .constants_size = sizeof constants,

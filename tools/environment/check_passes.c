@@ -14,7 +14,7 @@ lobe_result environment_check_add_shaders(lobe_device *device) {
 
 void environment_check_directions(uint32_t count, float (*directions)[4]) {
     const double golden_ratio = (1 + sqrt(5)) / 2;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         double height = 1 - (2.0 * i + 1) / count;
         double radius = sqrt(1 - height * height);
         double longitude = 2 * M_PI * fmod(i / golden_ratio, 1);
@@ -35,7 +35,7 @@ static lobe_resource declare_lights(lobe_graph *graph, uint32_t count) {
 }
 
 lobe_resource environment_check_look_up(lobe_graph *graph, const environment_maps *maps,
-                                       const environment_check_request *request) {
+                                        const environment_check_request *request) {
     const lobe_sampler sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                   LOBE_WRAP_CLAMP, 0};
     const lobe_specialisation method = {CHECK_METHOD, request->method};
@@ -70,12 +70,12 @@ lobe_resource environment_check_look_up(lobe_graph *graph, const environment_map
 }
 
 lobe_resource environment_check_exact(lobe_graph *graph, const environment_maps *maps,
-                                             const environment_check_request *request,
-                                             const double concentrations[CHECK_LOBES],
-                                             uint32_t first_texel, uint32_t texel_count) {
+                                      const environment_check_request *request,
+                                      const double concentrations[CHECK_LOBES],
+                                      uint32_t first_texel, uint32_t texel_count) {
     struct environment_check_exact_constants constants = {
         .count = request->count, .first_texel = first_texel, .texel_count = texel_count};
-    for (int lobe = 0; lobe < CHECK_LOBES; ++lobe)
+    for (int lobe = 0; lobe < CHECK_LOBES; lobe++)
         constants.concentrations[lobe] = (float)concentrations[lobe];
     lobe_resource sums = declare_lights(graph, request->count * CHECK_LOBES);
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "environment_check_exact");

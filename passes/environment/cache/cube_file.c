@@ -25,7 +25,7 @@ static uint64_t mix(uint64_t hash, uint64_t value) {
 }
 
 static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
-    for (size_t texel = 0; texel < count; ++texel) {
+    for (size_t texel = 0; texel < count; texel++) {
         uint64_t words[2];
         memcpy(words, texels + 4 * texel, sizeof words);
         hash = mix(mix(hash, words[0]), words[1]);

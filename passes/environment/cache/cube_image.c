@@ -18,14 +18,14 @@ static size_t face_texels(const cube_image *cube, uint32_t level) {
 
 size_t passes_cube_image_texels(const cube_image *cube) {
     size_t count = 0;
-    for (uint32_t level = 0; level < cube->levels; ++level)
+    for (uint32_t level = 0; level < cube->levels; level++)
         count += FACES * face_texels(cube, level);
     return count;
 }
 
 float *passes_cube_image_face(const cube_image *cube, uint32_t level, uint32_t face) {
     size_t first = face * face_texels(cube, level);
-    for (uint32_t finer = 0; finer < level; ++finer)
+    for (uint32_t finer = 0; finer < level; finer++)
         first += FACES * face_texels(cube, finer);
     return cube->texels + 4 * first;
 }
@@ -60,8 +60,8 @@ static size_t flipped(uint32_t face, uint32_t width, uint32_t x, uint32_t y) {
 }
 
 static void flip_face(uint32_t face, uint32_t width, const float *source, float *target) {
-    for (uint32_t y = 0; y < width; ++y) {
-        for (uint32_t x = 0; x < width; ++x, target += 4)
+    for (uint32_t y = 0; y < width; y++) {
+        for (uint32_t x = 0; x < width; x++, target += 4)
             memcpy(target, source + 4 * flipped(face, width, x, y), 4 * sizeof *target);
     }
 }
@@ -71,16 +71,16 @@ static void flip_face(uint32_t face, uint32_t width, const float *source, float 
 
 static void fill_column(const cube_image *cube, uint32_t level, lobe_image *image) {
     uint32_t width = cube->width >> level;
-    for (uint32_t face = 0; face < FACES; ++face)
+    for (uint32_t face = 0; face < FACES; face++)
         flip_face(face, width, passes_cube_image_face(cube, level, face),
                   (float *)image->texels + 4 * (size_t)face * width * width);
 }
 
 static void fill_with_mean(const cube_image *cube, lobe_image *image) {
     float *texels = image->texels;
-    for (size_t i = 0; i < (size_t)4 * image->width * image->height; ++i) {
+    for (size_t i = 0; i < (size_t)4 * image->width * image->height; i++) {
         double sum = 0;
-        for (uint32_t face = 0; face < FACES; ++face)
+        for (uint32_t face = 0; face < FACES; face++)
             sum += (double)passes_cube_image_face(cube, cube->levels - 1, face)[i % 4];
         texels[i] = (float)(sum / FACES);
     }
@@ -121,7 +121,7 @@ lobe_result passes_cube_image_write(const char *path, const cube_image *cube,
                                                        .level_count = count,
                                                        .environment = LOBE_EXR_CUBE},
                                 host);
-    for (uint32_t level = 0; level < count; ++level)
+    for (uint32_t level = 0; level < count; level++)
         lobe_image_free(&images[level]);
     return result;
 }
@@ -142,10 +142,10 @@ lobe_result passes_cube_image_from(const char *path, const lobe_exr_contents *co
     if (!is_cube(contents))
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: not a cube with levels", path);
     lobe_result result = passes_cube_image_allocate(cube, contents->levels[0].width, host);
-    for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; ++level) {
+    for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; level++) {
         uint32_t width = cube->width >> level;
         const float *column = contents->levels[level].texels;
-        for (uint32_t face = 0; face < FACES; ++face)
+        for (uint32_t face = 0; face < FACES; face++)
             flip_face(face, width, column + 4 * (size_t)face * width * width,
                       passes_cube_image_face(cube, level, face));
     }
