@@ -4,33 +4,33 @@
 
 #include "shaders/interface/environment.h"
 
-// Of a texel of the image: how far subsamples are apart at most.
-#define SUBSAMPLES_A_TEXEL 4
+// Least number of subsamples along a texel of the image.
+#define SUBSAMPLES_PER_TEXEL 4
 
-/// The middle of each face of the cube, and the directions of its x and y (Vulkan's own).
+/// The centre of each face of the cube, and the directions of its x and y, as Vulkan defines them.
 static const double face_axes[6][3][3] = {
     {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
     {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
     {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
 };
 
-/// Faces are squares on the image too, turned or mirrored: three points say where one lies.
+/// On the image, faces are rotated or mirrored squares: three points locate one.
 static struct environment_face_place place_of_face(const lobe_environment *environment, int face) {
     double middle[2], ends[2][2];
     lobe_environment_position(environment, face_axes[face][0], middle);
-    for (int axis = 0; axis < 2; ++axis) {
+    for (int axis = 0; axis < 2; axis++) {
         double direction[3];
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i < 3; i++)
             direction[i] = face_axes[face][0][i] + 0.5 * face_axes[face][1 + axis][i];
         lobe_environment_position(environment, direction, ends[axis]);
     }
     struct environment_face_place place = {.origin = {(float)middle[0], (float)middle[1]}};
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; i++)
         place.right_down[i] = (float)(2 * (ends[i / 2][i % 2] - middle[i % 2]));
     return place;
 }
 
-/// How wide a face is on the image; 0 where the image is not made of faces.
+/// The width of a face on the image; 0 if the image does not consist of faces.
 static uint32_t face_texels(const lobe_environment *environment,
                             const struct environment_face_place *place) {
     return environment->layout == LOBE_ENVIRONMENT_LATITUDE_LONGITUDE
@@ -48,13 +48,13 @@ static struct environment_cube_constants constants_of(const lobe_environment *en
         constants.face_texels = environment->image.height;
         // A texel in the middle of a face covers 2/size radians, a row of the image pi/height.
         constants.subsamples =
-            (uint32_t)ceil(SUBSAMPLES_A_TEXEL * 2.0 / size * environment->image.height / M_PI);
+            (uint32_t)ceil(SUBSAMPLES_PER_TEXEL * 2.0 / size * environment->image.height / M_PI);
     } else if (texels % size == 0) {
-        // Every texel of the cube is made of whole texels of the image: their mean is exact.
+        // Every texel of the cube covers whole texels of the image: their mean is exact.
         constants.nearest = 1;
         constants.subsamples = texels / size;
     } else {
-        constants.subsamples = (uint32_t)ceil(SUBSAMPLES_A_TEXEL * (double)texels / size);
+        constants.subsamples = (uint32_t)ceil(SUBSAMPLES_PER_TEXEL * (double)texels / size);
     }
     return constants;
 }
@@ -63,7 +63,7 @@ lobe_resource passes_environment_cube(lobe_graph *graph, const lobe_environment 
                                       const lobe_texture *texture, lobe_resource cube,
                                       uint32_t size) {
     struct environment_face_place places[6];
-    for (int face = 0; face < 6; ++face)
+    for (int face = 0; face < 6; face++)
         places[face] = place_of_face(environment, face);
     struct environment_cube_constants constants = constants_of(environment, places, size);
     lobe_resource uploaded =

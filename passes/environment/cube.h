@@ -4,8 +4,8 @@
 #include <lobe/environment.h>
 #include <lobe/graph.h>
 
-/// Adds the pass that fills level 0 of `cube`, six layers of `size` x `size` texels, from
-/// `texture`, which holds the environment's image. Returns the cube's new version.
+/// Adds the pass that resamples an environment's image, in `texture`, to level 0 of `cube`: six
+/// layers of `size` x `size` texels. Returns the cube's new version.
 lobe_resource passes_environment_cube(lobe_graph *graph, const lobe_environment *environment,
                                       const lobe_texture *texture, lobe_resource cube,
                                       uint32_t size);

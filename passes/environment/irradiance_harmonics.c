@@ -4,7 +4,7 @@
 
 #include "shaders/interface/irradiance_harmonics.h"
 
-/// Ramamoorthi, Hanrahan 2001, Eq. 8: what the clamped cosine multiplies degree l by.
+/// Ramamoorthi, Hanrahan 2001, Eq. 8: the clamped cosine's factor of degree l.
 static const double cosine_factor[3] = {M_PI, 2 * M_PI / 3, M_PI / 4};
 
 /// Sloan 2008: l^2 (l + 1)^2, the square of the Laplacian's eigenvalue.
@@ -16,7 +16,7 @@ static double squared_eigenvalue(int degree) {
 /// Mean square over the sphere, up to a factor, of the Laplacian of a single light's irradiance.
 static double squared_laplacian(double lambda) {
     double sum = 0;
-    for (int degree = 1; degree < 3; ++degree) {
+    for (int degree = 1; degree < 3; degree++) {
         double square = squared_eigenvalue(degree);
         double amplitude = cosine_factor[degree] / (1 + lambda * square);
         sum += (2 * degree + 1) * square * amplitude * amplitude;
@@ -31,7 +31,7 @@ double passes_harmonics_window(double window) {
     double low = 0, high = 1;
     while (squared_laplacian(high) > wanted && high < 1e6)
         high *= 2;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 60; i++) {
         double middle = 0.5 * (low + high);
         if (squared_laplacian(middle) > wanted)
             low = middle;
@@ -52,7 +52,7 @@ static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32
                                    double window) {
     struct irradiance_harmonics_sum_constants constants = {.count = count};
     double lambda = passes_harmonics_window(window);
-    for (int degree = 0; degree < 3; ++degree)
+    for (int degree = 0; degree < 3; degree++)
         constants.band_factors[degree] =
             (float)(cosine_factor[degree] / (1 + lambda * squared_eigenvalue(degree)));
     lobe_resource harmonics = lobe_graph_buffer(

@@ -13,14 +13,14 @@ typedef struct irradiance_source {
 
 /// Adds the passes that project an environment's irradiance to nine spherical harmonics
 /// (Ramamoorthi, Hanrahan 2001): a retained buffer of struct irradiance_harmonics
-/// (shaders/interface/irradiance_harmonics.h), of which one graph can hold one.
+/// (shaders/interface/irradiance_harmonics.h). A graph can hold one of them.
 ///
-/// Reads the first level whose faces are no wider than 64 texels. Of faces of 256 that takes
-/// coefficients up to 1.4e-2 of the first off for a sun of one texel, whose direction becomes that
-/// of the coarser texel's centre, and 2e-5 for broad lights. Nine harmonics alone miss the
-/// irradiance of that sun by 9e-2 of its peak.
+/// Reads the first level whose faces are at most 64 texels wide. With faces of 256 texels,
+/// coefficients are then off by up to 1.4e-2 of the first for a sun of one texel, whose direction
+/// becomes that of the coarser texel's centre, and by 2e-5 for broad lights. Nine harmonics alone
+/// miss the irradiance of that sun by 9e-2 of its peak.
 ///
-/// `window` [0, 1): how much ringing behind bright lights is taken out, see
+/// `window` [0, 1): how much ringing opposite bright lights is removed, see
 /// passes_harmonics_window.
 lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
                                           double window);
@@ -28,9 +28,9 @@ lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source s
 /// lambda >= 0 of Sloan 2008, Stupid Spherical Harmonics Tricks, "Windowing": the irradiance f_w
 /// that minimises
 ///   integral of (f - f_w)^2 + lambda (Laplacian of f_w)^2
-/// is f with degree l divided by 1 + lambda l^2 (l + 1)^2. Chosen so that the root mean square of
-/// the Laplacian of a single light's irradiance, the one that rings most, falls to `1 - window`.
-/// It does not depend on the environment, so that what is added up stays additive.
+/// is f with degree l divided by 1 + lambda l^2 (l + 1)^2. Chosen so that for a single
+/// light, which rings most, the root mean square of the irradiance's Laplacian falls to
+/// `1 - window` of its value. Independent of the environment, so that the result is linear in it.
 double passes_harmonics_window(double window);
 
 #endif

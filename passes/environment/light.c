@@ -5,12 +5,11 @@
 #include "passes/environment/directional_albedo.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
-#include "passes/environment/rotation.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 
-/// Texels along a face that the exact integral goes over at most. Lavapipe ends all loops of a
-/// shader after 65535 rounds together, without a word, and filters have loops of their own.
+/// Most texels along a face that the exact integral sums up. Lavapipe silently ends the loops of a
+/// shader after 65535 iterations in total, and filters have loops of their own.
 #define EXACT_WIDTH 64
 
 static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
@@ -18,7 +17,7 @@ static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, L
 
 static uint32_t method_of(const filter_context *context) {
     uint32_t method = (uint32_t)passes_filter_setting(context, "env");
-    // A sample of many takes a sample of the environment: as true, and as fast as it goes.
+    // With many samples per pixel, each may sample the environment once: just as exact, and faster.
     return method == ENVIRONMENT_EXACT && context->filter->supersamples ? ENVIRONMENT_REFERENCE
                                                                         : method;
 }
@@ -27,15 +26,15 @@ static bool scatters(const filter_context *context) {
     return passes_filter_setting(context, "scattering") > 0;
 }
 
-/// Whether lobes between levels are blends of two cubes.
+/// Whether lobes between two levels are blended from two cubes.
 static bool blends(const filter_context *context) {
     return passes_filter_setting(context, "env_levels") > 0;
 }
 
-/// Whether an instance has microfacets of a distribution.
+/// Whether any instance has microfacets of this distribution.
 static bool uses_distribution(const filter_context *context, uint32_t distribution) {
     const device_scene *scene = context->scene;
-    for (size_t i = 0; i < scene->scene->instance_count; ++i) {
+    for (size_t i = 0; i < scene->scene->instance_count; i++) {
         const lobe_material *material = scene->materials[scene->instances[i].material].material;
         if (material->model == LOBE_MATERIAL_MICROFACET &&
             (uint32_t)material->distribution == distribution)
@@ -44,20 +43,20 @@ static bool uses_distribution(const filter_context *context, uint32_t distributi
     return false;
 }
 
-/// Whether an instance uses a half-vector lobe of GGX's shape or microfacets of it.
+/// Whether any instance is shaded with GGX lobes.
 static bool uses_ggx(const filter_context *context) {
     bool as_lobes = passes_filter_setting(context, "base") > 0;
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
 static void build_albedo(const filter_context *context, environment_light *light) {
-    for (uint32_t i = 0; i < DISTRIBUTION_COUNT; ++i) {
+    for (uint32_t i = 0; i < DISTRIBUTION_COUNT; i++) {
         if (uses_distribution(context, i))
             light->albedo[i] = passes_directional_albedo(context->graph, (lobe_distribution)i);
     }
 }
 
-/// For methods that do without.
+/// A placeholder for methods that use none.
 static lobe_resource no_harmonics(lobe_graph *graph) {
     struct irradiance_harmonics none = {0};
     return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);
@@ -80,15 +79,15 @@ static environment_maps_request request_of(const filter_context *context,
                    [LOBE_ENVIRONMENT_GGX] = prefiltered && uses_ggx(context)},
         .parts = work->parts,
     };
-    request.stored = passes_environment_store_cubes(&work->state->store, &request);
+    request.cached = passes_cached_cubes_find(&work->state->store, &request);
     return request;
 }
 
 /// Reads back finished cubes that the cache lacks.
 static void read_back_missing(lobe_graph *graph, environment_state *state,
                               const environment_maps *maps) {
-    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (!passes_environment_store_lacks(&state->store, maps, map))
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
+        if (!passes_cached_cubes_lack(&state->store, maps, map))
             continue;
         lobe_graph_read_back(graph, maps->cubes[map], (lobe_range){0});
         state->reads_back = true;
@@ -137,29 +136,28 @@ lobe_result passes_environment_light_load(const filter_context *context,
     if (!work->cache || !context->scene->environment)
         return LOBE_OK;
     environment_maps_request request = request_of(context, work);
-    return passes_environment_store_load(&work->state->store, device, work->cache, &request,
-                                         context->host);
+    return passes_cached_cubes_load(&work->state->store, device, work->cache, &request,
+                                    context->host);
 }
 
 void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,
                                    const lobe_host *host) {
     environment_state *state = work->state;
-    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
-        if (passes_environment_store_lacks(&state->store, &state->last, map))
-            passes_environment_store_save(&state->store, work->cache, graph, &state->last, map,
-                                          host);
+    for (uint32_t map = 0; state->reads_back && map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
+        if (passes_cached_cubes_lack(&state->store, &state->last, map))
+            passes_cached_cubes_save(&state->store, work->cache, graph, &state->last, map, host);
     }
     state->reads_back = false;
 }
 
 void passes_environment_light_invalidate(environment_state *state) {
-    passes_environment_maps_renew(&state->last, &state->progress);
-    passes_environment_store_forget(&state->store);
+    passes_environment_maps_invalidate(&state->last, &state->progress);
+    passes_cached_cubes_forget(&state->store);
     state->reads_back = false;
 }
 
 void passes_environment_light_forget(environment_state *state) {
-    passes_environment_store_forget(&state->store);
+    passes_cached_cubes_forget(&state->store);
     *state = (environment_state){0};
 }
 
@@ -188,13 +186,14 @@ static struct environment_constants constants_of(const filter_context *context,
         .sample_number = sample->number,
         .pattern = sample->pattern,
     };
-    for (int row = 0; row < 3; ++row)
+    for (int row = 0; row < 3; row++)
         memcpy(constants.environment_from_world[row], environment->world_from_environment[row],
                3 * sizeof(float));
     return constants;
 }
 
-/// All, or the first one with few enough texels to sum up: it has the same energy.
+/// All levels; for the exact integral, the finest one with few enough texels: all have the same
+/// energy.
 static lobe_range levels_read(const environment_light *light, const filter_context *context) {
     if (light->method != ENVIRONMENT_EXACT)
         return (lobe_range){0};
@@ -231,7 +230,7 @@ void passes_environment_light_bind(const environment_light *light, const filter_
          .resource =
              lobe_graph_upload(context->graph, "environment", &constants, sizeof constants)},
     };
-    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; ++i)
+    for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++)
         lobe_pass_read(pass, &bindings[i]);
 }
 

@@ -1,7 +1,7 @@
 #ifndef PASSES_ENVIRONMENT_LIGHT_H
 #define PASSES_ENVIRONMENT_LIGHT_H
 
-#include "passes/environment/kept/store.h"
+#include "passes/environment/cache/cached_cubes.h"
 #include "passes/filters/filter.h"
 #include "passes/renderer/material_specialisation.h"
 #include "shaders/interface/specialisation.h"
@@ -10,7 +10,7 @@
 typedef struct environment_state {
     environment_maps_progress progress;
     environment_maps last; ///< of the last frame
-    environment_store store;
+    cached_cubes store;
     bool reads_back; ///< the last frame reads back cubes that are to be saved
 } environment_state;
 
@@ -28,16 +28,16 @@ typedef struct shading_sample {
     uint32_t number, pattern; ///< of the reference: which sample of which pattern
 } shading_sample;
 
-/// The scene's environment as the shading pass reads it (shaders/environment/environment.glsl). Of
-/// its maps, only those that the method asks for are made.
+/// The scene's environment as the shading pass reads it (shaders/environment/environment.glsl).
+/// Only the maps that the method uses are made.
 typedef struct environment_light {
     bool present;       ///< false: the scene has no environment
     uint32_t method;    ///< ENVIRONMENT_...
     lobe_resource cube; ///< radiance with all levels
-    /// Filtered with lobes; none where nobody asks.
+    /// Filtered with lobes; the plain MIP chain where the method does not use them.
     lobe_resource prefiltered, prefiltered_ggx, between;
     lobe_resource harmonics; ///< of the irradiance
-    /// Directional albedo, one a distribution of microfacets; none where no material needs it.
+    /// Directional albedo for each microfacet distribution; none where no material needs it.
     lobe_resource albedo[DISTRIBUTION_COUNT];
 } environment_light;
 
@@ -64,13 +64,13 @@ environment_light passes_environment_light_build(const filter_context *context,
 void passes_environment_light_bind(const environment_light *light, const filter_context *context,
                                    lobe_pass *pass, const shading_sample *sample);
 
-/// How many of `lights` punctual lights filters see together.
+/// How many of `lights` punctual lights the shaders evaluate together.
 uint32_t passes_environment_light_lights_at_once(const environment_light *light, uint32_t lights);
 
 void passes_environment_light_specialise(const environment_light *light,
                                          const filter_context *context, specialisation_list *list);
 
-/// The table of directional albedo for a material's draws.
+/// Binds the table of directional albedo for a material's draws.
 lobe_binding passes_environment_light_albedo(const environment_light *light,
                                              const filter_context *context,
                                              const lobe_material *material);

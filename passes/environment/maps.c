@@ -8,36 +8,36 @@
 #include "passes/environment/reduction.h"
 
 // Levels at least this wide are made face by face.
-#define WIDTH_OF_PARTS 128
+#define FACE_BY_FACE_WIDTH 128
 
 typedef enum part_kind { PART_LOBES, PART_BETWEEN, PART_MIXTURE } part_kind;
 
-/// All that one call of passes_environment_maps_declare needs.
+/// What one call of passes_environment_maps_declare works with.
 typedef struct declaration {
     lobe_graph *graph;
     const environment_maps_request *request;
     uint32_t set;
-    bool keep; ///< nobody reads what is not finished yet
+    bool keep; ///< keep passes whose results nothing reads yet
     prefiltering_sources sources;
     reduced_map cubes[3]; ///< by part_kind
 } declaration;
 
 // ---------------------------------------------------------------------------------------------
-// Parts of the work: levels, or faces of large levels, of one cube after the other
+// Parts of the work: levels, or faces of large levels, cube by cube
 
 static uint32_t parts_of_level(uint32_t width, uint32_t level) {
-    return width >> level >= WIDTH_OF_PARTS ? 6 : 1;
+    return width >> level >= FACE_BY_FACE_WIDTH ? 6 : 1;
 }
 
 static uint32_t parts_of_cube(uint32_t width) {
     uint32_t count = 0;
-    for (uint32_t level = 0; width >> level > 0; ++level)
+    for (uint32_t level = 0; width >> level > 0; level++)
         count += parts_of_level(width, level);
     return count;
 }
 
-static void do_part(declaration *d, part_kind kind, uint32_t level, uint32_t first_face,
-                    uint32_t face_count) {
+static void add_part(declaration *d, part_kind kind, uint32_t level, uint32_t first_face,
+                     uint32_t face_count) {
     reduced_map *cube = &d->cubes[kind];
     double concentration = lobe_environment_level_concentration(cube->width, level);
     lobe_pass *pass;
@@ -53,12 +53,12 @@ static void do_part(declaration *d, part_kind kind, uint32_t level, uint32_t fir
         lobe_pass_keep(pass);
 }
 
-/// Does parts until `*left` is used up.
-static void do_cube(declaration *d, part_kind kind, uint32_t *left) {
-    for (uint32_t level = 0; level < d->cubes[kind].levels; ++level) {
+/// Adds the first `*left` parts of a cube, and subtracts them from `*left`.
+static void add_parts(declaration *d, part_kind kind, uint32_t *left) {
+    for (uint32_t level = 0; level < d->cubes[kind].levels; level++) {
         uint32_t parts = parts_of_level(d->cubes[kind].width, level);
-        for (uint32_t part = 0; part<parts && * left> 0; ++part, --*left)
-            do_part(d, kind, level, part * (6 / parts), 6 / parts);
+        for (uint32_t part = 0; part<parts && * left> 0; part++, --*left)
+            add_part(d, kind, level, part * (6 / parts), 6 / parts);
     }
 }
 
@@ -88,7 +88,7 @@ static reduced_map declare_filtered(lobe_graph *graph, part_kind kind, uint32_t 
     return declare_cube(graph, name, passes_prefiltered_width(size));
 }
 
-static void give(environment_maps *maps, lobe_environment_map map, const reduced_map *cube) {
+static void set_map(environment_maps *maps, lobe_environment_map map, const reduced_map *cube) {
     maps->cubes[map] = cube->resource;
     maps->width[map] = cube->width;
     maps->levels[map] = cube->levels;
@@ -102,20 +102,21 @@ static reduced_map declare_radiance(lobe_graph *graph, const environment_maps_re
     return cube;
 }
 
-/// A cube of this environment where it is finished, else of the one before where there is one.
-static void give_filtered(declaration *d, lobe_environment_map map, part_kind kind, bool finished,
-                          const environment_maps_progress *progress, environment_maps *maps) {
+/// This environment's cube if it is finished, otherwise the last environment's if there is one.
+static void set_filtered_map(declaration *d, lobe_environment_map map, part_kind kind,
+                             bool finished, const environment_maps_progress *progress,
+                             environment_maps *maps) {
     if (finished) {
-        give(maps, map, &d->cubes[kind]);
+        set_map(maps, map, &d->cubes[kind]);
     } else if (progress->former[map]) {
         reduced_map former = declare_filtered(d->graph, kind, 1 - d->set, d->request->size);
-        give(maps, map, &former);
+        set_map(maps, map, &former);
     } else {
         maps->complete = false;
     }
 }
 
-/// How many kinds of parts there are, in their order: each needs those before it.
+/// How many kinds of parts are needed, counted in their order: each needs those before it.
 static uint32_t kinds_wanted(const environment_maps_request *request) {
     return request->wanted[LOBE_ENVIRONMENT_GGX]                ? 3
            : request->wanted[LOBE_ENVIRONMENT_BETWEEN]          ? 2
@@ -131,31 +132,31 @@ static void declare_lobes(declaration *d, const environment_maps_progress *progr
              left = maps->parts_done;
     d->sources = passes_environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
                                               d->request->size);
-    for (uint32_t kind = 0; kind < kinds_wanted(d->request); ++kind) {
+    for (uint32_t kind = 0; kind < kinds_wanted(d->request); kind++) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
-        do_cube(d, kind, &left);
+        add_parts(d, kind, &left);
         if (d->request->wanted[made[kind]])
-            give_filtered(d, made[kind], kind, maps->parts_done >= (kind + 1) * parts, progress,
-                          maps);
+            set_filtered_map(d, made[kind], kind, maps->parts_done >= (kind + 1) * parts, progress,
+                             maps);
     }
 }
 
-static void declare_stored(declaration *d, environment_maps *maps) {
+static void declare_cached(declaration *d, environment_maps *maps) {
     static const part_kind kinds[LOBE_ENVIRONMENT_MAP_COUNT] = {
         [LOBE_ENVIRONMENT_VON_MISES_FISHER] = PART_LOBES,
         [LOBE_ENVIRONMENT_BETWEEN] = PART_BETWEEN,
         [LOBE_ENVIRONMENT_GGX] = PART_MIXTURE};
-    for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = LOBE_ENVIRONMENT_RADIANCE + 1; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (!d->request->wanted[map])
             continue;
         reduced_map cube = declare_filtered(d->graph, kinds[map], d->set, d->request->size);
-        passes_environment_restoring(d->graph, &d->request->stored[map], &cube);
-        give(maps, (lobe_environment_map)map, &cube);
+        passes_environment_restoring(d->graph, &d->request->cached[map], &cube);
+        set_map(maps, (lobe_environment_map)map, &cube);
     }
 }
 
 static uint32_t parts_wanted(const environment_maps_request *request) {
-    return request->stored
+    return request->cached
                ? 0
                : kinds_wanted(request) * parts_of_cube(passes_prefiltered_width(request->size));
 }
@@ -177,24 +178,24 @@ environment_maps passes_environment_maps_declare(lobe_graph *graph,
     maps.parts_done = advance(request, maps.part_count, progress);
     maps.up_to_date = maps.parts_done == maps.part_count;
     reduced_map radiance = declare_radiance(graph, request);
-    give(&maps, LOBE_ENVIRONMENT_RADIANCE, &radiance);
+    set_map(&maps, LOBE_ENVIRONMENT_RADIANCE, &radiance);
     declaration d = {.graph = graph, .request = request, .set = progress->set, .keep = goes_on};
-    if (request->stored)
-        declare_stored(&d, &maps);
+    if (request->cached)
+        declare_cached(&d, &maps);
     else if (maps.part_count > 0)
         declare_lobes(&d, progress, &maps);
     if (maps.up_to_date)
-        for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)
+        for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; i++)
             progress->former[i] = false;
     return maps;
 }
 
-void passes_environment_maps_renew(const environment_maps *last,
-                                   environment_maps_progress *progress) {
+void passes_environment_maps_invalidate(const environment_maps *last,
+                                        environment_maps_progress *progress) {
     progress->done = 0;
     if (!last->up_to_date)
         return;
     progress->set = 1 - progress->set;
-    for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; ++i)
+    for (uint32_t i = 0; i < LOBE_ENVIRONMENT_MAP_COUNT; i++)
         progress->former[i] = last->cubes[i].version != 0;
 }

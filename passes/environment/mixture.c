@@ -13,29 +13,29 @@
 ///   D(theta/2) = 1/(pi alpha^2 (1 + b x)^2)
 ///              = 1/(pi alpha^2) integral of s exp(-s) exp(-s b x) ds, s from 0 to infinity,
 /// since 1/y^2 = integral of s exp(-s y) ds. Each exp(-s b x) is a von Mises-Fisher lobe of
-/// concentration kappa = s b but for its norm, so that with both lobes normalised over the sphere
+/// concentration kappa = s b up to its norm, so that with both lobes normalised over the sphere
 ///   GGX = integral of exp(-s) (1 - exp(-2 s b))/(1 - alpha^2) vMF(s b) ds.
-/// In log s the integrand is so smooth that the sum over steps of log 2 is exact to 1e-4.
+/// In log s the integrand is so smooth that a sum with steps of log 2 is exact to 1e-4.
 static double weight_of_lobe(double concentration, double ggx_concentration) {
     double b = ggx_concentration - 0.5, s = concentration / b;
     return s * exp(-s) * -expm1(-2 * concentration);
 }
 
-/// At alpha = 1 and above, the lobe is the mean all around.
+/// At alpha = 1 and above, the lobe is the mean of all directions.
 static void find_weights(uint32_t width, uint32_t level,
                          struct environment_mixture_constants *constants) {
     double kappa = lobe_environment_level_concentration(width, level), sum = 0;
     uint32_t count = constants->levels;
     double weights[2 * ENVIRONMENT_LEVELS] = {0}, sharpest = 0;
-    for (uint32_t i = 0; kappa > 0.5 && i < 2 * count; ++i)
+    for (uint32_t i = 0; kappa > 0.5 && i < 2 * count; i++)
         sum += weights[i] = weight_of_lobe(kappa * exp2(1 - (double)i), kappa);
-    for (int i = 2; kappa > 0.5 && i < 6; ++i)
+    for (int i = 2; kappa > 0.5 && i < 6; i++)
         sharpest += weight_of_lobe(kappa * exp2(i), kappa);
     sum += sharpest;
     if (sum == 0)
         sum = weights[2 * count - 1] = 1;
     constants->sharpest = (float)(sharpest / sum);
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         constants->between[i] = (float)(weights[2 * i] / sum);
         constants->lobes[i] = (float)(weights[2 * i + 1] / sum);
     }

@@ -3,9 +3,9 @@
 
 #include "passes/environment/prefiltering.h"
 
-/// Adds the passes that fill faces of one level of `cube` with what GGX lobes see. `lobes` is
-/// filtered with von Mises-Fisher lobes, `between` with twice their concentrations: both at this
-/// level and all coarser ones. Returns the last pass.
+/// Adds the passes that filter faces of one level of `cube` with GGX lobes, each a mixture of von
+/// Mises-Fisher lobes. `lobes` is filtered with those of each level's concentration, `between` with
+/// twice that: both must be complete at this level and all coarser ones. Returns the last pass.
 lobe_pass *passes_environment_mixture(lobe_graph *graph, const prefiltering_sources *sources,
                                       const reduced_map *lobes, const reduced_map *between,
                                       reduced_map *cube, uint32_t level, uint32_t first_face,

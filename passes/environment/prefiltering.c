@@ -6,40 +6,40 @@
 
 #include "shaders/interface/environment.h"
 
-// Standard deviation of the smoothing that precedes a halving, squared, in texels of the smaller
-// cube: enough that the smaller cube's texels stand for all there was between them, to a
-// thousandth.
+// Variance of the smoothing before a halving, in squared texels of the smaller cube: enough that
+// the smaller cube represents everything between its texels to a thousandth.
 #define SMOOTHING_VARIANCE 0.4
 
-// Faces of sources are at least this wide: sums over few texels depend on where these lie.
+// Smallest face width of a source: a sum over few texels depends on where they lie.
 #define LEAST_SOURCE_WIDTH 32
 
-// A lobe's standard deviation in texels of its source at least: sums over them are then exact.
-#define TEXELS_A_DEVIATION 1
+// Least standard deviation of a lobe in texels of its source: sums over them are then exact.
+#define SOURCE_TEXELS_PER_DEVIATION 1
 
-// The same in texels of the level that keeps the filtered environment. Their interpolation is off
-// by 1.1 % then (relative L2) where all light comes from one point, 1.6 % for GGX lobes. Measured
-// over the sphere, faces of 128 and 256 texels, kappa = 1, 4, 16 to 4096, six real environments:
-// 0.03 to 0.9 %. GGX lobes 0.03 to 1.2 %, and 1.8 % where the peak is narrower than the radiance's
-// texels (kappa = 4096 with 128). Four texels leave a third of that, for four times the work.
-#define LEVEL_TEXELS_A_DEVIATION 2
+// The same in texels of the level that stores the filtered environment. Interpolating them is then
+// off by 1.1 % (relative L2) if all light comes from one point, by 1.6 % for GGX lobes. Measured
+// over the sphere, with faces of 128 and 256 texels, kappa = 1, 4, 16 to 4096, and six real
+// environments: 0.03 to 0.9 %; GGX lobes 0.03 to 1.2 %, and 1.8 % where the peak is narrower than
+// the radiance's texels (kappa = 4096 with 128). Four texels give a third of these errors, for four
+// times the work.
+#define LEVEL_TEXELS_PER_DEVIATION 2
 
 uint32_t passes_prefiltered_width(uint32_t size) {
-    // No lobe narrower than a texel of the radiance, and kappa = 4096 from 128 texels on.
+    // No lobe is narrower than a texel of the radiance; kappa reaches 4096 from 128 texels on.
     return size <= 128 ? 2 * size : size;
 }
 
 double lobe_environment_level_concentration(uint32_t width, uint32_t level) {
     if (width >> level <= 1)
-        return 0; // all around alike: the mean
-    double texel = 2.0 / (width >> level), deviation = LEVEL_TEXELS_A_DEVIATION * texel;
+        return 0; // uniform: the mean of all directions
+    double texel = 2.0 / (width >> level), deviation = LEVEL_TEXELS_PER_DEVIATION * texel;
     return 1 / (deviation * deviation);
 }
 
 typedef struct filtered_source {
     lobe_resource resource;
     uint32_t level, width;
-    double variance; ///< with which it was filtered
+    double variance; ///< of the smoothing so far
 } filtered_source;
 
 typedef struct filtered_target {
@@ -86,7 +86,7 @@ static filtered_source source_at(const prefiltering_sources *sources, uint32_t l
         source.resource = sources->smoothed;
         source.level = level - 1;
     }
-    for (uint32_t i = 1; i <= level; ++i)
+    for (uint32_t i = 1; i <= level; i++)
         source.variance += SMOOTHING_VARIANCE * texel_squared(sources->size >> i);
     return source;
 }
@@ -106,9 +106,9 @@ prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resour
                                                           .height = size / 2,
                                                           .layers = 6,
                                                           .levels = count});
-    for (uint32_t level = 0; level < count; ++level) {
+    for (uint32_t level = 0; level < count; level++) {
         filtered_source source = source_at(&sources, level);
-        source.variance = 0; // what was done to it before is left as it is
+        source.variance = 0; // smooth on top of what was smoothed before
         filtered_target target = {.level = level,
                                   .width = source.width / 2,
                                   .face_count = 6,
@@ -122,8 +122,8 @@ prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resour
 
 static filtered_source source_for(const prefiltering_sources *sources, double concentration) {
     uint32_t level = 0;
-    while (level < sources->smoothed_levels && TEXELS_A_DEVIATION * TEXELS_A_DEVIATION *
-                                                       concentration *
+    while (level < sources->smoothed_levels && SOURCE_TEXELS_PER_DEVIATION *
+                                                       SOURCE_TEXELS_PER_DEVIATION * concentration *
                                                        texel_squared(sources->size >> (level + 1)) <
                                                    1.001)
         ++level;

@@ -3,9 +3,9 @@
 
 #include "passes/maps/level_reduction.h"
 
-/// Adds passes that fill levels 1 and up of an environment's cube (six layers) from its level 0:
-/// means weighted with solid angles, so that every level has the same energy. The width is a power
-/// of two.
+/// Adds the passes that compute levels 1 and up of an environment's cube (six layers) from its
+/// level 0: means weighted by solid angle, so that every level has the same energy. The width is a
+/// power of two.
 void passes_environment_reduction(lobe_graph *graph, reduced_map *cube);
 
 #endif

@@ -3,8 +3,8 @@
 
 #include <lobe/graph.h>
 
-/// Adds the pass that adds one sample of a picture to the sum of samples (both RGBA32_FLOAT);
-/// returns the new sum.
+/// Adds the pass that adds a picture of one sample to the sum of samples (both RGBA32_FLOAT).
+/// Returns the sum's new version.
 lobe_resource passes_accumulation(lobe_graph *graph, lobe_resource radiance, lobe_resource sum,
                                   uint32_t width, uint32_t height);
 

@@ -3,12 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "passes/environment/rotation.h"
 #include "passes/renderer/camera.h"
 #include "shaders/interface/background.h"
 
-/// What the picture's middle, its right and its lower edge add to the direction of a pixel, in the
-/// world. An orthographic camera sees the environment in one direction only.
+/// The direction of a pixel is centre + x right + y down, with x and y in [-1, 1], in the world. An
+/// orthographic camera sees the environment in one direction only.
 static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
     mat3 rotation;
     passes_camera_rotation(context->view.camera, rotation);
@@ -16,24 +15,34 @@ static void picture_axes(const filter_context *context, vec3 centre, vec3 right,
                        ? tanf(0.5f * context->view.camera->vertical_field_of_view)
                        : 0;
     float width = height * (float)context->view.width / (float)context->view.height;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         right[i] = width * rotation[i][0];
         down[i] = -height * rotation[i][1];
         centre[i] = -rotation[i][2];
     }
 }
 
-/// The picture is moved, so that its pixels' centres become the samples.
+/// Rotates a vector of the world into the environment's space; writes three numbers.
+static void environment_from_world(const lobe_environment *environment, const float vector[3],
+                                   float rotated[3]) {
+    // The inverse of a rotation is its transpose.
+    for (int column = 0; column < 3; column++) {
+        const float *axis = environment->world_from_environment[column];
+        rotated[column] = axis[0] * vector[0] + axis[1] * vector[1] + axis[2] * vector[2];
+    }
+}
+
+/// Moves the picture so that its pixels' centres become the samples.
 static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
                            const vec3 down, vec3 centre) {
     float x = (1 - 2 * sample[0]) / (float)context->view.width;
     float y = (1 - 2 * sample[1]) / (float)context->view.height;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         centre[i] -= x * right[i] + y * down[i];
 }
 
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                       const float sample[2], bool outputs) {
+                       const float sample[2], bool aov) {
     const lobe_environment *environment = context->scene->scene->environment;
     vec3 centre, right, down;
     picture_axes(context, centre, right, down);
@@ -52,8 +61,8 @@ void passes_background(lobe_pass *pass, const filter_context *context, lobe_reso
         .sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP, LOBE_WRAP_CLAMP, 0}};
     lobe_pass_draw(pass, &(lobe_draw){
                              .vertex_shader = "shading/background.vert",
-                             .fragment_shader = outputs ? "shading/background_aov.frag"
-                                                        : "shading/background.frag",
+                             .fragment_shader =
+                                 aov ? "shading/background_aov.frag" : "shading/background.frag",
                              .index_count = 3,
                              .constants = &constants,
                              .constants_size = sizeof constants,

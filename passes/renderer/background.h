@@ -3,12 +3,11 @@
 
 #include "passes/filters/filter.h"
 
-/// Adds a draw of the scene's environment to a raster pass that has a picture of `width` x `height`
-/// pixels and depth: to be drawn first. `cube`: the environment's radiance with all its levels.
-/// `sample`: where in the pixel the sample lies, [0, 1] each. `outputs`: with arbitrary output
-/// variables. Where pixels are not supersampled, each shows the mean over as much of the
-/// environment as it covers.
+/// Adds a draw of the scene's environment to a raster pass; it must be the first draw. `cube`: the
+/// environment's radiance with all its levels. `sample`: position in the pixel, [0, 1] each.
+/// `aov`: with arbitrary output variables. Without supersampling, each pixel shows the mean over
+/// the part of the environment that it covers.
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                       const float sample[2], bool outputs);
+                       const float sample[2], bool aov);
 
 #endif

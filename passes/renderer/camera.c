@@ -3,7 +3,7 @@
 #include <math.h>
 
 static void copy(const float source[3], vec3 target) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         target[i] = source[i];
 }
 
@@ -23,13 +23,13 @@ void passes_camera_rotation(const lobe_camera *camera, mat3 rotation) {
     copy(camera->up, up);
     glm_vec3_cross(forward, up, right);
     if (glm_vec3_norm(right) < 1e-6f) {
-        // Looking along the up vector: any other will do.
+        // Looking along the up vector: use any other.
         vec3 other = {fabsf(forward[0]) < 0.5f, 0, fabsf(forward[0]) >= 0.5f};
         glm_vec3_cross(forward, other, right);
     }
     glm_vec3_normalize(right);
     glm_vec3_cross(right, forward, up);
-    for (int column = 0; column < 3; ++column) {
+    for (int column = 0; column < 3; column++) {
         rotation[column][0] = right[column];
         rotation[column][1] = up[column];
         rotation[column][2] = -forward[column];
@@ -58,7 +58,7 @@ static float farthest(const lobe_camera *camera, const float minimum[3], const f
     vec4 axis;
     passes_camera_axis(camera, axis);
     float distance = -axis[3];
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         distance += axis[i] * (axis[i] > 0 ? maximum[i] : minimum[i]);
     return distance;
 }
@@ -92,7 +92,7 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
         perspective(camera, aspect, projection);
     else
         orthographic(camera, aspect, 1.01f * farthest(camera, minimum, maximum), projection);
-    // Rasterisation samples at the pixel's centre: the picture is moved instead.
+    // Rasterisation samples at the pixel's centre: move the picture instead.
     glm_mat4_identity(shift);
     shift[3][0] = (1 - 2 * sample[0]) / (float)width;
     shift[3][1] = (1 - 2 * sample[1]) / (float)height;
@@ -103,7 +103,7 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
     vec3 eye, moved;
     copy(camera->eye, eye);
     glm_mat3_mulv(rotation, eye, moved);
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         view[3][i] = -moved[i];
     mat4 shifted;
     glm_mat4_mul(shift, projection, shifted);

@@ -8,17 +8,17 @@
 /// Rotation from the world to the camera: x right, y up, z towards the viewer.
 void passes_camera_rotation(const lobe_camera *camera, mat3 rotation);
 
-/// Position of the eye, w = 1; of an orthographic camera the direction to the viewer, w = 0.
+/// Position of the eye, w = 1; for an orthographic camera, the direction to the viewer, w = 0.
 void passes_camera_eye(const lobe_camera *camera, vec4 eye);
 
-/// World to clip space as lobe_pass_draw has it (y down, reversed depth), for a picture of
-/// `width` x `height` pixels. `sample` is where in the pixel the sample lies, [0, 1] each;
+/// World to clip space as lobe_pass_draw expects it (y down, reversed depth), for a picture of
+/// `width` x `height` pixels. `sample` is the sample's position in the pixel, [0, 1] each;
 /// `minimum` and `maximum` bound the scene, for the far plane of an orthographic camera.
 void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
                               const float sample[2], const float minimum[3], const float maximum[3],
                               mat4 world_to_clip);
 
-/// Unit view direction, and in w its product with the eye's position: the distance of a point p
+/// Unit view direction, and in w its dot product with the eye's position: the distance of a point p
 /// along the view is <axis, p> - w.
 void passes_camera_axis(const lobe_camera *camera, vec4 axis);
 

@@ -5,12 +5,12 @@
 #include "passes/renderer/shading.h"
 
 /// How one submission reaches the device, and where its images go.
-typedef struct frame_delivery {
+struct frame_delivery {
     const lobe_render_target *target;         ///< the host's images; NULL: our own
     const lobe_vulkan_submission *submission; ///< the host's; NULL: submit and wait
     bool reads_back;                          ///< images go to host memory, except the target's
     bool aov;                                 ///< with arbitrary output variables
-} frame_delivery;
+};
 
 /// The delivery that the caller of lobe_renderer_render asks for.
 frame_delivery passes_delivery_of(const lobe_render_parameters *parameters);

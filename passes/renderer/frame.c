@@ -1,7 +1,42 @@
-#include "passes/renderer/frame.h"
+#include "passes/renderer/delivery.h"
 
-#include "passes/renderer/host_passes.h"
-#include "passes/renderer/instance_maps.h"
+// ---------------------------------------------------------------------------------------------
+// The host's passes
+
+static void add_passes(lobe_graph *graph, const lobe_render_host *host, lobe_render_stage stage,
+                       shading_targets *targets) {
+    lobe_render_resources resources = {
+        .width = targets->width,
+        .height = targets->height,
+        .radiance = targets->radiance,
+        .depth = targets->depth,
+        .normal_depth = targets->normal_depth,
+        .lobes_level = targets->lobes_level,
+    };
+    if (!host->add_passes)
+        return;
+    host->add_passes(host->user, graph, stage, &resources);
+    targets->radiance = resources.radiance;
+    targets->depth = resources.depth;
+    targets->normal_depth = resources.normal_depth;
+    targets->lobes_level = resources.lobes_level;
+}
+
+static bool is_same(lobe_resource a, lobe_resource b) {
+    return a.index == b.index && a.version == b.version;
+}
+
+/// An image that the host's passes write is kept, not cleared.
+static void add_passes_before(lobe_graph *graph, const lobe_render_host *host,
+                              shading_targets *targets) {
+    const shading_targets declared = *targets;
+    add_passes(graph, host, LOBE_RENDER_BEFORE_SHADING, targets);
+    targets->keep_radiance |= !is_same(targets->radiance, declared.radiance);
+    targets->keep_depth |= !is_same(targets->depth, declared.depth);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The picture
 
 static void draw(rendering *r, bool aov, const shading_targets *imported,
                  shading_targets *targets) {
@@ -9,10 +44,10 @@ static void draw(rendering *r, bool aov, const shading_targets *imported,
     lobe_graph *graph = r->renderer->graph;
     *targets = passes_shading_targets_declare(graph, r->width, r->height, aov);
     passes_delivery_replace(imported, targets);
-    passes_host_passes_before(graph, &r->parameters->host, targets);
+    add_passes_before(graph, &r->parameters->host, targets);
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     passes_shading(&r->context, r->renderer->appearances, &light, &centre, targets);
-    passes_host_passes_after(graph, &r->parameters->host, targets);
+    add_passes(graph, &r->parameters->host, LOBE_RENDER_AFTER_SHADING, targets);
 }
 
 static void mark_outputs(const rendering *r, const frame_delivery *delivery,

@@ -1,4 +1,4 @@
-#include "passes/renderer/instance_maps.h"
+#include "passes/renderer/renderer.h"
 
 #include <string.h>
 

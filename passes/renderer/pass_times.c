@@ -5,7 +5,7 @@
 
 static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name,
                                       const lobe_allocator *allocator) {
-    for (size_t i = 0; i < frame->pass_count; ++i) {
+    for (size_t i = 0; i < frame->pass_count; i++) {
         if (strcmp(frame->passes[i].name, name) == 0)
             return &frame->passes[i];
     }
@@ -25,7 +25,7 @@ bool passes_pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
     frame->milliseconds += report->milliseconds;
     frame->host_milliseconds += report->host_milliseconds;
     ++frame->submissions;
-    for (size_t i = 0; i < report->pass_count; ++i) {
+    for (size_t i = 0; i < report->pass_count; i++) {
         if (report->passes[i].state != LOBE_PASS_RUN)
             continue;
         lobe_pass_time *time = find_or_append(frame, report->passes[i].name, allocator);

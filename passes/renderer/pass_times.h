@@ -6,7 +6,7 @@
 #include <lobe/graph.h>
 #include <lobe/renderer.h>
 
-/// Adds the passes that ran in a frame of the graph to the frame's times. False without memory.
+/// Adds the times of the passes that ran in a frame of the graph to `frame`. False: out of memory.
 bool passes_pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
                            const lobe_allocator *allocator);
 

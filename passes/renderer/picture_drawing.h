@@ -3,8 +3,8 @@
 
 #include "passes/renderer/shading.h"
 
-/// Adds the pass that draws a finished picture, as large as the targets, into their radiance: over
-/// what that holds, where it is to be kept. `texels`: width * height of RGBA, radiance times
+/// Adds the pass that draws a finished picture, as large as the targets, into their radiance; with
+/// `keep_radiance`, blended over its contents. `texels`: width * height of RGBA, radiance times
 /// coverage and coverage; copied.
 void passes_picture_drawing(lobe_graph *graph, const float *texels, shading_targets *targets);
 

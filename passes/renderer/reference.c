@@ -1,8 +1,5 @@
-#include "passes/renderer/reference.h"
-
 #include "passes/renderer/accumulation.h"
-#include "passes/renderer/frame.h"
-#include "passes/renderer/instance_maps.h"
+#include "passes/renderer/delivery.h"
 #include "passes/renderer/picture_drawing.h"
 #include "passes/renderer/sample_pattern.h"
 

@@ -1,7 +1,5 @@
 #include "passes/filters/settings.h"
-#include "passes/renderer/frame.h"
-#include "passes/renderer/instance_maps.h"
-#include "passes/renderer/reference.h"
+#include "passes/renderer/delivery.h"
 
 // ---------------------------------------------------------------------------------------------
 // Checks

@@ -29,4 +29,21 @@ typedef struct rendering {
     uint32_t width, height; ///< pixels
 } rendering;
 
+/// Warns of materials that the filter cannot represent fully, once for each filter and scene.
+void passes_instance_maps_warn(const rendering *r);
+
+/// Adds the passes that build the filter's maps for every instance; instances share maps where the
+/// filter allows it. Fills the renderer's appearances, and the frame's sizes of the maps.
+void passes_instance_maps_build(rendering *r, lobe_frame *frame);
+
+/// See passes/renderer/delivery.h.
+typedef struct frame_delivery frame_delivery;
+
+/// Draws one picture in one submission: a single shading pass, sampled at the pixels' centres.
+lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lobe_frame *frame);
+
+/// Renders the reference: the mean of many samples per pixel, taken in several submissions.
+lobe_result passes_reference_render(rendering *r, const frame_delivery *delivery,
+                                    lobe_frame *frame);
+
 #endif

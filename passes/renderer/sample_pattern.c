@@ -20,10 +20,11 @@ void passes_sample_position(uint32_t index, uint32_t count, float position[2]) {
 }
 
 void passes_sample_position_in_pattern(uint32_t pattern, float position[2]) {
-    // Powers of the root of x^3 = x + 1, the plane's golden ratio: patterns keep apart.
+    // Inverse powers of the root of x^3 = x + 1, the plane's golden ratio: they keep patterns
+    // apart.
     static const double step[2] = {0.7548776662466927, 0.5698402909980532};
     const float below_one = 0x1.fffffep-1f;
-    for (int i = 0; pattern != 0 && i < 2; ++i) {
+    for (int i = 0; pattern != 0 && i < 2; i++) {
         double moved = (double)position[i] + pattern * step[i];
         position[i] = fminf((float)(moved - floor(moved)), below_one);
     }

@@ -4,12 +4,12 @@
 #include <stdint.h>
 
 /// Position of sample `index` of `count` within a pixel, [0, 1) each: the Hammersley points,
-/// stratified in both directions for any count, the same in every pixel and every run. One sample
-/// alone is at the centre. (Hammersley 1960; van der Corput 1935.)
+/// stratified in both directions for any count, the same in every pixel and every run. A single
+/// sample is at the centre. (Hammersley 1960; van der Corput 1935.)
 void passes_sample_position(uint32_t index, uint32_t count, float position[2]);
 
-/// The same position in another pattern: all of them moved alike, around the pixel's edges. Pattern
-/// 0 is not moved. (Cranley, Patterson 1976.)
+/// Moves a position to another pattern: all positions are shifted alike, wrapping around the
+/// pixel's edges. Pattern 0 is not shifted. (Cranley, Patterson 1976.)
 void passes_sample_position_in_pattern(uint32_t pattern, float position[2]);
 
 #endif

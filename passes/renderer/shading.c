@@ -45,7 +45,7 @@ shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width
 
 static uint32_t count_lights(const lobe_scene *scene, lobe_light_type type) {
     uint32_t count = 0;
-    for (size_t i = 0; i < scene->light_count; ++i)
+    for (size_t i = 0; i < scene->light_count; i++)
         count += scene->lights[i].type == type;
     return count;
 }
@@ -53,7 +53,7 @@ static uint32_t count_lights(const lobe_scene *scene, lobe_light_type type) {
 static void fill_light(const lobe_light *source, struct light *light) {
     memset(light, 0, sizeof *light);
     float sign = source->type == LOBE_LIGHT_DIRECTIONAL ? -1.0f : 1.0f;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         light->position[i] = source->position[i];
         light->direction[i] = sign * source->direction[i];
         light->intensity[i] = source->intensity[i];
@@ -74,13 +74,13 @@ static lobe_resource upload_lights(const filter_context *context) {
     size_t size = (scene->light_count ? scene->light_count : 1) * sizeof(struct light);
     struct light *lights = lobe_allocate(lobe_host_allocator(context->host), 1, size);
     if (!lights) {
-        lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: no memory for lights",
+        lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for lights",
                         scene->name);
         return (lobe_resource){0};
     }
     size_t next = 0;
-    for (size_t type = 0; type < 3; ++type) {
-        for (size_t i = 0; i < scene->light_count; ++i) {
+    for (size_t type = 0; type < 3; type++) {
+        for (size_t i = 0; i < scene->light_count; i++) {
             if (scene->lights[i].type == order[type])
                 fill_light(&scene->lights[i], &lights[next++]);
         }
@@ -142,7 +142,8 @@ static void attach(lobe_pass *pass, const filter_context *context, shading_targe
     }
 }
 
-/// The features of a draw: of its material, its mesh, the lights and the user, then the filter's.
+/// The constants of a draw: for its material, its mesh, the lights and the settings, then the
+/// filter's own.
 static void specialise_draw(const filter_context *context, const environment_light *light,
                             size_t instance, const filtered_appearance *appearance,
                             specialisation_list *list) {
@@ -162,7 +163,7 @@ static void specialise_draw(const filter_context *context, const environment_lig
     passes_specialise(list, SPECIALISE_VIEW, (uint32_t)passes_filter_setting(context, "view"));
     passes_specialise(list, SPECIALISE_BASE_AS_LOBE,
                       (uint32_t)passes_filter_setting(context, "base"));
-    for (size_t i = 0; i < appearance->specialisation_count; ++i)
+    for (size_t i = 0; i < appearance->specialisation_count; i++)
         passes_specialise(list, appearance->specialisation[i].id,
                           appearance->specialisation[i].bits);
 }
@@ -179,13 +180,13 @@ static size_t bind_draw(const filter_context *context, const environment_light *
         .resource = lobe_graph_import_buffer(graph, context->scene->vertices[drawn->mesh])};
     bindings[count++] = (lobe_binding){
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
-    for (uint32_t map = 0; map < MAP_COUNT; ++map)
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
         bindings[count++] = (lobe_binding){
             .name = map_names[map],
             .resource = passes_device_map_import(graph, context->scene, material, map),
             .sampler = passes_device_map_sampler(material, map)};
     bindings[count++] = passes_environment_light_albedo(light, context, material->material);
-    for (size_t i = 0; i < appearance->binding_count; ++i)
+    for (size_t i = 0; i < appearance->binding_count; i++)
         bindings[count++] = appearance->bindings[i];
     return count;
 }
@@ -197,8 +198,8 @@ static void draw_instance(const filter_context *context, const environment_light
     const lobe_material *material = context->scene->materials[drawn->material].material;
     const float *transform = context->scene->scene->instances[instance].transform;
     struct instance_constants constants;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column)
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 4; column++)
             constants.rows[row][column] = transform[4 * column + row];
     }
     lobe_binding bindings[3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
@@ -233,15 +234,15 @@ void passes_shading(const filter_context *context, const filtered_appearance *ap
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     passes_environment_light_bind(&light->environment, context, pass, sample);
-    bool outputs = targets->normal_depth.version || targets->normal_depth.index;
+    bool aov = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
-        passes_background(pass, context, light->environment.cube, sample->position, outputs);
+        passes_background(pass, context, light->environment.cube, sample->position, aov);
     char fragment_shader[64];
     snprintf(fragment_shader, sizeof fragment_shader, "shading/shading_%s%s%s.frag",
              context->filter->shading, light->environment.present ? "_environment" : "",
-             outputs ? "_aov" : "");
-    for (size_t i = 0; i < context->scene->scene->instance_count; ++i)
+             aov ? "_aov" : "");
+    for (size_t i = 0; i < context->scene->scene->instance_count; i++)
         draw_instance(context, &light->environment, i, &appearances[i], fragment_shader, pass);
 }

@@ -4,7 +4,7 @@
 #include <lobe/device.h>
 #include <lobe/environment_maps.h>
 
-#include "shaders/interface/environment_check.h"
+#include "tools/environment/shaders/check.h"
 #include "tools/cli/progress.h"
 
 /// Measures how far each method of lighting lobes by an environment is from the exact integral,

@@ -9,6 +9,7 @@
 #include "tools/cli/output_file.h"
 #include "tools/cli/subcommand.h"
 #include "tools/environment/check.h"
+#include "tools/environment/check_passes.h"
 #include "tools/environment/output.h"
 
 /// Faces that are checked where none are asked for.
@@ -101,8 +102,8 @@ static lobe_result check(const environment_request *request, environment_state *
     };
     environment_findings findings[CHECKED_FACES];
     size_t count = request->has_face ? 1 : CHECKED_FACES;
-    lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < count; ++i)
+    lobe_result result = environment_check_add_shaders(state->device);
+    for (size_t i = 0; result == LOBE_OK && i < count; i++)
         result =
             check_face(&job, request->has_face ? request->face : checked_faces[i], &findings[i]);
     if (result == LOBE_OK && request->json)

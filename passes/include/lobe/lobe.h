@@ -1,7 +1,8 @@
 #ifndef LOBE_LOBE_H
 #define LOBE_LOBE_H
 
-/// lobe: rendering whose appearance stays true at every distance. This header brings all of it.
+/// lobe: rendering whose appearance stays true at every distance. Includes all of its headers but
+/// lobe/vulkan.h and lobe/environment_maps.h.
 
 #include <lobe/allocator.h>
 #include <lobe/colour.h>

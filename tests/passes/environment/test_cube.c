@@ -1,4 +1,4 @@
-// The radiance's cube: where texels come from, and that no energy is lost on the way.
+// The radiance's cube: its texels match the image, and no energy is lost.
 
 #include <math.h>
 #include <string.h>
@@ -47,7 +47,7 @@ static void a_constant_stays_exactly_what_it_is(void **state) {
     }
 }
 
-/// A cube of the image's own size takes over its texels, wherever the layout has them.
+/// A cube of the image's own size copies its texels, wherever the layout places them.
 static void faces_of_the_same_size_are_copied(void **state) {
     static const shape exact[] = {
         {LOBE_ENVIRONMENT_CUBE_COLUMN, 16, 96},
@@ -77,7 +77,7 @@ static void faces_of_the_same_size_are_copied(void **state) {
     }
 }
 
-/// Where the image changes slowly, a texel is what the image has in its direction.
+/// Where the image changes slowly, a texel equals the image in its direction.
 static void directions_are_those_of_the_image(void **state) {
     uint32_t width = 128, height = 64;
     lobe_environment environment = environment_of_colour(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, width,

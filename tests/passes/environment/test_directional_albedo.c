@@ -93,7 +93,7 @@ static void lambert_loses_what_fresnel_reflects(void **state) {
     check_close("part that Lambert loses", 0, 1, 1, tables[0].texels[0][SIZE - 1][2], exact, 1e-7);
 }
 
-/// Smooth surfaces lose nothing and have Schlick's own reflectance, but near the horizon.
+/// Smooth surfaces lose nothing and have Schlick's reflectance, except near the horizon.
 static void smooth_surfaces_are_mirrors(void **state) {
     (void)state;
     for (int d = 0; d < DISTRIBUTIONS; d++) {
@@ -106,7 +106,7 @@ static void smooth_surfaces_are_mirrors(void **state) {
     }
 }
 
-/// GGX and Beckmann reflect no more than arrives: their masking is made for them.
+/// GGX and Beckmann reflect no more than arrives: the masking function is theirs.
 static void nothing_is_gained(void **state) {
     (void)state;
     for (int d = LOBE_DISTRIBUTION_GGX; d <= LOBE_DISTRIBUTION_BECKMANN; d++) {
@@ -149,7 +149,7 @@ static double interpolate(const albedo_table *table, double cosine, double rough
     return sum;
 }
 
-/// Between texels, and with what is reflected more than once a white surface is white.
+/// Between texels too, a white surface with multiple scattering is white.
 static void white_stays_white(void **state) {
     (void)state;
     for (int d = 0; d < DISTRIBUTIONS; d++) {

@@ -374,7 +374,7 @@ static void a_window_takes_ringing_out(void **state) {
     free(cube.texels);
 }
 
-/// Neither step runs again, and both give the same bits when they do.
+/// Neither pass runs again; when rebuilt, both give the same bits.
 static void a_still_environment_is_not_added_up_again(void **state) {
     fixture *f = *state;
     host_cube cube = cube_of(48, two_lights, axes[6]);

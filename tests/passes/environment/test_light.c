@@ -1,4 +1,4 @@
-// Light from an environment through the whole renderer: every filter by every method, against the
+// Light from an environment through the whole renderer: every filter with every method, against the
 // exact sum over the environment's texels.
 
 #include "tests/passes/support/fixture.h"
@@ -46,7 +46,7 @@ static void ground(const double direction[3], float radiance[3]) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Scenes: a square, lit by nothing but an environment
+// Scenes: a square lit only by an environment
 
 static lobe_material metal(float roughness) {
     lobe_material material;
@@ -122,7 +122,7 @@ static void a_white_room_leaves_lambert_white(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// What microfacets lose is what the exact sum loses; and nothing, where that is made up for.
+/// Microfacets lose what the exact sum loses, and nothing with multiple scattering.
 static void check_metal(fixture *f, float roughness, bool all_filters) {
     lobe_material material = metal(roughness);
     lobe_scene *scene = square_in(white, &material, aslant);
@@ -273,7 +273,7 @@ static void blended_levels_are_nearer(void **state) {
     }
 }
 
-/// The reference's samples by chance have the exact sum as their mean.
+/// The mean of the reference's random samples is the exact sum.
 static void the_reference_is_unbiased(void **state) {
     static const lobe_distribution distributions[] = {
         LOBE_DISTRIBUTION_GGX, LOBE_DISTRIBUTION_BECKMANN, LOBE_DISTRIBUTION_BLINN_PHONG,
@@ -344,7 +344,7 @@ static void turned_a_quarter(const double direction[3], float radiance[3]) {
     coloured((double[]){-direction[2], direction[1], direction[0]}, radiance);
 }
 
-/// Turning the environment is the same as drawing it turned.
+/// Rotating the environment equals drawing a rotated one.
 static void rotation_turns_the_environment(void **state) {
     static const float quarter[3][3] = {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}};
     lobe_material material = metal(0.4f);
@@ -464,7 +464,7 @@ static void methods_make_only_their_own_maps(void **state) {
             lobe_frame frame = draw(f, &request);
             size_t ran =
                 count_passes(lobe_renderer_graph(f->renderer), cases[i].pass, LOBE_PASS_RUN);
-            // What is there already is not made again.
+            // Existing maps are not rebuilt.
             if ((ran > 0) != (cases[i].runs && !again))
                 fail_msg("%s: %s ran %zu times in frame %d", cases[i].method, cases[i].pass, ran,
                          again);
@@ -475,8 +475,8 @@ static void methods_make_only_their_own_maps(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// One part of the work a frame: lit by means over texels first, by the environment before while
-/// the next is prepared, and then as if all had been done at once.
+/// One part of the work per frame: lit by the plain MIP chain at first, by the previous environment
+/// while the next is prepared, and finally as if all parts had been done at once.
 static void maps_are_made_part_by_part(void **state) {
     fixture *f = *state;
     lobe_material material = metal(0.5f);

@@ -1,4 +1,4 @@
-// The maps of an environment as a whole: made only where asked, only once, and part by part.
+// All maps of an environment: made only if wanted, only once, and part by part.
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,14 +31,14 @@ static void start(frames *s, fixture *f, bool lobes, bool ggx, uint32_t parts) {
 }
 
 static void stop(frames *s) {
-    // Retained content goes with the frame that does not declare it.
+    // The graph frees retained maps that a frame does not declare.
     lobe_graph_begin(s->f->graph);
     assert_int_equal(lobe_graph_execute(s->f->graph), LOBE_OK);
     lobe_texture_destroy(&s->texture);
     lobe_image_free(&s->environment.image);
 }
 
-/// One frame that wants all there is.
+/// One frame that wants all maps.
 static environment_maps run_frame(frames *s) {
     lobe_graph_begin(s->f->graph);
     environment_maps maps = passes_environment_maps_declare(s->f->graph, &s->request, &s->progress);
@@ -101,7 +101,7 @@ static void nothing_is_made_twice(void **state) {
     stop(&s);
 }
 
-/// A copy of what the last frame delivered, to free() by the caller.
+/// A copy of what the last frame read back; the caller frees it.
 static void *content(const frames *s, lobe_resource resource, size_t *size) {
     const void *data = lobe_graph_data(s->f->graph, resource, size);
     assert_non_null(data);
@@ -146,7 +146,7 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     for (uint32_t i = 0; i < 32 * 16; i++)
         environment_texel(&s.environment, i, 0)[0] += 1;
     assert_int_equal(lobe_texture_update(s.texture, &s.environment.image), LOBE_OK);
-    passes_environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_invalidate(&maps, &s.progress);
     for (maps.up_to_date = false; !maps.up_to_date;) {
         maps = run_frame(&s);
         assert_true(maps.complete);
@@ -156,11 +156,11 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
         free(now);
     }
     free(former);
-    // A change of mind half way begins again, still with the same former cubes.
-    passes_environment_maps_renew(&maps, &s.progress);
+    // Another change half way starts over, still with the same former cubes.
+    passes_environment_maps_invalidate(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
-    passes_environment_maps_renew(&maps, &s.progress);
+    passes_environment_maps_invalidate(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);
     assert_int_equal(maps.parts_done, 3);
@@ -168,7 +168,7 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// The face for tools
+// lobe_environment_maps
 
 static bool three_times(void *user, double part) {
     assert_true(part > 0 && part <= 1);

@@ -1,4 +1,4 @@
-// Filtered cubes: what lobes of all widths see, against sums over all texels in double precision.
+// Filtered cubes for lobes of all widths, against sums over all texels in double precision.
 
 #include <math.h>
 #include <string.h>

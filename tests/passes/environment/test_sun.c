@@ -1,5 +1,5 @@
-// A sun of two texels, 1e5 times as bright as all around it: through the whole renderer, no method
-// loses or adds light, and none shows a pixel that is brighter than it should be.
+// A sun of two texels, 1e5 times as bright as its surroundings: through the whole renderer, no
+// method loses or adds light, and none shows a pixel that is too bright.
 
 #include "tests/passes/support/fixture.h"
 
@@ -31,7 +31,7 @@ static void surround(lobe_scene *scene) {
         texels[4 * first + i] = texels[4 * second + i] = 1e5f;
 }
 
-/// A square under that sun, seen near and far at once.
+/// A square under that sun, near and far at once.
 static lobe_scene *square(const lobe_material *material) {
     lobe_scene *scene = scene_begin();
     scene_add_square(scene, material, 1, NULL);

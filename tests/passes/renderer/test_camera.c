@@ -1,4 +1,4 @@
-// Cameras: where points of the world fall in a picture, at any sample of a pixel.
+// Cameras: where points of the world are projected in a picture, at any sample of a pixel.
 
 #include "tests/passes/support/fixture.h"
 
@@ -47,14 +47,14 @@ static void the_target_is_in_the_middle(void **state) {
         double pixel[3];
         project(&camera, centre, camera.target, pixel);
         assert_true(fabs(pixel[0] - WIDTH / 2.0) < 1e-4 && fabs(pixel[1] - HEIGHT / 2.0) < 1e-4);
-        // What is above it is higher in the picture, where y is less.
+        // Points above it are higher in the picture, where y is smaller.
         float above[3] = {camera.target[0], camera.target[1] + 0.3f, camera.target[2]};
         project(&camera, centre, above, pixel);
         assert_true(pixel[1] < HEIGHT / 2.0 - 0.5);
     }
 }
 
-/// What lies at a sample of a pixel is drawn at the pixel's centre.
+/// A point at a sample's position is drawn at the pixel's centre.
 static void samples_move_the_picture_the_right_way(void **state) {
     (void)state;
     random_sequence sequence = scenes_random_start(181);
@@ -106,12 +106,12 @@ static void check_rotation(const lobe_camera *camera) {
     assert_true(fabsf(glm_mat3_det(rotation) - 1) < 1e-5f);
 }
 
-/// Whatever a camera says, its axes are three unit vectors at right angles, right-handed.
+/// For any camera, the axes are orthonormal and right-handed.
 static void axes_are_orthonormal(void **state) {
     (void)state;
     lobe_camera camera = camera_with(1);
     check_rotation(&camera);
-    // Up along the view, and an eye on the target.
+    // The up vector along the view, and the eye at the target.
     static const float ups[][3] = {{0, -1, 0}, {0, 1, 0}, {0, 0, 0}};
     for (int i = 0; i < 3; i++) {
         camera = (lobe_camera){.eye = {0, 1, 0}, .up = {ups[i][0], ups[i][1], ups[i][2]}};
@@ -122,7 +122,7 @@ static void axes_are_orthonormal(void **state) {
     }
 }
 
-/// The eye of an orthographic camera is a direction: to the viewer.
+/// The eye of an orthographic camera is a direction, to the viewer.
 static void the_eye_is_a_place_or_a_direction(void **state) {
     (void)state;
     vec4 eye;

@@ -1,7 +1,7 @@
-// Frames of which each differs from the one before at random: scenes, filters, sizes, materials,
-// maps, where they are drawn and how they are submitted. Memory comes back to where it was, and the
-// validation layer is silent. `test_renderer_churn FRAMES` draws that many, by all filters, and
-// says what memory they take (`ninja churn`: 10 000).
+// Frames that differ at random from one to the next: scenes, filters, sizes, materials, maps,
+// targets and submissions. Memory returns to its level, and the validation layer is silent.
+// `test_renderer_churn FRAMES` draws that many frames with all filters and prints the memory that
+// they take (`ninja churn`: 10 000).
 
 #include "tests/passes/support/fixture.h"
 
@@ -22,7 +22,7 @@ enum { SCENES = 3, SIZES = 3, ROUNDS = 20, STRETCH = 8, FRAMES = 12, FILTERS = 4
 
 typedef struct churn {
     host_device host;
-    counting_allocator counting; ///< of all that lobe makes but the scenes
+    counting_allocator counting; ///< of everything in lobe except the scenes
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_scene *scenes[SCENES];
@@ -56,7 +56,7 @@ static lobe_scene *scene_of(int number, uint32_t extent) {
     return scene;
 }
 
-/// A few filters, whose shaders are soon made; or all but the reference, which is none.
+/// A few filters whose shaders compile fast; or all except the reference.
 static void choose_filters(churn *c, bool all) {
     static const char *const few[FILTERS] = {"lobes", "mipmap", "toksvig", "direct"};
     for (size_t n = 0; n < (all ? lobe_filter_count() : FILTERS); n++) {
@@ -104,7 +104,7 @@ static void close_churn(churn *c) {
 // ---------------------------------------------------------------------------------------------
 // Changes
 
-/// To another scene; or to a new one in place of it, with maps of another extent.
+/// Switches to another scene, or replaces it by a new one with maps of another extent.
 static void change_scene(churn *c) {
     const uint32_t number = pick(c, SCENES);
     if (c->scenes[number] != c->set && pick(c, 3) == 0) {
@@ -140,7 +140,7 @@ static void render(churn *c, const lobe_render_parameters *parameters) {
     lobe_frame_free(&frame);
 }
 
-/// Delivered, drawn into an image, submitted without waiting, or recorded.
+/// Delivered, drawn into an image, submitted without waiting, or recorded into commands.
 static void draw_somehow(churn *c) {
     const uint32_t size = pick(c, SIZES), how = pick(c, 4);
     const lobe_vulkan_image image = {.image = c->targets[size].image,
@@ -184,7 +184,7 @@ static size_t host_bytes(void) {
     return memory.uordblks + memory.hblkhd;
 }
 
-/// The same frames in each round: what is kept for them is made in the first.
+/// The same frames in every round: what is kept for them is created in the first.
 static void go_round(churn *c) {
     c->sequence = scenes_random_start(5);
     c->set = c->scenes[0];
@@ -205,8 +205,8 @@ static void changes_are_valid(void **state) {
     close_churn(&c);
 }
 
-/// lobe's own is the same after each round, to the byte. Of the driver's, what leaks grows in every
-/// stretch of rounds; it fills its pools in some, and swings by a kilobyte.
+/// lobe's own memory is the same after each round, to the byte. The driver's varies by a kilobyte
+/// and fills its pools in some rounds; a leak grows in every stretch of rounds.
 static void memory_stays(void **state) {
     (void)state;
     churn c;
@@ -241,7 +241,7 @@ static size_t resident_bytes(void) {
     return resident * (size_t)sysconf(_SC_PAGESIZE);
 }
 
-/// With no scene set: what is left is what the device keeps. Returns the host's bytes.
+/// Without a scene, only what the device keeps is left. Returns the host's bytes.
 static ptrdiff_t report(churn *c, uint32_t drawn, time_t start) {
     lobe_device_memory memory;
     assert_int_equal(lobe_renderer_set_scene(c->renderer, NULL), LOBE_OK);
@@ -259,8 +259,8 @@ static ptrdiff_t report(churn *c, uint32_t drawn, time_t start) {
     return (ptrdiff_t)bytes;
 }
 
-/// Shaders are made in the first quarter; from then on what leaks grows from quarter to quarter.
-/// Returns the least growth.
+/// Shaders are created in the first quarter; after that a leak grows from quarter to quarter.
+/// Returns the smallest growth.
 static ptrdiff_t draw_many(churn *c) {
     const time_t start = time(NULL);
     ptrdiff_t bytes[QUARTERS + 1], least_growth = PTRDIFF_MAX;

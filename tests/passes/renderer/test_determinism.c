@@ -1,6 +1,6 @@
-// The same pixels, bit by bit, in every run and for any number of threads of the driver. Each run
-// is a process of its own, since lavapipe reads LP_NUM_THREADS when it makes a device: this
-// program started with the argument "pixels" draws and prints hashes of what it drew.
+// The same pixels, bit for bit, in every run and with any number of the driver's threads. Each run
+// is a process of its own, because lavapipe reads LP_NUM_THREADS when it creates a device: started
+// with the argument "pixels", this program draws pictures and prints their hashes.
 
 #include "tests/passes/support/fixture.h"
 
@@ -43,7 +43,7 @@ static void print_scene(fixture *f, const lobe_scene *scene, const char *const (
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
 }
 
-/// By every filter.
+/// With every filter.
 static void print_builtin_scenes(fixture *f) {
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
         lobe_scene *scene;
@@ -56,7 +56,7 @@ static void print_builtin_scenes(fixture *f) {
     }
 }
 
-/// Maps over an atlas, drawn by several triangles that meet.
+/// Maps over an atlas, drawn by several adjacent triangles.
 static void print_atlas_scene(fixture *f) {
     static const char *const requests[][2] = {{"lobes", "space=object"},
                                               {"lobes", "space=camera"},
@@ -87,7 +87,7 @@ static int draw_and_print(void) {
 // ---------------------------------------------------------------------------------------------
 // The comparison
 
-/// Lines with hashes that a run prints, with LP_NUM_THREADS as given.
+/// The lines with hashes that a run prints, with LP_NUM_THREADS as given.
 static void run(const char *threads, char text[TEXT]) {
     char program[PATH_MAX], command[PATH_MAX + 32], line[256];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -123,7 +123,7 @@ static void pixels_do_not_depend_on_run_or_threads(void **state) {
     }
 }
 
-/// Nor does a hash stay the same whatever is drawn.
+/// Hashes differ between pictures.
 static void hashes_tell_pictures_apart(void **state) {
     (void)state;
     float texels[8] = {0, 1, 2, 3, 4, 5, 6, 7};

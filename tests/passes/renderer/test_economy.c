@@ -1,5 +1,5 @@
-// Only what the scene requires: what is constant, unchanged, absent or switched off costs no pass,
-// no map and no code.
+// Only what the scene requires: anything constant, unchanged, absent or switched off costs no pass,
+// no map and no shader code.
 
 #include "tests/passes/support/fixture.h"
 
@@ -22,7 +22,7 @@ static picture_request request_for(const char *filter, const char *knob) {
         .filter = filter, .settings = {knob, NULL}, .width = extent, .height = extent};
 }
 
-/// Everything a material can have, with one value each.
+/// Every property of a material, with one constant value each.
 static lobe_material constant_material(lobe_scene *scene, bool microfacet, uint32_t size) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
     if (microfacet)
@@ -57,7 +57,7 @@ static lobe_scene *constant_scene(bool microfacet, uint32_t size) {
 // ---------------------------------------------------------------------------------------------
 // Constants
 
-/// There is nothing to filter in a constant map: all filters agree, wherever they build their maps.
+/// A constant map needs no filtering: all filters agree, in whichever space they build their maps.
 static void filters_agree_on_constant_maps(void **state) {
     static const char *const requests[][3] = {
         {"mipmap", "probes=3", NULL},       {"lobes", "space=tangent", NULL},
@@ -88,8 +88,8 @@ static void filters_agree_on_constant_maps(void **state) {
     }
 }
 
-/// Where a texel covers many pixels there is nothing to filter either: lobes of several hues and
-/// widths, and every other property, are those of the maps themselves.
+/// Texels that cover many pixels need no filtering either: lobes of several hues and widths, and
+/// every other property, are those of the maps themselves.
 static void filters_agree_where_maps_are_magnified(void **state) {
     static const char *const filters[] = {"mipmap", "lobes"};
     for (int model = 0; model < 3; model++) {
@@ -184,7 +184,7 @@ static uint32_t layers_of_material(fixture *f, lobe_scene *scene, const lobe_mat
     return layers;
 }
 
-/// Without a normal map one cluster has all lobes: a single layer, and the bytes of it.
+/// Without a normal map one cluster has all lobes: a single layer, with its bytes.
 static void no_normal_map_means_one_lobe(void **state) {
     uint64_t bytes;
     lobe_scene *scene = scene_begin();
@@ -199,8 +199,8 @@ static void no_normal_map_means_one_lobe(void **state) {
     assert_int_equal(bytes, passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT));
 }
 
-/// As many layers as the subdivision asks for, and one for means only where they cannot be had
-/// from the others.
+/// As many layers as the subdivision has, plus one for means only if they cannot be computed from
+/// the others.
 static void layers_are_those_that_are_read(void **state) {
     static const uint32_t layers[] = {1, 5, 13};
     static const char *const knobs[] = {"subdivision=0", "subdivision=1", "subdivision=2"};
@@ -237,8 +237,7 @@ static lobe_scene *varied_scene(void) {
     return scene;
 }
 
-/// Asserts that the next frame runs shading, and of the other passes those of `names`, ended by
-/// NULL, and no others.
+/// Asserts that the next frame runs shading and exactly the passes in `names`, which NULL ends.
 static void check_frame(fixture *f, const picture_request *request, const char *const *names,
                         const char *what) {
     lobe_frame frame = draw(f, request);
@@ -298,7 +297,7 @@ static void a_still_scene_is_only_shaded(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// A moved camera rebuilds what is built in its space, and nothing else.
+/// Moving the camera rebuilds only what is built in camera space.
 static void a_moved_camera_rebuilds_camera_space_only(void **state) {
     static const char *const camera_maps[] = {"lobe_clustering", "level_reduction", NULL};
     static const struct {
@@ -333,13 +332,13 @@ static void knobs_of_shading_rebuild_nothing(void **state) {
         request = request_for("lobes", knobs[i]);
         check_frame(f, &request, nothing, knobs[i]);
     }
-    // Layers that were not there before have to be built.
+    // Layers that did not exist before are built.
     request = request_for("lobes", "subdivision=0");
     lobe_frame frame = draw(f, &request);
     lobe_frame_free(&frame);
     request = request_for("lobes", "subdivision=1");
     check_frame(f, &request, lobe_maps, "subdivision");
-    // What `direct` does not declare is gone; so it is built anew.
+    // Maps that `direct` does not declare were freed, so they are rebuilt.
     request = request_for("direct", NULL);
     check_frame(f, &request, nothing, "direct");
     request = request_for("lobes", "subdivision=1");
@@ -552,7 +551,7 @@ static void absent_features_of_a_material_are_compiled_out(void **state) {
     }
 }
 
-/// Outputs that nobody asked for are no attachments, and the shader that runs does not write them.
+/// Outputs that are not requested are not attached, and the shader does not write them.
 static void unused_outputs_are_compiled_out(void **state) {
     fixture *f = *state;
     lobe_scene *scene = varied_scene();
@@ -575,8 +574,8 @@ static void unused_outputs_are_compiled_out(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// A knob's value is a constant of the shader: another value, another pipeline; the same value, the
-/// same pipeline.
+/// A knob's value is a constant of the shader: another value needs another pipeline, the same value
+/// reuses it.
 static void knobs_are_constants_of_the_shader(void **state) {
     static const char *const knobs[] = {"subdivision=0", "subdivision=1", "threshold=dispersion",
                                         "epsilon0=0.5",  "epsilon1=0.5",  "blend=0.3",

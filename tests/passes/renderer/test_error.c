@@ -1,4 +1,4 @@
-// How far each filter is from the mean of many samples, scene by scene, and who is closer.
+// How far each filter is from the mean of many samples, scene by scene, and which filter is closer.
 
 #include "tests/passes/support/fixture.h"
 
@@ -9,13 +9,13 @@
 
 enum { WIDTH = 160, HEIGHT = 90, MOST_FILTERS = 16 };
 
-/// Relative L2 of linear radiance: what was measured when this was written, and 15 % more.
+/// Largest relative L2 error of linear radiance: measured when this was written, plus 15 %.
 typedef struct error_bound {
     const char *filter;
     double most;
 } error_bound;
 
-/// One filter's error is at most so many times the other's.
+/// One filter's error is at most this many times the other's.
 typedef struct error_order {
     const char *better, *worse;
     double most;
@@ -37,7 +37,7 @@ static double measure(fixture *f, const char *filter, const lobe_image *truth) {
     return error;
 }
 
-/// Of a filter by its name.
+/// The error of a filter, by name.
 static double error_of(const error_bounds *bounds, const double errors[], const char *filter) {
     for (int i = 0; bounds->bounds[i].filter; i++) {
         if (strcmp(bounds->bounds[i].filter, filter) == 0)
@@ -47,7 +47,7 @@ static double error_of(const error_bounds *bounds, const double errors[], const 
     return NAN;
 }
 
-/// All are looked at before any of them fails.
+/// Checks all bounds before failing.
 static void check_errors(const error_bounds *bounds, const double errors[]) {
     unsigned failures = 0;
     for (int i = 0; bounds->bounds[i].filter; i++) {
@@ -78,7 +78,7 @@ static bool has_bound(const error_bounds *bounds, const char *filter) {
     return false;
 }
 
-/// No filter goes unmeasured.
+/// Every filter is measured.
 static void check_table(const error_bounds *bounds) {
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
@@ -143,8 +143,8 @@ static void bumps_is_within_bounds(void **state) {
     check_scene(*state, &bounds);
 }
 
-/// One direction with two widths: one lobe has a width in between, which is neither; but bins tell
-/// widths apart.
+/// One direction with two widths: a single lobe has a width in between, which is neither; bins keep
+/// the widths apart.
 static void checkerboard_is_within_bounds(void **state) {
     static const error_bounds bounds = {
         "checkerboard",

@@ -1,5 +1,5 @@
-// Numbers at the ends of their ranges, and beyond what maps should hold, give finite pictures of
-// no negative light, with every filter.
+// Values at the ends of their ranges, and outside of what maps should hold, give finite pictures
+// without negative light, with every filter.
 
 #include "tests/passes/support/fixture.h"
 
@@ -13,7 +13,7 @@
 
 enum { EXTENT = 16 };
 
-/// What is extreme about a scene, applied before its square is added, or after all is done.
+/// Makes a scene extreme: before its square is added, or after everything else.
 typedef struct extreme {
     const char *name;
     void (*change_material)(lobe_scene *scene, lobe_material *material);
@@ -152,7 +152,7 @@ static void widths_from_none_to_all(lobe_scene *scene, lobe_material *material) 
         material->width_map = use;
 }
 
-/// Normals that point sideways, downwards and straight down, and texels of no direction at all.
+/// Normals that point sideways, downwards and straight down, and texels without a direction.
 static void normals_below_the_horizon(lobe_scene *scene, lobe_material *material) {
     static const float texels[][3] = {{1, 0.5f, 0.5f},    {0.9f, 0.5f, 0.2f}, {0.5f, 0.5f, 0},
                                       {0.5f, 0.5f, 0.5f}, {0, 0, 0},          {0.5f, 0.5f, 1}};
@@ -228,7 +228,7 @@ static void light_behind(lobe_scene *scene) {
     scene->lights[1].direction[1] = 1;
 }
 
-/// Light from where the viewer is not: half vectors of opposite directions.
+/// Light from opposite the viewer: half vectors of opposite directions.
 static void light_opposite_the_viewer(lobe_scene *scene) {
     scene_look_from(scene, (double[]){1, 1e-4, 0}, 0.5);
     scene->lights[1].direction[0] = 1;
@@ -240,7 +240,7 @@ static void grazing_view(lobe_scene *scene) {
         .eye = {0, 1e-4f, 2}, .up = {0, 1, 0}, .vertical_field_of_view = 0.5f, .near_plane = 1e-3f};
 }
 
-/// The plane through the eye: seen as a line, or not at all.
+/// The plane through the eye: visible as a line, or not at all.
 static void view_along_the_plane(lobe_scene *scene) {
     grazing_view(scene);
     scene->camera.eye[1] = 0;
@@ -303,7 +303,7 @@ static void places_at_their_limits(void **state) {
     check_all(*state, extremes, sizeof extremes / sizeof *extremes);
 }
 
-/// Scale does not change a picture under light from afar.
+/// Scale does not change a picture under distant light.
 static void size_does_not_matter(void **state) {
     static const extreme as_it_is = {"as it is", NULL, NULL};
     static const float scales[] = {1, 1e6f, 1e-4f};

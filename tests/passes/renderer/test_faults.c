@@ -1,6 +1,5 @@
-// Every call to Vulkan that a renderer makes fails once, for want of device memory: the call of
-// ours that needed it says so by its code and one line, and the same renderer goes on to draw the
-// scene.
+// Every Vulkan call that a renderer makes fails once, out of device memory: our call that needed it
+// returns that error and logs one line, and the same renderer then draws the scene.
 
 #include "tests/passes/support/fixture.h"
 
@@ -31,7 +30,7 @@ typedef struct way {
     fixture *f;
     lobe_scene *scene;
     lobe_image other; ///< in place of the scene's map
-    bool into_image;  ///< of the host's, with two frames in flight; or else delivered
+    bool into_image;  ///< into the host's image, with two frames in flight; otherwise delivered
     host_device host; ///< the same device, as a host has it
     host_image image;
 } way;
@@ -65,7 +64,7 @@ static lobe_result submit(way *w) {
     return result;
 }
 
-/// Two frames one after the other, and what the image holds then.
+/// Two frames in a row, and the image's contents afterwards.
 static lobe_result draw_into_image(way *w, uint64_t *hash) {
     float texels[EXTENT * EXTENT * 4];
     *hash = 0;
@@ -104,7 +103,7 @@ static lobe_result work(way *w, uint64_t *hash) {
 // ---------------------------------------------------------------------------------------------
 // Faults
 
-/// What is destroyed is waited for, and destroyed in any case.
+/// Destruction waits, and destroys in any case.
 static bool is_in_vain(const char *function) {
     return strcmp(function, "vkWaitSemaphores") == 0 || strcmp(function, "vkQueueWaitIdle") == 0;
 }
@@ -133,7 +132,7 @@ static void check_each_call(way *w) {
     fixture *f = w->f;
     uint64_t first, hash;
     lobe_device_memory memory;
-    // What the device keeps, pipelines above all, is made here.
+    // Creates what the device keeps, above all pipelines.
     assert_int_equal(work(w, &hash), LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, w->scene), LOBE_OK);
     assert_int_equal(draw_hash(w, &first), LOBE_OK);

@@ -1,5 +1,5 @@
 // Energy and reciprocity of the microfacet frame, through the whole renderer: a plane under light
-// from everywhere, and a plane whose light and viewer change places.
+// from everywhere, and a plane whose light and viewer are swapped.
 
 #include "tests/passes/support/fixture.h"
 
@@ -46,7 +46,7 @@ static lobe_scene *mapped_scene(const lobe_material *material, lobe_image normal
 }
 
 /// A square of a material with a normal map of 8x8 equal texels, flat or tilted, which filters see
-/// at level 4: nothing but their filtered maps.
+/// at level 4: only their filtered maps count.
 static lobe_scene *plane_scene(const lobe_material *material, const float texel[3],
                                const double outgoing[3]) {
     return mapped_scene(material, constant_map(8, 8, texel[0], texel[1], texel[2]), outgoing);
@@ -77,10 +77,10 @@ static lobe_material microfacets(lobe_distribution distribution, double roughnes
 
 enum { ROWS = 32, COLUMNS = 31 };
 
-/// Light from everywhere with radiance one, as suns that stand for equal parts of the visible
-/// normals' distribution: half vectors are those of GGX with the material's alpha (Walter et al.
-/// 2007, Eq. 35), a part of d(omega_i) = 4 <o, h> d(omega_h) each. Returns the plane's reflected
-/// radiance in double precision.
+/// Light from everywhere with radiance one, as suns that represent equal parts of the distribution
+/// of visible normals: half vectors are those of GGX with the material's alpha (Walter et al. 2007,
+/// Eq. 35), a part of d(omega_i) = 4 <o, h> d(omega_h) each. Returns the plane's reflected radiance
+/// in double precision.
 static double add_furnace(lobe_scene *scene, const lobe_material *material,
                           const double outgoing[3]) {
     double alpha = fmax(pow((double)material->roughness, 2), 0.02), sum = 0;
@@ -105,8 +105,8 @@ static double add_furnace(lobe_scene *scene, const lobe_material *material,
 }
 
 /// GGX and Beckmann are masked by their own shadowing function, which loses energy only. The others
-/// are masked as Beckmann (Walter et al. 2007, section 5.2), which is no longer theirs where they
-/// are broad: as much as is written here comes out too much at grazing angles.
+/// are masked as Beckmann (Walter et al. 2007, section 5.2), which does not fit broad lobes: they
+/// exceed one at grazing angles by as much as is written here.
 static double most_reflected(const lobe_material *material) {
     bool own = material->distribution == LOBE_DISTRIBUTION_GGX ||
                material->distribution == LOBE_DISTRIBUTION_BECKMANN;
@@ -126,7 +126,7 @@ static void check_furnace(fixture *f, const lobe_material *material, double degr
         fail_msg("%s: %.6g instead of %.6g", what, found, expected);
     if (!(found <= most_reflected(material)))
         fail_msg("%s: reflects %g of the light", what, found);
-    // Little is lost between smooth facets; what rough ones lose, they lose to each other.
+    // Smooth facets lose little; rough ones lose what they reflect to each other.
     double least = material->roughness < 0.5f && degrees < 60 ? 0.96 : 0.3;
     if (!(found >= least))
         fail_msg("%s: only %g of the light is left", what, found);
@@ -153,7 +153,7 @@ static void a_white_plane_reflects_no_more_than_it_gets(void **state) {
     }
 }
 
-/// Specular and diffuse share what arrives: a white dielectric reflects at most all of it.
+/// Specular and diffuse share the incident light: a white dielectric reflects at most all of it.
 static void a_white_dielectric_reflects_no_more_than_it_gets(void **state) {
     static const double angles[] = {0, 50, 80};
     for (int i = 0; i < 3; i++) {
@@ -175,8 +175,8 @@ static void check_rough_surface(fixture *f, const lobe_material *material, doubl
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
         double found = draw_one_pixel(f, scene, filter);
-        // One sample's narrow lobe is missed by suns for broad ones, or faces away at grazing
-        // angles.
+        // A single sample's narrow lobe is missed by suns placed for broad ones, or faces away at
+        // grazing angles.
         if (!(found >= (degrees < 60 ? 0.5 : 0) && found <= 1.03))
             fail_msg("%s, tilt %g, %g degrees: %s reflects %g of the light",
                      distribution_names[material->distribution], tilt, degrees, filter, found);
@@ -184,7 +184,8 @@ static void check_rough_surface(fixture *f, const lobe_material *material, doubl
     lobe_scene_destroy(&scene);
 }
 
-/// Nor does one of normals that point all ways, which filters make a distribution of their own of.
+/// Nor does a plane of normals in all directions, which filters turn into a distribution of their
+/// own.
 static void a_rough_surface_reflects_no_more_than_it_gets(void **state) {
     static const double angles[] = {0, 50, 80}, tilts[] = {0.2, 0.7};
     for (int distribution = 0; distribution < 4; distribution++) {
@@ -244,7 +245,7 @@ static void light_and_viewer_may_change_places(void **state) {
     }
 }
 
-/// Lobes of the half vector have their cosine inside: they are symmetric themselves.
+/// Half-vector lobes include the cosine: they are symmetric themselves.
 static void half_vector_lobes_are_symmetric(void **state) {
     static const double tilted[3] = {0.28, 0, 0.96};
     for (size_t i = 0; i < lobe_filter_count(); i++) {

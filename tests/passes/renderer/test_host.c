@@ -1,5 +1,5 @@
-// Pictures drawn into the images of a host with Vulkan of its own: the same bits as those that are
-// delivered, however they get there, and over what the host drew.
+// Pictures drawn into the images of a host with its own Vulkan device: the same bits as delivered
+// pictures, however they are submitted, and over what the host drew.
 
 #include "tests/passes/support/fixture.h"
 
@@ -28,7 +28,7 @@ static const VkImageUsageFlags depth_usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACH
                                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                              VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-/// A square with the background all around it.
+/// A square surrounded by background.
 static lobe_scene *small_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
@@ -86,7 +86,7 @@ static lobe_frame render(host_fixture *f, const lobe_render_parameters *paramete
     return frame;
 }
 
-/// What the renderer delivers by itself.
+/// The picture that the renderer delivers without a target.
 static lobe_frame delivered(host_fixture *f, const lobe_camera *camera) {
     return render(f, &(lobe_render_parameters){.camera = camera, .width = SIZE, .height = SIZE});
 }
@@ -131,7 +131,7 @@ static void the_hosts_image_gets_the_same_bits(void **state) {
         const lobe_render_target target = {.radiance = &colour, .depth = given ? &depth : NULL};
         lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target});
         assert_null(frame.radiance.texels);
-        assert_int_equal(frame.pass_count, 1); // maps are found ready
+        assert_int_equal(frame.pass_count, 1); // maps are reused
         lobe_image image = host_texels(f, &f->colour);
         assert_same_bits(&image, &expected.radiance);
         lobe_image_free(&image);
@@ -150,7 +150,7 @@ static void other_outputs_are_still_delivered(void **state) {
     lobe_frame_free(&frame);
 }
 
-/// Where nothing is hit the host's colour stays; where its depth is nearer, too.
+/// The host's colour stays where nothing is hit, and where the host's depth is nearer.
 static void lobe_draws_over_what_the_host_drew(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
     host_fixture *f = *state;
@@ -178,7 +178,7 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
     lobe_frame_free(&expected);
 }
 
-/// A visible environment is a background like any other.
+/// A visible environment is treated like any background.
 static void the_environment_stays_behind_the_hosts_background(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
     static const char *const quick[] = {"env=mip", "env_size=16", NULL};
@@ -208,7 +208,7 @@ static void the_environment_stays_behind_the_hosts_background(void **state) {
     lobe_frame_free(&expected);
 }
 
-/// An image as displays want it: encoded, to the nearest of 256 steps.
+/// An image for displays: encoded, rounded to 256 steps.
 static void formats_of_displays_are_encoded(void **state) {
     host_fixture *f = *state;
     host_image image =
@@ -275,7 +275,7 @@ static void frames_in_flight_are_those_delivered(void **state) {
     vkDestroySemaphore(f->host.vulkan.device, timeline, NULL);
 }
 
-/// The first picture's maps are built in the same command buffer, the second's are found ready.
+/// The first picture's maps are built in the same command buffer, the second reuses them.
 static void pictures_are_recorded_into_the_hosts_commands(void **state) {
     host_fixture *f = *state;
     lobe_image images[2];
@@ -304,8 +304,8 @@ static void pictures_are_recorded_into_the_hosts_commands(void **state) {
 
 typedef struct added {
     unsigned calls[2];
-    bool replace; ///< the picture by a constant one
-    bool shrink;  ///< by one of another extent
+    bool replace; ///< replaces the picture by a constant one
+    bool shrink;  ///< replaces it by one of another extent
 } added;
 
 static void add_passes(void *user, lobe_graph *graph, lobe_render_stage stage,
@@ -369,7 +369,7 @@ static lobe_render_parameters reference_parameters(const lobe_render_target *tar
                                     .host.target = target};
 }
 
-/// Waited for by lobe, by the host, or in its commands.
+/// Waited for by lobe, by the host, or recorded into the host's commands.
 static void the_reference_gets_into_the_hosts_image(void **state) {
     host_fixture *f = *state;
     lobe_render_parameters parameters = reference_parameters(NULL);
@@ -394,7 +394,7 @@ static void the_reference_gets_into_the_hosts_image(void **state) {
     lobe_frame_free(&expected);
 }
 
-/// Where half of a pixel is covered, half of what the host drew is seen.
+/// Where half of a pixel is covered, half of the host's colour shows.
 static void the_reference_is_laid_over_what_the_host_drew(void **state) {
     host_fixture *f = *state;
     const float drawn[4] = {0.25f, 1, 0.5f, 1};

@@ -1,5 +1,5 @@
-// Every knob of every filter, at both ends of its range or with each of its choices, draws a
-// finite picture that is not empty.
+// Every knob of every filter, at both ends of its range or with each of its choices, gives a finite
+// picture that is not empty.
 
 #include "tests/passes/support/fixture.h"
 
@@ -8,7 +8,7 @@
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
-/// A square of each model of material, near and far at once.
+/// A square of each material model, near and far at once.
 static lobe_scene *both_models(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 40);
@@ -70,7 +70,7 @@ static void every_knob_draws_at_both_ends(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
-/// Views show numbers that are possible: whole lobes, levels that the maps have.
+/// Views show possible numbers: whole lobes, levels that the maps have.
 static void views_show_what_they_say(void **state) {
     fixture *f = *state;
     lobe_scene *scene = both_models();

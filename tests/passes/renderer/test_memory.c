@@ -1,6 +1,6 @@
-// All that lobe takes of the host's memory comes from the host's allocator, and goes back: that of
-// devices, scenes, environments, renderers, frames and files. Wherever there is none, the call of
-// ours that needed it says so by its code and one line, and the same renderer goes on.
+// All host memory that lobe takes comes from the host's allocator and is returned to it: that of
+// devices, scenes, environments, renderers, frames and files. When an allocation fails, our call
+// that needed it returns that error and logs one line, and the same renderer still works.
 
 #include "tests/passes/support/fixture.h"
 
@@ -20,7 +20,7 @@ enum { EXTENT = 8 };
 // ---------------------------------------------------------------------------------------------
 // All of it
 
-/// What a host has of lobe, in memory of its own.
+/// Everything a host has of lobe, in the host's memory.
 typedef struct subject {
     counting_allocator counting;
     log_recorder recorder;
@@ -45,7 +45,7 @@ static void open_subject(subject *s, const host_device *host) {
     assert_int_equal(lobe_environment_open("sky", &s->recorder.host, &s->scene->environment),
                      LOBE_OK);
     lobe_environment_shrink(s->scene->environment, 16);
-    // Without words, and yet with memory from where the device has it.
+    // Silent, but with memory from the device's allocator.
     assert_int_equal(lobe_renderer_create(s->device, NULL, &s->renderer), LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(s->renderer, s->scene), LOBE_OK);
 }
@@ -113,7 +113,7 @@ static void close_subject(subject *s) {
     assert_nothing_left(&s->counting);
 }
 
-/// Two devices of one host, each with an allocator of its own.
+/// Two devices of one host, each with its own allocator.
 static void everything_comes_from_the_host_and_goes_back(void **state) {
     (void)state;
     static const char *const filters[] = {"direct", "lobes"};
@@ -129,7 +129,7 @@ static void everything_comes_from_the_host_and_goes_back(void **state) {
     dump(&subjects[0]);
     assert_int_equal(subjects[1].counting.taken, others);
     draw_and_write(&subjects[1], "mipmap");
-    // What a scene is made of is most of it.
+    // Most of it is the scene's.
     assert_true(subjects[1].counting.bytes > 1 << 20);
     close_subject(&subjects[0]);
     draw_and_write(&subjects[1], "mipmap");
@@ -183,8 +183,8 @@ static lobe_result change_and_draw(const work *w, lobe_renderer *renderer, uint6
     return result;
 }
 
-/// What the device keeps, pipelines above all, is there already: of that, tests of the engine see
-/// to it. `with`: whose device and log; `failing`: which call for memory fails, 0: none.
+/// What the device keeps, above all pipelines, exists already: the engine's tests cover that.
+/// `with`: the device and log to use; `failing`: which allocation fails, 0: none.
 static void check_allocation(work *w, subject *with, size_t failing) {
     uint64_t hash = 0;
     with->recorder.errors = 0;
@@ -204,7 +204,7 @@ static void check_allocation(work *w, subject *with, size_t failing) {
     lobe_renderer_destroy(&with->renderer);
 }
 
-/// `surrounded`: with an environment, whose maps take time: then every ninth allocation.
+/// `surrounded`: with an environment, whose maps take time, so only every ninth allocation fails.
 static void check_each_allocation(const char *filter, bool surrounded) {
     host_device host;
     subject s;

@@ -1,5 +1,5 @@
-// Wrong use of the renderer: exact codes, one line that says why, nothing delivered, and a renderer
-// that goes on to work.
+// Misuse of the renderer: exact error codes, one line that says why, nothing delivered, and a
+// renderer that still works.
 
 #include "tests/passes/support/fixture.h"
 
@@ -22,7 +22,7 @@ static lobe_scene *small_scene(void) {
     return scene;
 }
 
-/// Asserts that the renderer draws a scene as ever.
+/// Asserts that the renderer still draws a scene.
 static void check_it_works(fixture *f) {
     lobe_scene *scene = small_scene();
     picture_request request = {.filter = "lobes", .settings = {NULL}, .width = 4, .height = 4};
@@ -49,7 +49,7 @@ static void there_is_no_scene(void **state) {
     fixture *f = *state;
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     check_render_failure(f, &(lobe_render_parameters){0}, LOBE_ERROR_INVALID_ARGUMENT, "no scene");
-    // Nor is there one left after it was taken away.
+    // Nor is there one after it was removed.
     lobe_scene *scene = small_scene();
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
@@ -99,7 +99,7 @@ static void settings_out_of_range_are_refused(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Scenes that a host filled wrongly
+// Malformed scenes of a host
 
 typedef struct broken_scene {
     const char *words; ///< of the error line
@@ -181,7 +181,7 @@ static void broken_scenes_are_refused(void **state) {
         fixture_forget_messages(f);
         lobe_result result = lobe_renderer_set_scene(f->renderer, scene);
         assert_failure(f, result, LOBE_ERROR_MALFORMED, cases[i].words);
-        // The scene before is forgotten all the same.
+        // The previous scene is removed nevertheless.
         check_render_failure(f, &(lobe_render_parameters){0}, LOBE_ERROR_INVALID_ARGUMENT,
                              "no scene");
         lobe_scene_destroy(&scene);
@@ -189,7 +189,7 @@ static void broken_scenes_are_refused(void **state) {
     check_it_works(f);
 }
 
-/// An image larger than the device takes.
+/// An image larger than the device allows.
 static void images_have_limits(void **state) {
     fixture *f = *state;
     uint32_t limit = lobe_device_describe(f->device)->maximum_image_extent;
@@ -210,8 +210,8 @@ static void images_have_limits(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Memory
 
-/// A renderer of a device with little memory draws what fits, says in one line what does not, and
-/// draws what fits again.
+/// A renderer on a device with little memory draws what fits, fails with one line for what does
+/// not, and then draws what fits again.
 static void memory_may_run_out(void **state) {
     fixture *shared = *state;
     fixture f = {.host = {.write = shared->host.write, .user = &f}};
@@ -245,7 +245,7 @@ static void nothing_is_destroyed_twice(void **state) {
     lobe_renderer_destroy(&renderer);
     assert_int_equal(lobe_renderer_create(f->device, NULL, &renderer), LOBE_OK);
     lobe_scene *scene = small_scene();
-    // The device is left, and a scene may be set at the end.
+    // The device must survive, and a scene can still be set at the end.
     assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
     lobe_renderer_destroy(&renderer);
     assert_null(renderer);

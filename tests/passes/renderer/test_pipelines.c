@@ -1,5 +1,5 @@
-// Pipelines are made for what a scene has, not for its values: where a host changes those from
-// frame to frame, nothing is compiled any more, and what the device keeps does not grow.
+// Pipelines depend on which features a scene has, not on its values: when a host changes values
+// from frame to frame, nothing is compiled, and what the device keeps does not grow.
 
 #include "tests/passes/support/fixture.h"
 

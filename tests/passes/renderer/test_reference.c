@@ -1,5 +1,5 @@
-// The reference: the mean of many samples converges to what is known in closed form, as fast as it
-// should, and comes out the same however it is cut into submissions.
+// The reference: the mean of many samples converges to closed forms at the expected rate, and does
+// not depend on how it is split into submissions.
 
 #include "tests/passes/support/fixture.h"
 
@@ -21,7 +21,7 @@ static picture_request reference_request(uint32_t width, uint32_t height, uint32
                              .samples = samples};
 }
 
-/// A matt material: reflects albedo/pi of what arrives, and nothing else.
+/// A matt material: reflects albedo/pi of the incident light.
 static lobe_material matt_material(void) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
     for (int i = 0; i < 3; i++) {
@@ -79,8 +79,8 @@ static void a_matt_plane_is_exact(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Pixels of two by two squares are half white, exactly so where the squares' edges fall on those
-/// of strata.
+/// Pixels of two by two squares are half white: exactly where the squares' edges coincide with
+/// those of strata.
 static void a_checkerboard_is_half_white(void **state) {
     lobe_scene *scene = board_scene(16, 0);
     picture_request request = reference_request(8, 8, 64);
@@ -176,7 +176,7 @@ static void one_sample_is_the_direct_picture(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// All samples in one frame of a graph, as the renderer would do it without cutting.
+/// All samples in one frame of a graph, as the renderer would take them without splitting.
 static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t extent,
                                   uint32_t samples, float *mean) {
     const lobe_filter *filter = filter_named("reference");
@@ -250,7 +250,7 @@ static void the_same_number_gives_the_same_bits(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// The outputs beside radiance are those of the pixels' centres.
+/// The outputs besides radiance are those of the pixels' centres.
 static void outputs_are_those_of_the_centre(void **state) {
     lobe_scene *scene = board_scene(5, 0.2);
     picture_request request = reference_request(8, 8, 12);

@@ -15,7 +15,7 @@ static void one_sample_is_the_centre(void **state) {
     assert_true(position[0] == 0.5f && position[1] == 0.5f);
 }
 
-/// Every column of 1/count and every row of 1/(power of two) has its sample, all are inside, and
+/// Every column of 1/count and every row of 1/(power of two) has one sample, all are inside, and
 /// for powers of two the mean is the centre.
 static void any_count_is_stratified(void **state) {
     (void)state;
@@ -65,7 +65,7 @@ static void samples_are_even_in_both_directions(void **state) {
     }
 }
 
-/// Moved as a whole, within the pixel, and no two patterns by nearly as much.
+/// Patterns are shifted as a whole, within the pixel, and no two by nearly the same amount.
 static void patterns_are_moved_apart(void **state) {
     (void)state;
     enum { COUNT = 16, PATTERNS = 20 };

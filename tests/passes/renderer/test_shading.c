@@ -1,5 +1,5 @@
 // The shading pass against double precision: the base material under every kind of light, mixtures
-// of lobes by Algorithm 1, and where in the pyramid of maps a pixel looks.
+// of lobes by Algorithm 1, and which MIP level a pixel reads.
 
 #include "tests/passes/support/fixture.h"
 
@@ -23,11 +23,11 @@ static void to_tangent(const double world[3], double tangent[3]) {
     reference_normalise(tangent);
 }
 
-/// What a scene's lights make of a point whose reflectance is given by `shade`.
+/// Radiance of a point under a scene's lights, with the reflectance given by `shade`.
 typedef void (*shade_function)(const void *user, const double outgoing[3], const double incoming[3],
                                double radiance[3]);
 
-/// Irradiance perpendicular to the way to the light, and the way there.
+/// Irradiance perpendicular to the light's direction, and that direction.
 static double irradiance_of(const lobe_light *light, const double position[3], double towards[3]) {
     double direction[3], distance = 1;
     for (int i = 0; i < 3; i++) {
@@ -127,8 +127,8 @@ static lobe_material material_of(lobe_material_model model, lobe_distribution di
     return material;
 }
 
-/// Pixel centres on the centres of texels: their normals are used as they are. Directions under
-/// the texel's own horizon are among them.
+/// Pixel centres coincide with texel centres, so normals are used unchanged. Some directions are
+/// below the texel's own horizon.
 static void check_base_material(fixture *f, lobe_material material, const char *what) {
     lobe_scene *scene = scene_begin();
     material.normal_map = scene_add_map(scene, random_normal_map(4, 4, 0.9, 31));
@@ -372,7 +372,7 @@ static void microfacets_keep_their_shape(void **state) {
     }
 }
 
-/// Without a mean layer (all lobes alike, along their normals) the same comes out.
+/// Without a mean layer (all lobes alike, along their normals) the result is the same.
 static void one_lobe_along_the_normal_needs_no_mean(void **state) {
     const char *const settings[5] = {"threshold=dispersion", "epsilon0=0.5", NULL};
     refinement_knobs knobs = {2, true, 0.5, 0.85, 0.02};
@@ -386,7 +386,7 @@ static void one_lobe_along_the_normal_needs_no_mean(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Averaged parameters
 
-/// The material of one lobe that the naive filter takes averaged parameters for.
+/// The one-lobe material that the naive filter's averaged parameters describe.
 static lobe_material averaged_material(const lobe_material *material, double width) {
     lobe_material result = *material;
     // alpha is the square of roughness; s = kappa - 1 = 2 / alpha^2 - 2, otherwise kappa = 2 /

@@ -1,5 +1,6 @@
-// Where mixtures are built must not show on a flat surface: one lobe in tangent, object and camera
-// space gives one picture, wherever the surface is put and from whichever side it is seen.
+// The space in which mixtures are built must not show on a flat surface: one lobe gives the same
+// picture in tangent, object and camera space, wherever the surface is and from whichever side it
+// is seen.
 
 #include "tests/passes/support/fixture.h"
 
@@ -89,8 +90,8 @@ static void microfacets_look_alike(void **state) {
         check_placement(*state, &placements[i], true);
 }
 
-/// A square whose coordinates leave most of its atlas empty, seen at levels whose texels are empty
-/// in part: what is there stands for all.
+/// A square whose coordinates leave most of its atlas empty, seen at levels whose texels are partly
+/// empty: the covered part represents the texel.
 static void the_edge_of_an_atlas_is_no_darker(void **state) {
     static const char *const spaces[] = {"space=tangent", "space=object", "space=camera"};
     for (int microfacet = 0; microfacet < 2; microfacet++) {

@@ -1,5 +1,5 @@
-// Renderers of several threads on one device, which share its memory, queue, shaders and pipelines:
-// their pictures are those that one thread alone draws, and no pipeline is made twice.
+// Renderers in several threads on one device share its memory, queue, shaders and pipelines: their
+// pictures equal those of a single thread, and no pipeline is created twice.
 
 #include "tests/passes/support/fixture.h"
 
@@ -33,8 +33,8 @@ static lobe_scene *scene_of(int number) {
     return scene;
 }
 
-/// Frames of a renderer of its own, each of the scene uploaded anew. Assertions belong to the
-/// thread that runs the test.
+/// Draws frames with its own renderer, uploading the scene for each. Only the thread that runs the
+/// test may assert.
 static void *work(void *user) {
     static const char *const filters[THREADS] = {"lobes", "toksvig", "lobes", "toksvig"};
     worker *self = user;
@@ -61,7 +61,7 @@ static void *work(void *user) {
     return NULL;
 }
 
-/// How many pipelines they make.
+/// The number of pipelines they create.
 static int work_at_once(fixture *f, worker workers[THREADS]) {
     pthread_t threads[THREADS];
     faults.pipelines = 0;
@@ -77,7 +77,7 @@ static int work_at_once(fixture *f, worker workers[THREADS]) {
 static void threads_draw_what_one_alone_draws(void **state) {
     fixture *f = *state;
     worker workers[THREADS];
-    faults.paused = true; // nothing is to fail
+    faults.paused = true; // nothing should fail
     const int made = work_at_once(f, workers);
     lobe_device *other = fixture_device(f, (lobe_device_parameters){0});
     faults.pipelines = 0;
@@ -93,7 +93,7 @@ static void threads_draw_what_one_alone_draws(void **state) {
     lobe_device_destroy(&other);
     assert_int_equal(f->errors, 0);
     assert_int_equal(lobe_device_validation_count(f->device), 0);
-    // All of them gave back what they took.
+    // All of them returned their memory.
     lobe_device_memory memory;
     lobe_device_memory_query(f->device, &memory);
     assert_int_equal(memory.used_bytes, 0);

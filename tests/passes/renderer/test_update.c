@@ -1,5 +1,5 @@
-// A scene that changes between frames: pictures are those of a scene that was always so, and maps
-// are built again only where they depend on what changed.
+// A scene that changes between frames: pictures equal those of a scene that was always like that,
+// and only maps that depend on the change are rebuilt.
 
 #include "tests/passes/support/fixture.h"
 
@@ -40,8 +40,8 @@ static lobe_frame draw_with(fixture *f, const char *filter) {
     return draw(f, &request);
 }
 
-/// Takes over changes, draws, and asserts that a renderer which gets the scene only now draws the
-/// same. Gives how many passes ran, shading included.
+/// Takes over changes, draws, and asserts that a new renderer draws the same. Returns how many
+/// passes ran, including shading.
 static size_t check_change(fixture *f, const char *filter, const lobe_scene *scene,
                            const lobe_scene_changes *changes) {
     if (lobe_renderer_update_scene(f->renderer, changes) != LOBE_OK)
@@ -60,7 +60,7 @@ static size_t check_change(fixture *f, const char *filter, const lobe_scene *sce
     return ran;
 }
 
-/// A frame of the scene as it is: the maps are built.
+/// Draws the unchanged scene, which builds the maps.
 static lobe_scene *start(fixture *f, const char *filter, uint64_t *picture) {
     lobe_scene *scene = changing_scene();
     fixture_forget_messages(f);
@@ -97,7 +97,7 @@ static void what_moves_or_shines_rebuilds_nothing(void **state) {
     assert_int_equal(check_change(f, "lobes", scene, &(lobe_scene_changes){0}), 1);
     uint64_t lit = picture_now(f, "lobes");
     assert_true(lit != before);
-    // Turned and moved away; then flattened, as no rotation does.
+    // Rotated and moved away; then flattened, which no rotation does.
     float *transform = scene->instances[1].transform;
     transform[12] += 0.25f;
     transform[0] = transform[10] = 0.3f;
@@ -255,7 +255,7 @@ static void mistakes_change_nothing(void **state) {
         lobe_renderer_update_scene(
             f->renderer, &(lobe_scene_changes){.materials = &absent, .material_count = 1}),
         LOBE_ERROR_INVALID_ARGUMENT, "material 99");
-    // Both are said to have changed; the second is wrong.
+    // Both are listed as changed; the second is invalid.
     scene->materials[0].lobes[0].width = 90;
     scene->materials[0].lobe_count = 77;
     fixture_forget_messages(f);

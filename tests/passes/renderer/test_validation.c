@@ -1,5 +1,5 @@
-// The validation layer, synchronisation validation included, has nothing to say about any scene,
-// filter and output, nor about rebuilding, resizing and changing what is drawn on the way.
+// The validation layer, with synchronisation validation, is silent for every scene, filter and
+// output, and for rebuilding, resizing and changing the scene in between.
 
 #include "tests/passes/support/fixture.h"
 
@@ -83,7 +83,7 @@ static void knobs_are_valid(void **state) {
                                    .outputs = i % 2};
         draw_silently(f, "mixed", &request);
         draw_silently(f, "mixed", &request);
-        // What was retained is used, then made again in place.
+        // Retained maps are used, then rebuilt in place.
         scene_look_from(scene, (double[]){0.1 * (double)i, 1, 0.5}, 3);
         draw_silently(f, "mixed", &request);
     }

@@ -1,20 +1,20 @@
-#ifndef INTERFACE_ENVIRONMENT_CHECK_H
-#define INTERFACE_ENVIRONMENT_CHECK_H
+#ifndef ENVIRONMENT_CHECK_H
+#define ENVIRONMENT_CHECK_H
 
-#include "types.h"
+#include "../../../shaders/interface/types.h"
 
-// How light is looked up: the specialisation constant CHECK_METHOD of environment_check.comp.
+// How light is looked up: the specialisation constant CHECK_METHOD of check.comp.
 #define CHECK_METHOD       0
 #define METHOD_PREFILTERED 0
 #define METHOD_MIP         1
 #define METHOD_SAMPLED     2
 #define METHOD_BLENDED     3
 
-// Invocations of a group of environment_check_exact.comp, and lobes that it sums up together.
+// Workgroup size of check_exact.comp, and the number of lobes that it sums up together.
 #define CHECK_GROUP_SIZE 64
 #define CHECK_LOBES      7
 
-// Push constants of environment_check.comp.
+// Push constants of check.comp.
 struct environment_check_constants {
     float concentration; // of the lobe about each direction
     uint count;          // directions
@@ -23,7 +23,7 @@ struct environment_check_constants {
 };
 INTERFACE_SIZE(environment_check_constants, 16)
 
-// Push constants of environment_check_exact.comp.
+// Push constants of check_exact.comp.
 struct environment_check_exact_constants {
     float concentrations[CHECK_LOBES];
     uint count;       // directions

@@ -4,7 +4,7 @@
 // What von Mises-Fisher lobes about many directions see of an environment, by one of the methods
 // that are fast enough for pictures.
 
-#include "interface/environment_check.h"
+#include "check.h"
 #include "lib/number/constants.glsl"
 #include "lib/light/environment_level.glsl"
 #include "lib/lobe/von_mises_fisher.glsl"

@@ -1,9 +1,8 @@
-#include <lobe/environment_maps.h>
+#include "passes/environment/standalone_maps.h"
 
 #include <string.h>
 
-#include "passes/environment/kept/store.h"
-#include "passes/environment/maps.h"
+#include "passes/environment/cache/cached_cubes.h"
 #include "passes/renderer/pass_times.h"
 
 struct lobe_environment_maps {
@@ -19,11 +18,11 @@ struct lobe_environment_maps {
     lobe_frame times;
     lobe_environment_maps_information information;
     char *cache; ///< NULL: none
-    environment_store store;
+    cached_cubes store;
 };
 
 // ---------------------------------------------------------------------------------------------
-// Making them
+// Building
 
 static lobe_result out_of_memory(const lobe_host *host) {
     return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "environment maps: out of memory");
@@ -35,11 +34,11 @@ static lobe_result take_times(lobe_environment_maps *maps) {
     return out_of_memory(&maps->host);
 }
 
-static void inform(lobe_environment_maps *maps, const environment_maps *made) {
+static void update_information(lobe_environment_maps *maps, const environment_maps *made) {
     maps->information = (lobe_environment_maps_information){
         .milliseconds = maps->times.milliseconds,
         .submissions = maps->times.submissions,
-        .cached = maps->request.stored != NULL,
+        .cached = maps->request.cached != NULL,
         .passes = maps->times.passes,
         .pass_count = maps->times.pass_count,
     };
@@ -47,34 +46,34 @@ static void inform(lobe_environment_maps *maps, const environment_maps *made) {
     memcpy(maps->information.levels, made->levels, sizeof made->levels);
 }
 
-/// What is not finished yet is kept as it is.
-static void want(lobe_graph *graph, const environment_maps *made) {
-    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+/// Unfinished cubes are retained as they are.
+static void mark_outputs(lobe_graph *graph, const environment_maps *made) {
+    for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (made->cubes[map].version != 0)
             lobe_graph_output(graph, made->cubes[map]);
     }
 }
 
-lobe_graph *passes_environment_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
+lobe_graph *passes_standalone_maps_begin(lobe_environment_maps *maps, environment_maps *cubes) {
     lobe_graph_begin(maps->graph);
     *cubes = passes_environment_maps_declare(maps->graph, &maps->request, &maps->progress);
     return maps->graph;
 }
 
-/// Submits frame after frame until all is made, or the caller has enough: `*stopped`.
-static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
+/// Submits frames until all maps are complete, or the caller stops: `*stopped`.
+static lobe_result build(lobe_environment_maps *maps, bool *stopped) {
     *stopped = false;
     lobe_frame_free(&maps->times);
     maps->information = (lobe_environment_maps_information){0};
     for (environment_maps made = {0}; !made.up_to_date && !*stopped;) {
-        passes_environment_maps_begin(maps, &made);
-        want(maps->graph, &made);
+        passes_standalone_maps_begin(maps, &made);
+        mark_outputs(maps->graph, &made);
         lobe_result result = lobe_graph_execute(maps->graph);
         if (result == LOBE_OK)
             result = take_times(maps);
         if (result != LOBE_OK)
             return result;
-        inform(maps, &made);
+        update_information(maps, &made);
         double part = made.part_count > 0 ? (double)made.parts_done / made.part_count : 1;
         *stopped = maps->report && !maps->report(maps->user, part);
     }
@@ -82,46 +81,45 @@ static lobe_result make(lobe_environment_maps *maps, bool *stopped) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Keeping them
+// Cache
 
-static lobe_result look_into_cache(lobe_environment_maps *maps,
+static lobe_result load_from_cache(lobe_environment_maps *maps,
                                    const lobe_environment *environment) {
     environment_maps_request request = maps->request;
     request.environment = environment;
-    passes_environment_store_forget(&maps->store);
+    passes_cached_cubes_forget(&maps->store);
     lobe_result result = LOBE_OK;
     if (maps->cache)
-        result = passes_environment_store_load(&maps->store, maps->device, maps->cache, &request,
-                                               &maps->host);
-    maps->request.stored = passes_environment_store_cubes(&maps->store, &maps->request);
+        result = passes_cached_cubes_load(&maps->store, maps->device, maps->cache, &request,
+                                          &maps->host);
+    maps->request.cached = passes_cached_cubes_find(&maps->store, &maps->request);
     return result;
 }
 
-/// One cube after the other: the host need not hold all at once.
-static lobe_result keep_in_cache(lobe_environment_maps *maps) {
+/// One cube per frame, so that host memory holds only one at a time.
+static lobe_result save_to_cache(lobe_environment_maps *maps) {
     lobe_result result = LOBE_OK;
-    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; ++map) {
+    for (uint32_t map = 0; result == LOBE_OK && map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         environment_maps cubes;
-        lobe_graph *graph = passes_environment_maps_begin(maps, &cubes);
-        if (!passes_environment_store_lacks(&maps->store, &cubes, map))
+        lobe_graph *graph = passes_standalone_maps_begin(maps, &cubes);
+        if (!passes_cached_cubes_lack(&maps->store, &cubes, map))
             continue;
         lobe_graph_read_back(graph, cubes.cubes[map], (lobe_range){0});
         result = lobe_graph_execute(graph);
         if (result == LOBE_OK)
-            passes_environment_store_save(&maps->store, maps->cache, graph, &cubes, map,
-                                          &maps->host);
+            passes_cached_cubes_save(&maps->store, maps->cache, graph, &cubes, map, &maps->host);
     }
     return result;
 }
 
-/// Makes the maps, with what the cache can spare.
+/// Builds the maps, or loads them from the cache.
 static lobe_result prepare(lobe_environment_maps *maps, const lobe_environment *environment,
                            bool *stopped) {
-    lobe_result result = look_into_cache(maps, environment);
+    lobe_result result = load_from_cache(maps, environment);
     if (result == LOBE_OK)
-        result = make(maps, stopped);
-    bool lacking = maps->cache && !maps->request.stored;
-    return result == LOBE_OK && lacking && !*stopped ? keep_in_cache(maps) : result;
+        result = build(maps, stopped);
+    bool missing = maps->cache && !maps->request.cached;
+    return result == LOBE_OK && missing && !*stopped ? save_to_cache(maps) : result;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -131,10 +129,9 @@ static lobe_result check(const lobe_environment_maps *maps, const lobe_environme
     double position[2];
     uint32_t size = maps->request.size;
     if (size < 16 || size > 2048 || (size & (size - 1)) != 0)
-        return lobe_host_fail(
-            &maps->host, LOBE_ERROR_INVALID_ARGUMENT,
-            "%s: a cube of %u texels a face; a power of two in [16, 2048] is right",
-            environment->name, size);
+        return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: a cube face of %u texels; expected a power of two in [16, 2048]",
+                              environment->name, size);
     if (environment->image.format != LOBE_FORMAT_RGBA32_FLOAT ||
         !lobe_environment_position(environment, (double[3]){1, 0, 0}, position))
         return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
@@ -203,7 +200,7 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
     if (!maps || !*maps)
         return;
     lobe_graph_destroy(&(*maps)->graph);
-    passes_environment_store_forget(&(*maps)->store);
+    passes_cached_cubes_forget(&(*maps)->store);
     lobe_release((*maps)->cache);
     lobe_texture_destroy(&(*maps)->texture);
     lobe_frame_free(&(*maps)->times);
@@ -218,7 +215,7 @@ lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
                         environment->image.width != maps->shape.image.width ||
                         environment->image.height != maps->shape.image.height))
         return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "%s: not of the layout and extent of the environment before",
+                              "%s: its layout or extent differs from the current environment",
                               environment->name);
     if (environment)
         result = lobe_texture_update(maps->texture, &environment->image);
@@ -227,11 +224,11 @@ lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
     bool stopped;
     lobe_graph_invalidate(maps->graph);
     maps->progress.done = 0;
-    return environment ? prepare(maps, environment, &stopped) : make(maps, &stopped);
+    return environment ? prepare(maps, environment, &stopped) : build(maps, &stopped);
 }
 
 // ---------------------------------------------------------------------------------------------
-// Looking at them
+// Access
 
 const lobe_environment_maps_information *
 lobe_environment_maps_describe(const lobe_environment_maps *maps) {
@@ -244,10 +241,10 @@ lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environ
     if ((unsigned)map >= LOBE_ENVIRONMENT_MAP_COUNT || level >= maps->information.levels[map] ||
         face >= 6)
         return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "environment maps: there is no level %u, face %u of cube %d", level,
+                              "environment maps: there is no level %u, face %u of map %d", level,
                               face, (int)map);
     environment_maps made;
-    passes_environment_maps_begin(maps, &made);
+    passes_standalone_maps_begin(maps, &made);
     lobe_graph_read_back(maps->graph, made.cubes[map], (lobe_range){level, 1, face, 1});
     lobe_result result = lobe_graph_execute(maps->graph);
     uint32_t width = maps->information.width[map] >> level;

@@ -1,19 +1,19 @@
-#include "passes/environment/kept/cache.h"
+#include "passes/environment/cache/cube_file.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-/// To be raised whenever equal environments come to be filtered otherwise: what was kept before is
-/// then not found any more.
+/// Increment it whenever the same environment is filtered differently: old files are then no longer
+/// found.
 #define CACHE_VERSION 1
 
 static const char key_attribute[] = "environmentHash";
 static const char checksum_attribute[] = "texelChecksum";
 
 // ---------------------------------------------------------------------------------------------
-// Numbers for content
+// Hashes
 
 /// Finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
 /// generators", Fig. 5): every input bit moves every output bit.
@@ -25,7 +25,7 @@ static uint64_t mix(uint64_t hash, uint64_t value) {
 }
 
 static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
-    for (size_t texel = 0; texel < count; ++texel) {
+    for (size_t texel = 0; texel < count; texel++) {
         uint64_t words[2];
         memcpy(words, texels + 4 * texel, sizeof words);
         hash = mix(mix(hash, words[0]), words[1]);
@@ -33,8 +33,8 @@ static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
     return hash;
 }
 
-uint64_t passes_environment_cache_key(const lobe_environment *environment, uint32_t size,
-                                      lobe_environment_map map) {
+uint64_t passes_cube_file_key(const lobe_environment *environment, uint32_t size,
+                              lobe_environment_map map) {
     const lobe_image *image = &environment->image;
     uint64_t hash = mix(CACHE_VERSION, size);
     hash = mix(hash, (uint64_t)map);
@@ -60,7 +60,7 @@ static number_as_text hexadecimal(uint64_t number) {
 // ---------------------------------------------------------------------------------------------
 // Files
 
-/// To lobe_release by the caller; NULL without memory.
+/// The caller frees it with lobe_release. NULL: out of memory.
 static char *path_of(const lobe_allocator *allocator, const char *folder, uint64_t key) {
     size_t size = strlen(folder) + 32;
     char *path = lobe_allocate(allocator, size, 1);
@@ -69,40 +69,42 @@ static char *path_of(const lobe_allocator *allocator, const char *folder, uint64
     return path;
 }
 
-static bool says(const lobe_exr_contents *contents, const char *name, uint64_t number) {
+static bool has_number(const lobe_exr_contents *contents, const char *name, uint64_t number) {
     const lobe_exr_attribute *attribute = lobe_exr_find_attribute(contents, name, LOBE_EXR_TEXT);
     return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
 }
 
-static bool load(const char *path, uint64_t key, uint32_t width, const lobe_host *host,
-                 cube_image *cube) {
+static bool load_file(const char *path, uint64_t key, uint32_t width, const lobe_host *host,
+                      cube_image *cube) {
     const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     lobe_exr_contents contents;
     if (lobe_exr_read_contents(path, NULL, &silent, &contents) != LOBE_OK)
         return false;
-    bool whole = says(&contents, key_attribute, key) &&
+    bool whole = has_number(&contents, key_attribute, key) &&
                  passes_cube_image_from(path, &contents, &silent, cube) == LOBE_OK;
-    whole = whole && cube->width == width && says(&contents, checksum_attribute, checksum_of(cube));
+    whole = whole && cube->width == width &&
+            has_number(&contents, checksum_attribute, checksum_of(cube));
     if (!whole)
         passes_cube_image_free(cube);
     lobe_exr_contents_free(&contents);
     return whole;
 }
 
-bool passes_environment_cache_load(const char *folder, uint64_t key, uint32_t width,
-                                   const lobe_host *host, cube_image *cube) {
+bool passes_cube_file_load(const char *folder, uint64_t key, uint32_t width, const lobe_host *host,
+                           cube_image *cube) {
     *cube = (cube_image){0};
     char *path = path_of(lobe_host_allocator(host), folder, key);
     bool there = path && access(path, F_OK) == 0;
-    bool loaded = there && load(path, key, width, host, cube);
+    bool loaded = there && load_file(path, key, width, host, cube);
     if (there && !loaded)
-        lobe_host_log(host, LOBE_LOG_NOTICE, "%s: damaged or foreign: it is made again", path);
+        lobe_host_log(host, LOBE_LOG_NOTICE,
+                      "%s: not a cached environment, or damaged: it will be replaced", path);
     lobe_release(path);
     return loaded;
 }
 
-static lobe_result store(const char *path, uint64_t key, const cube_image *cube,
-                         const lobe_host *host) {
+static lobe_result save_file(const char *path, uint64_t key, const cube_image *cube,
+                             const lobe_host *host) {
     const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
@@ -112,12 +114,11 @@ static lobe_result store(const char *path, uint64_t key, const cube_image *cube,
     return passes_cube_image_write(path, cube, attributes, 2, &silent);
 }
 
-void passes_environment_cache_store(const char *folder, uint64_t key, const cube_image *cube,
-                                    const lobe_host *host) {
+void passes_cube_file_save(const char *folder, uint64_t key, const cube_image *cube,
+                           const lobe_host *host) {
     char *path = path_of(lobe_host_allocator(host), folder, key);
-    if (!path || store(path, key, cube, host) != LOBE_OK)
+    if (!path || save_file(path, key, cube, host) != LOBE_OK)
         lobe_host_log(host, LOBE_LOG_WARNING,
-                      "%s: the filtered environment cannot be kept there for the next time",
-                      folder);
+                      "%s: cannot save the filtered environment in this folder", folder);
     lobe_release(path);
 }

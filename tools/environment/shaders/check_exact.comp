@@ -5,7 +5,7 @@
 //   radiance * solid angle * exp(-kappa/2 |direction - texel|^2)
 // over some texels of the cube, for several kappa at once. Each group loads texels together.
 
-#include "interface/environment_check.h"
+#include "check.h"
 #include "lib/number/angle.glsl"
 #include "lib/light/cube_texel.glsl"
 

@@ -1,12 +1,12 @@
-#include "passes/environment/cube_image.h"
+#include "passes/environment/cache/cube_image.h"
 
 #include <stdbool.h>
 #include <string.h>
 
 #define FACES 6
 
-/// Levels that any image of 65535 texels at most has.
-#define MOST_LEVELS 16
+/// Enough for any image of at most 65535 texels per side.
+#define MAXIMUM_LEVELS 16
 
 // ---------------------------------------------------------------------------------------------
 // The cube in memory
@@ -18,14 +18,14 @@ static size_t face_texels(const cube_image *cube, uint32_t level) {
 
 size_t passes_cube_image_texels(const cube_image *cube) {
     size_t count = 0;
-    for (uint32_t level = 0; level < cube->levels; ++level)
+    for (uint32_t level = 0; level < cube->levels; level++)
         count += FACES * face_texels(cube, level);
     return count;
 }
 
 float *passes_cube_image_face(const cube_image *cube, uint32_t level, uint32_t face) {
     size_t first = face * face_texels(cube, level);
-    for (uint32_t finer = 0; finer < level; ++finer)
+    for (uint32_t finer = 0; finer < level; finer++)
         first += FACES * face_texels(cube, finer);
     return cube->texels + 4 * first;
 }
@@ -39,8 +39,8 @@ lobe_result passes_cube_image_allocate(cube_image *cube, uint32_t width, const l
     if (cube->texels)
         return LOBE_OK;
     *cube = (cube_image){0};
-    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "environment: no memory for a cube of %u",
-                          width);
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                          "environment: out of memory for a cube of %u texels per face", width);
 }
 
 void passes_cube_image_free(cube_image *cube) {
@@ -51,18 +51,18 @@ void passes_cube_image_free(cube_image *cube) {
 // ---------------------------------------------------------------------------------------------
 // Orientation
 
-/// As seen from inside, Vulkan's faces are mirrored and OpenEXR's are not: the sides are turned
-/// left to right, top and bottom upside down. Both ways the same texel.
-static size_t turned(uint32_t face, uint32_t width, uint32_t x, uint32_t y) {
+/// Seen from inside, Vulkan's faces are mirrored and OpenEXR's are not: sides are flipped left to
+/// right, top and bottom upside down. The flip is its own inverse.
+static size_t flipped(uint32_t face, uint32_t width, uint32_t x, uint32_t y) {
     bool vertical = face == 2 || face == 3;
     uint32_t column = vertical ? x : width - 1 - x, row = vertical ? width - 1 - y : y;
     return (size_t)row * width + column;
 }
 
-static void turn_face(uint32_t face, uint32_t width, const float *source, float *target) {
-    for (uint32_t y = 0; y < width; ++y) {
-        for (uint32_t x = 0; x < width; ++x, target += 4)
-            memcpy(target, source + 4 * turned(face, width, x, y), 4 * sizeof *target);
+static void flip_face(uint32_t face, uint32_t width, const float *source, float *target) {
+    for (uint32_t y = 0; y < width; y++) {
+        for (uint32_t x = 0; x < width; x++, target += 4)
+            memcpy(target, source + 4 * flipped(face, width, x, y), 4 * sizeof *target);
     }
 }
 
@@ -71,23 +71,23 @@ static void turn_face(uint32_t face, uint32_t width, const float *source, float 
 
 static void fill_column(const cube_image *cube, uint32_t level, lobe_image *image) {
     uint32_t width = cube->width >> level;
-    for (uint32_t face = 0; face < FACES; ++face)
-        turn_face(face, width, passes_cube_image_face(cube, level, face),
+    for (uint32_t face = 0; face < FACES; face++)
+        flip_face(face, width, passes_cube_image_face(cube, level, face),
                   (float *)image->texels + 4 * (size_t)face * width * width);
 }
 
 static void fill_with_mean(const cube_image *cube, lobe_image *image) {
     float *texels = image->texels;
-    for (size_t i = 0; i < (size_t)4 * image->width * image->height; ++i) {
+    for (size_t i = 0; i < (size_t)4 * image->width * image->height; i++) {
         double sum = 0;
-        for (uint32_t face = 0; face < FACES; ++face)
+        for (uint32_t face = 0; face < FACES; face++)
             sum += (double)passes_cube_image_face(cube, cube->levels - 1, face)[i % 4];
         texels[i] = (float)(sum / FACES);
     }
 }
 
 static lobe_result make_levels(const cube_image *cube, const lobe_host *host,
-                               lobe_image images[MOST_LEVELS], uint32_t *count) {
+                               lobe_image images[MAXIMUM_LEVELS], uint32_t *count) {
     uint32_t width = cube->width, height = FACES * cube->width;
     lobe_result result = LOBE_OK;
     while (result == LOBE_OK && height > 0) {
@@ -108,7 +108,7 @@ static lobe_result make_levels(const cube_image *cube, const lobe_host *host,
 lobe_result passes_cube_image_write(const char *path, const cube_image *cube,
                                     const lobe_exr_attribute *attributes, size_t attribute_count,
                                     const lobe_host *host) {
-    lobe_image images[MOST_LEVELS] = {0};
+    lobe_image images[MAXIMUM_LEVELS] = {0};
     uint32_t count = 0;
     lobe_result result = make_levels(cube, host, images, &count);
     const lobe_exr_layer layer = {.image = images, .depth = LOBE_EXR_FLOAT};
@@ -121,7 +121,7 @@ lobe_result passes_cube_image_write(const char *path, const cube_image *cube,
                                                        .level_count = count,
                                                        .environment = LOBE_EXR_CUBE},
                                 host);
-    for (uint32_t level = 0; level < count; ++level)
+    for (uint32_t level = 0; level < count; level++)
         lobe_image_free(&images[level]);
     return result;
 }
@@ -142,11 +142,11 @@ lobe_result passes_cube_image_from(const char *path, const lobe_exr_contents *co
     if (!is_cube(contents))
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: not a cube with levels", path);
     lobe_result result = passes_cube_image_allocate(cube, contents->levels[0].width, host);
-    for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; ++level) {
+    for (uint32_t level = 0; result == LOBE_OK && level < cube->levels; level++) {
         uint32_t width = cube->width >> level;
         const float *column = contents->levels[level].texels;
-        for (uint32_t face = 0; face < FACES; ++face)
-            turn_face(face, width, column + 4 * (size_t)face * width * width,
+        for (uint32_t face = 0; face < FACES; face++)
+            flip_face(face, width, column + 4 * (size_t)face * width * width,
                       passes_cube_image_face(cube, level, face));
     }
     return result;

@@ -1,5 +1,5 @@
-// Filtered cubes that a renderer takes from a folder and adds to it: pictures are the same, bit by
-// bit, and cubes are made only where the folder does not have them.
+// Filtered cubes that a renderer loads from a cache folder and saves to it: pictures are the same,
+// bit for bit, and only cubes that the folder lacks are made.
 
 #include "tests/passes/support/fixture.h"
 
@@ -8,7 +8,7 @@
 
 #include <lobe/vulkan.h>
 
-#include "passes/environment/kept/cache.h"
+#include "passes/environment/cache/cube_file.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/temporary_folder.h"
 #include "tests/passes/support/picture.h"
@@ -35,7 +35,7 @@ static lobe_scene *metal_square(void) {
     return scene;
 }
 
-/// The same environment from another side.
+/// Turns the environment around.
 static void turn(lobe_scene *scene) {
     float *texels = scene->environment->image.texels;
     size_t count = (size_t)4 * scene->environment->image.width * scene->environment->image.height;
@@ -46,7 +46,7 @@ static void turn(lobe_scene *scene) {
     }
 }
 
-/// A renderer with a log of its own.
+/// A renderer with its own log.
 typedef struct drawing {
     log_recorder recorder;
     lobe_renderer *renderer;
@@ -106,7 +106,7 @@ static uint64_t picture(drawing *drawing, const char *folder) {
     return hash;
 }
 
-/// Drawn by a renderer of its own without a folder.
+/// Drawn by a new renderer without a cache.
 static uint64_t plain_picture(fixture *f, const lobe_scene *scene) {
     drawing plain;
     start(f, scene, &plain);
@@ -120,8 +120,8 @@ static size_t kept(void) {
     return temporary_folder_count(&test_folder);
 }
 
-/// Made and kept by the first renderer, found by the second; neither looks a second time.
-static void what_one_renderer_makes_another_finds(void **state) {
+/// Saved by the first renderer, loaded by the second; neither looks a second time.
+static void one_renderer_saves_and_another_loads(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     for (int again = 0; again < 2; again++) {
@@ -133,7 +133,7 @@ static void what_one_renderer_makes_another_finds(void **state) {
         assert_int_equal(kept(), 2);
         assert_true(picture(&drawing, test_folder.path) == expected);
         assert_int_equal(ran(&drawing, NULL), 1);
-        // What was found stays without the folder.
+        // Loaded cubes stay after the folder is gone.
         assert_true(picture(&drawing, NULL) == expected);
         assert_int_equal(ran(&drawing, NULL), 1);
         assert_int_equal(drawing.recorder.notices + drawing.recorder.warnings, 0);
@@ -142,15 +142,15 @@ static void what_one_renderer_makes_another_finds(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Any of the two files.
+/// Either of the two files.
 static const char *a_kept_file(const lobe_scene *scene) {
     char name[32];
-    uint64_t key = passes_environment_cache_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
+    uint64_t key = passes_cube_file_key(scene->environment, 16, LOBE_ENVIRONMENT_GGX);
     snprintf(name, sizeof name, "%016llx.exr", (unsigned long long)key);
     return temporary_folder_file(&test_folder, name);
 }
 
-static void a_damaged_file_is_made_anew(void **state) {
+static void a_damaged_file_is_replaced(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     for (int round = 0; round < 3; round++) {
@@ -169,7 +169,7 @@ static void a_damaged_file_is_made_anew(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Back and forth: each environment is made once, and found when it comes back.
+/// Back and forth: each environment is filtered once, and loaded when it returns.
 static void another_environment_is_looked_up(void **state) {
     lobe_scene *scene = metal_square();
     drawing drawing;
@@ -193,8 +193,8 @@ static void another_environment_is_looked_up(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Kept in the frame in which they are complete, not before; found all at once.
-static void parts_are_kept_when_all_are_there(void **state) {
+/// Saved in the frame that completes them, not before; loaded all at once.
+static void parts_are_saved_when_complete(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     for (int again = 0; again < 2; again++) {
@@ -216,7 +216,7 @@ static void parts_are_kept_when_all_are_there(void **state) {
 }
 
 /// One kind of lobes first, then both.
-static void what_is_wanted_later_is_added(void **state) {
+static void cubes_wanted_later_are_added(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     drawing drawing;
@@ -233,8 +233,8 @@ static void what_is_wanted_later_is_added(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Of a frame that nobody waits for, the next keeps what was made.
-static void submitted_frames_keep_with_the_next(void **state) {
+/// If nobody waits for a frame, the next one saves its cubes.
+static void submitted_frames_are_saved_by_the_next(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     const lobe_vulkan_submission submission = {0};
@@ -253,7 +253,7 @@ static void submitted_frames_keep_with_the_next(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-static void a_folder_that_takes_nothing_is_told_once(void **state) {
+static void an_unwritable_folder_is_warned_of_once(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);
     drawing drawing;
@@ -266,8 +266,8 @@ static void a_folder_that_takes_nothing_is_told_once(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Methods that filter nothing neither look nor keep.
-static void other_methods_leave_the_folder_alone(void **state) {
+/// Methods without filtered cubes neither load nor save.
+static void other_methods_do_not_touch_the_folder(void **state) {
     fixture *f = *state;
     lobe_scene *scene = metal_square();
     const lobe_filter *filter = filter_named("direct");
@@ -291,14 +291,14 @@ static void other_methods_leave_the_folder_alone(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        IN_TEST_FOLDER(what_one_renderer_makes_another_finds),
-        IN_TEST_FOLDER(a_damaged_file_is_made_anew),
+        IN_TEST_FOLDER(one_renderer_saves_and_another_loads),
+        IN_TEST_FOLDER(a_damaged_file_is_replaced),
         IN_TEST_FOLDER(another_environment_is_looked_up),
-        IN_TEST_FOLDER(parts_are_kept_when_all_are_there),
-        IN_TEST_FOLDER(what_is_wanted_later_is_added),
-        IN_TEST_FOLDER(submitted_frames_keep_with_the_next),
-        cmocka_unit_test(a_folder_that_takes_nothing_is_told_once),
-        IN_TEST_FOLDER(other_methods_leave_the_folder_alone),
+        IN_TEST_FOLDER(parts_are_saved_when_complete),
+        IN_TEST_FOLDER(cubes_wanted_later_are_added),
+        IN_TEST_FOLDER(submitted_frames_are_saved_by_the_next),
+        cmocka_unit_test(an_unwritable_folder_is_warned_of_once),
+        IN_TEST_FOLDER(other_methods_do_not_touch_the_folder),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }
