@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: a folder may include only what stands below it, and Vulkan stays inside
-engine/, out of reach of the folders in ROOMS. And who takes memory: in the library, only what gives
-it to all others, from the host's allocator. Prints each line that breaks a rule; fails where there
-is one, and where it would not find the faults of a small tree made for that."""
+"""Checks who includes whom: a folder may include only what is below it; Vulkan stays inside engine/
+and out of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes. Checks
+who allocates: in the library, everything but one file uses the host's allocator. Prints each line
+that breaks a rule and fails if there is one. Also fails if it does not find the faults of a small
+tree that breaks each rule."""
 
 import re
 import sys
@@ -28,9 +29,11 @@ OWNED = {
     re.compile(r"png\.h"): {"engine", "third_party"},
 }
 
-# Folders inside a library that may include less than the library: these folders and public headers,
-# and no header of Vulkan, neither directly nor through a header of ours.
+# Folders that may include less than the rest of their library: only these folders, and no header of
+# Vulkan, neither directly nor through our own headers.
 ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
+# Folders in which no file may include itself through others. A header and its source count as one.
+ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/")
 VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")
 
 # Functions of the C library that give memory, or take it back; and where they may be called.
@@ -79,8 +82,8 @@ def breaks_ownership(folder, name):
 
 
 def way_to_vulkan(root, path, public, seen):
-    """The files through which `path` includes a header of Vulkan, that header last; None: it does
-    not."""
+    """The files through which `path` includes a header of Vulkan, ending with that header; None if
+    it includes none."""
     for quote, name in INCLUDE.findall(path.read_text()):
         if VULKAN.match(name):
             return [name]
@@ -108,6 +111,37 @@ def check_room(root, path, public):
         if way:
             faults.append(f"{relative} includes {' -> '.join(way)}: {room}/ knows no Vulkan")
     return faults
+
+
+def include_graph(root, paths, public):
+    """For each file of the tree, without its suffix, those that it includes."""
+    graph = {}
+    for path in paths:
+        unit = path.relative_to(root).with_suffix("").as_posix()
+        files = [included_file(root, path, quote, name, public)
+                 for quote, name in INCLUDE.findall(path.read_text())]
+        graph.setdefault(unit, set()).update(
+            Path(file).with_suffix("").as_posix() for file in files if file)
+        graph[unit].discard(unit)
+    return graph
+
+
+def way_back(graph, unit):
+    """The files through which `unit` includes itself; None if it does not."""
+    ways, seen = [[unit]], set()
+    for way in ways:  # grows meanwhile
+        for following in sorted(graph.get(way[-1], ())):
+            if following == unit:
+                return way
+            if following not in seen:
+                seen.add(following)
+                ways.append([*way, following])
+    return None
+
+
+def check_cycles(graph):
+    ways = [way_back(graph, unit) for unit in sorted(graph) if unit.startswith(ACYCLIC)]
+    return [f"{way[0]} includes itself: {' -> '.join([*way, way[0]])}" for way in ways if way]
 
 
 def check_memory(relative, text):
@@ -140,10 +174,11 @@ def check_tree(root):
     public = public_folders(root)
     paths = [path for folder in ALLOWED for path in sorted((root / folder).rglob("*"))
              if path.suffix in SUFFIXES]
-    return [fault for path in paths for fault in check_file(root, path, public)], len(paths)
+    faults = [fault for path in paths for fault in check_file(root, path, public)]
+    return faults + check_cycles(include_graph(root, paths, public)), len(paths)
 
 
-# A tree in which each file breaks the rule after it, or (None) breaks none.
+# A tree for the check of the check: files, and the rule that each breaks (None: no rule).
 FAULTY = {
     "engine/include/lobe/graph.h": ("#include <stdint.h>", None),
     "engine/include/lobe/vulkan.h": ("#include <vulkan/vulkan.h>", None),
@@ -156,13 +191,16 @@ FAULTY = {
     "engine/graph/plan/through.c": ('#include "engine/base/hidden.h"', "knows no Vulkan"),
     "engine/graph/plan/outside.c": ('#include "engine/resource/memory.h"', "may not know it"),
     "engine/graph/plan/memory.c": ("void *taken(void) { return malloc(1); }", "calls malloc"),
+    "engine/graph/cycle.c": ('#include "engine/graph/store/tie.h"', "includes itself"),
+    "engine/graph/cycle.h": ("#include <stdint.h>", None),
+    "engine/graph/store/tie.h": ('#include "engine/graph/cycle.h"', "includes itself"),
     "passes/upward.c": ('#include "engine/resource/memory.h"', "may not know engine"),
     "passes/vulkan.c": ("#include <vulkan/vulkan.h>", "not for passes/"),
 }
 
 
 def check_itself():
-    """What goes wrong in a tree that breaks each rule once: faults not found, or found in vain."""
+    """Compares the faults found in FAULTY with those that are there."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder).resolve()
         for name, (text, _) in FAULTY.items():
@@ -171,7 +209,8 @@ def check_itself():
         faults, _ = check_tree(root)
     wrong = []
     for name, (_, rule) in FAULTY.items():
-        found = [fault for fault in faults if fault.startswith(name + " ")]
+        subject = Path(name).with_suffix("").as_posix() if rule == "includes itself" else name
+        found = [fault for fault in faults if fault.startswith(subject + " ")]
         if len(found) != (rule is not None) or (rule and rule not in found[0]):
             wrong.append(f"layering.py itself: {name} should break '{rule}': {found}")
     return wrong

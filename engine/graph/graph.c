@@ -7,7 +7,7 @@
 #include "engine/graph/store/store.h"
 
 // ---------------------------------------------------------------------------------------------
-// Life
+// Creation and destruction
 
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     *graph = NULL;

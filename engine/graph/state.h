@@ -11,7 +11,7 @@ struct lobe_graph {
     engine_graph_kept kept;   ///< kept between frames
 };
 
-// How a frame fails; lobe_graph_fail logs a line of its own.
+// Failures of a frame, besides lobe_graph_fail
 
 /// Marks the frame as failed where the failure was logged already. Returns the frame's first
 /// failure.
