@@ -1,4 +1,4 @@
-#include "passes/filters/filters.h"
+#include "passes/filters/filter.h"
 #include "shaders/interface/specialisation.h"
 
 /// Off where nobody asks: this filter shows what one sample alone gives.

@@ -1,7 +1,19 @@
-#include "passes/filters/filters.h"
+#include "passes/filters/filter.h"
 
-const lobe_filter *const passes_filter_table[] = {
-    &passes_filter_direct,  &passes_filter_mipmap,    &passes_filter_toksvig,
-    &passes_filter_lean,    &passes_filter_leadr,     &passes_filter_lobes,
-    &passes_filter_moments, &passes_filter_reference, NULL,
-};
+// A line for each filter, in the order of `lobe filters`. Its entry is passes_filter_NAME.
+#define FILTERS                                                                                    \
+    FILTER(direct)                                                                                 \
+    FILTER(mipmap)                                                                                 \
+    FILTER(toksvig)                                                                                \
+    FILTER(lean)                                                                                   \
+    FILTER(leadr)                                                                                  \
+    FILTER(lobes)                                                                                  \
+    FILTER(moments)                                                                                \
+    FILTER(reference)
+
+#define FILTER(name) extern const lobe_filter passes_filter_##name;
+FILTERS
+#undef FILTER
+
+#define FILTER(name) &passes_filter_##name,
+const lobe_filter *const passes_filter_table[] = {FILTERS NULL};

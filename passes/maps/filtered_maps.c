@@ -105,7 +105,7 @@ static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     double probes = passes_filter_setting(context, "probes"),
            bias = passes_filter_setting(context, "bias");
     uint32_t bits = 0;
-    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
         if (!material->maps[map].use)
             continue;
         uint32_t width = map == MAP_NORMAL ? grid.width : material->maps[map].width;
@@ -120,7 +120,7 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
                                 filtered_appearance *appearance) {
     const device_material *material = &context->scene->materials[index];
     uint32_t filtered = 0, like_lobes = 0;
-    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
         if (!filtered_names[map])
             continue;
         bool build = needs_filtering(material, map);

@@ -14,7 +14,7 @@ uint32_t passes_level_count(uint32_t width, uint32_t height) {
 uint64_t passes_reduced_map_bytes(const reduced_map *map, lobe_format format) {
     uint64_t texels = 0;
     uint32_t width = map->width, height = map->height;
-    for (uint32_t level = 0; level < map->levels; ++level) {
+    for (uint32_t level = 0; level < map->levels; level++) {
         texels += (uint64_t)width * height;
         width = passes_half_extent(width);
         height = passes_half_extent(height);

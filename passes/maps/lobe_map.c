@@ -5,6 +5,11 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/clustering.h"
+#include "shaders/interface/slope_moments.h"
+
+static_assert(sizeof(struct clustering_constants) == sizeof(struct slope_moments_constants),
+              "one kind of push constants");
 
 void passes_base_maps_read(const filter_context *context, const device_material *material,
                            bool colours, lobe_pass *pass) {
@@ -49,11 +54,11 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
         pass, &(lobe_binding){kind->binding, map.resource, .range = {0, 1, 0, map.layers}});
     specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);
-    const uint32_t extent[] = {grid.width, grid.height};
+    const struct clustering_constants extent = {grid.width, grid.height};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = kind->shader,
                                  .threads = {map.width, map.height, 1},
-                                 .constants = extent,
+                                 .constants = &extent,
                                  .constants_size = sizeof extent,
                                  .specialisation = list.items,
                                  .specialisation_count = list.count,
@@ -72,6 +77,6 @@ void passes_lobe_map_build(const filter_context *context, size_t instance,
         map = passes_lobe_map(context, index, kind);
     passes_lobe_map_bind(context, index, kind->binding, varies ? &map : NULL,
                          passes_filtered_map_format(context), appearance);
-    passes_appearance_specialise(appearance, kind->is_there_id, varies);
+    passes_appearance_specialise(appearance, kind->presence_id, varies);
     passes_filtered_maps_build(context, index, appearance);
 }

@@ -26,7 +26,7 @@ typedef struct lobe_map_kind {
     const char *shader;   ///< of the pass
     const char *binding;  ///< of the map, in that shader and in shading
     uint32_t layers;      ///< of the map
-    uint32_t is_there_id; ///< specialisation constant of shading: whether there is such a map
+    uint32_t presence_id; ///< specialisation constant of shading: whether there is such a map
 } lobe_map_kind;
 
 /// Adds the pass that makes the map, and the reduction. The material has a normal or a width map.

@@ -11,11 +11,11 @@ static float nearest_depth(const filter_context *context, size_t index) {
     vec4 axis;
     passes_camera_axis(context->view.camera, axis);
     float nearest = INFINITY;
-    for (int corner = 0; corner < 8; ++corner) {
+    for (int corner = 0; corner < 8; corner++) {
         float depth = -axis[3];
-        for (int row = 0; row < 3; ++row) {
+        for (int row = 0; row < 3; row++) {
             float position = instance->transform[12 + row];
-            for (int column = 0; column < 3; ++column)
+            for (int column = 0; column < 3; column++)
                 position += instance->transform[4 * column + row] *
                             (corner >> column & 1 ? mesh->maximum : mesh->minimum)[column];
             depth += axis[row] * position;
@@ -43,8 +43,8 @@ static float stretch(const filter_context *context, size_t instance) {
     const float *transform = context->scene->scene->instances[instance].transform;
     float sum = 0;
     int columns = context->scene->instances[instance].keeps_angles ? 1 : 3;
-    for (int column = 0; column < columns; ++column) {
-        for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < columns; column++) {
+        for (int row = 0; row < 3; row++)
             sum += transform[4 * column + row] * transform[4 * column + row];
     }
     return sqrtf(sum);
@@ -57,7 +57,7 @@ bool passes_may_be_magnified(const filter_context *context, uint32_t material, u
     double determinant = (double)use->transform[0][0] * use->transform[1][1] -
                          (double)use->transform[0][1] * use->transform[1][0];
     double texels = sqrt(fabs(determinant) * width * height);
-    for (size_t i = 0; i < scene->scene->instance_count; ++i) {
+    for (size_t i = 0; i < scene->scene->instance_count; i++) {
         if (scene->instances[i].material != material)
             continue;
         float density = scene->densities[scene->instances[i].mesh].least[use->texture_coordinates] /

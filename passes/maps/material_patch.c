@@ -8,7 +8,7 @@
 /// Xu et al. 2017, Eq. 6, as in shaders/lib/lobe/von_mises_fisher.glsl.
 static double evaluate(const material_lobe *lobe, const double direction[3]) {
     double kappa = fmax(lobe->concentration, 1e-20), square = 0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         square += (direction[i] - lobe->axis[i]) * (direction[i] - lobe->axis[i]);
     return lobe->weight * kappa / (-2 * M_PI * expm1(-2 * kappa)) * exp(-0.5 * kappa * square);
 }
@@ -16,7 +16,7 @@ static double evaluate(const material_lobe *lobe, const double direction[3]) {
 double passes_material_lobes_evaluate(const material_lobe *lobes, size_t count,
                                       const double direction[3]) {
     double sum = 0;
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         sum += evaluate(&lobes[i], direction);
     return sum;
 }
@@ -35,8 +35,8 @@ bool passes_material_patch_read(const lobe_scene *scene, const device_material *
     uint32_t left = (uint32_t)(corner[0] * (float)(grid.width - columns));
     uint32_t top = (uint32_t)(corner[1] * (float)(grid.height - rows));
     patch->count = 0;
-    for (uint32_t y = 0; y < rows; ++y) {
-        for (uint32_t x = 0; x < columns; ++x) {
+    for (uint32_t y = 0; y < rows; y++) {
+        for (uint32_t x = 0; x < columns; x++) {
             uint32_t count = passes_material_lobes_read(scene, material, left + x, top + y,
                                                         &patch->lobes[patch->count]);
             if (count == 0)
@@ -44,7 +44,7 @@ bool passes_material_patch_read(const lobe_scene *scene, const device_material *
             patch->count += count;
         }
     }
-    for (size_t i = 0; i < patch->count; ++i)
+    for (size_t i = 0; i < patch->count; i++)
         patch->lobes[i].weight /= (double)columns * rows;
     return true;
 }

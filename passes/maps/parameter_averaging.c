@@ -10,7 +10,7 @@ static const lobe_map_kind averaged_parameters = {
     .shader = "maps/parameter_averaging.comp",
     .binding = "parameter_map",
     .layers = 1,
-    .is_there_id = SPECIALISE_MIXTURE,
+    .presence_id = SPECIALISE_MIXTURE,
 };
 
 reduced_map passes_parameter_averaging(const filter_context *context, uint32_t material) {

@@ -9,7 +9,7 @@ static const lobe_map_kind slope_moments = {
     .shader = "maps/slope_moments.comp",
     .binding = "moment_map",
     .layers = SLOPE_LAYERS,
-    .is_there_id = SPECIALISE_SLOPES,
+    .presence_id = SPECIALISE_SLOPES,
 };
 
 reduced_map passes_slope_moments(const filter_context *context, uint32_t material) {

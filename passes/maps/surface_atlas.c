@@ -36,7 +36,7 @@ surface_atlas passes_surface_atlas_draw(const filter_context *context, size_t in
         {.resource = declare(graph, "position", instance, width, height)},
     };
     lobe_resource written[3];
-    for (uint32_t i = 0; i < 3; ++i)
+    for (uint32_t i = 0; i < 3; i++)
         written[i] = lobe_pass_colour(pass, i, &attachments[i]);
     struct atlas_layout layout = layout_of(&context->scene->materials[drawn->material]);
     lobe_binding vertices = {

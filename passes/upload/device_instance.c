@@ -11,7 +11,7 @@
 static void transformed_coordinates(const lobe_texture_use *use, const lobe_scene_vertex *vertex,
                                     float uv[2]) {
     const float *set = vertex->texture_coordinates[use->texture_coordinates];
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         uv[i] =
             use->transform[i][0] * set[0] + use->transform[i][1] * set[1] + use->transform[i][2];
 }
@@ -25,10 +25,10 @@ static bool is_atlas(const lobe_mesh *mesh, const lobe_texture_use *use) {
     double area = 0;
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         float uv[3][2];
-        for (int corner = 0; corner < 3; ++corner) {
+        for (int corner = 0; corner < 3; corner++) {
             transformed_coordinates(use, &mesh->vertices[mesh->indices[i + (size_t)corner]],
                                     uv[corner]);
-            for (int axis = 0; axis < 2; ++axis) {
+            for (int axis = 0; axis < 2; axis++) {
                 if (uv[corner][axis] < -slack || uv[corner][axis] > 1 + slack)
                     return false;
             }

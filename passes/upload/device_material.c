@@ -11,14 +11,14 @@ static float luminance(const float colour[3]) {
 
 float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
     float sum = 0;
-    for (uint32_t i = 0; i < material->lobe_count; ++i)
+    for (uint32_t i = 0; i < material->lobe_count; i++)
         sum += luminance(material->lobes[i].colour);
     return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
                    : 1.0f / (float)material->lobe_count;
 }
 
 static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
-    for (uint32_t i = 0; i < material->lobe_count; ++i) {
+    for (uint32_t i = 0; i < material->lobe_count; i++) {
         const lobe_base_lobe *lobe = &material->lobes[i];
         memcpy(constants->lobe_direction[i], lobe->direction, sizeof lobe->direction);
         constants->lobe_direction[i][3] = lobe->width;
@@ -40,8 +40,8 @@ static void fill_constants(const device_material *material, struct material_cons
     constants->occlusion_strength = source->occlusion_strength;
     if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         fill_lobes(source, constants);
-    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
-        for (int row = 0; material->maps[map].use && row < 2; ++row)
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
+        for (int row = 0; material->maps[map].use && row < 2; row++)
             memcpy(constants->transforms[2 * map + (uint32_t)row],
                    material->maps[map].use->transform[row],
                    sizeof material->maps[map].use->transform[row]);
@@ -66,8 +66,8 @@ static bool metallic_is_constant(const lobe_image *image, float *metallic) {
     float first[4], texel[4];
     if (!passes_image_texel(image, 0, 0, first))
         return false;
-    for (uint32_t y = 0; y < image->height; ++y) {
-        for (uint32_t x = 0; x < image->width; ++x) {
+    for (uint32_t y = 0; y < image->height; y++) {
+        for (uint32_t x = 0; x < image->width; x++) {
             passes_image_texel(image, x, y, texel);
             if (texel[2] != first[2])
                 return false;
@@ -91,7 +91,7 @@ static void measure_metallic(const lobe_scene *scene, device_material *material)
 
 static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
                              const lobe_host *host) {
-    for (uint32_t map = 0; map < MAP_COUNT; ++map) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
         const lobe_texture_use *use =
             passes_material_map_use(result->scene, material->material, map);
         if (!use)
@@ -112,7 +112,7 @@ static void forget_colours(struct material_constants *constants) {
     memset(constants->base_colour, 0, sizeof constants->base_colour);
     memset(constants->emissive, 0, sizeof constants->emissive);
     constants->metallic = 0;
-    for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; ++i)
+    for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; i++)
         memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
 }
 

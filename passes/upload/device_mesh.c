@@ -18,7 +18,7 @@ ONE_PLACE(colour);
 
 static double triangle_area(const lobe_scene_vertex *corners[3]) {
     double a[3], b[3];
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         a[i] = (double)corners[1]->position[i] - corners[0]->position[i];
         b[i] = (double)corners[2]->position[i] - corners[0]->position[i];
     }
@@ -39,10 +39,10 @@ static mesh_density measure_density(const lobe_mesh *mesh) {
     mesh_density density = {{INFINITY, INFINITY}};
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         const lobe_scene_vertex *corners[3];
-        for (size_t corner = 0; corner < 3; ++corner)
+        for (size_t corner = 0; corner < 3; corner++)
             corners[corner] = &mesh->vertices[mesh->indices[i + corner]];
         double area = triangle_area(corners);
-        for (int set = 0; area > 0 && set < 2; ++set)
+        for (int set = 0; area > 0 && set < 2; set++)
             density.least[set] =
                 fminf(density.least[set], (float)sqrt(coordinates_area(corners, set) / area));
     }

@@ -59,7 +59,7 @@ lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *sc
         status = passes_scene_check_environment(scene, host);
     if (status == LOBE_OK)
         status = passes_device_scene_upload_environment(device, *result);
-    for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; ++i)
+    for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; i++)
         status = passes_device_scene_upload_instance(device, *result, i, host);
     if (status == LOBE_OK)
         return LOBE_OK;
@@ -72,13 +72,13 @@ void passes_device_scene_destroy(device_scene **scene) {
     device_scene *s = scene ? *scene : NULL;
     if (!s)
         return;
-    for (size_t i = 0; s->images && i < s->scene->image_count; ++i)
+    for (size_t i = 0; s->images && i < s->scene->image_count; i++)
         lobe_texture_destroy(&s->images[i]);
-    for (size_t i = 0; s->materials && i < s->scene->material_count; ++i) {
+    for (size_t i = 0; s->materials && i < s->scene->material_count; i++) {
         lobe_buffer_destroy(&s->materials[i].constants);
         lobe_buffer_destroy(&s->materials[i].map_constants);
     }
-    for (size_t i = 0; s->vertices && s->indices && i < s->scene->mesh_count; ++i) {
+    for (size_t i = 0; s->vertices && s->indices && i < s->scene->mesh_count; i++) {
         lobe_buffer_destroy(&s->vertices[i]);
         lobe_buffer_destroy(&s->indices[i]);
     }

@@ -18,7 +18,7 @@ typedef struct scene_update {
 
 static lobe_result check_indices(const scene_update *update, const char *what,
                                  const uint32_t *indices, size_t count, size_t limit) {
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         if (indices[i] >= limit)
             return lobe_host_fail(update->host, LOBE_ERROR_INVALID_ARGUMENT,
                                   "%s: %s %u of %zu cannot have changed",
@@ -47,7 +47,7 @@ static lobe_result check_all_indices(const scene_update *update) {
 static lobe_result check_material(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = passes_scene_check_material(scene, index, update->host);
-    for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; ++map) {
+    for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; map++) {
         const lobe_texture_use *use = passes_material_map_use(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
             result = passes_scene_check_image(scene, (size_t)use->image, update->host);
@@ -73,16 +73,16 @@ static lobe_result check_content(const scene_update *update) {
     const device_scene *scene = update->scene;
     const lobe_scene_changes *changes = update->changes;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
         if (scene->images[changes->images[i]])
             result = passes_scene_check_image(scene->scene, changes->images[i], update->host);
-    for (size_t i = 0; result == LOBE_OK && i < changes->material_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->material_count; i++)
         if (scene->materials[changes->materials[i]].constants)
             result = check_material(update, changes->materials[i]);
-    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
         if (scene->vertices[changes->meshes[i]])
             result = passes_scene_check_mesh(scene->scene, changes->meshes[i], update->host);
-    for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; i++)
         result = check_instance(update, changes->instances[i]);
     if (result == LOBE_OK && changes->environment)
         result = passes_scene_check_environment(scene->scene, update->host);
@@ -93,7 +93,7 @@ static lobe_result check_content(const scene_update *update) {
 // What follows from a change
 
 static bool uses_image(const device_material *material, uint32_t image) {
-    for (uint32_t map = 0; map < MAP_COUNT; ++map)
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (material->maps[map].use && (uint32_t)material->maps[map].use->image == image)
             return true;
     return false;
@@ -105,13 +105,13 @@ static void mark_materials(scene_update *update) {
     // An environment that appears or disappears takes the maps that only it needs (occlusion)
     // along.
     bool other_maps = changes->environment && !scene->environment != !scene->scene->environment;
-    for (size_t m = 0; other_maps && m < scene->scene->material_count; ++m)
+    for (size_t m = 0; other_maps && m < scene->scene->material_count; m++)
         update->materials[m] = scene->materials[m].constants != NULL;
-    for (size_t m = 0; m < scene->scene->material_count; ++m)
-        for (size_t i = 0; i < changes->image_count; ++i)
+    for (size_t m = 0; m < scene->scene->material_count; m++)
+        for (size_t i = 0; i < changes->image_count; i++)
             update->materials[m] |= uses_image(&scene->materials[m], changes->images[i]);
     // A material that no instance uses is not on the device.
-    for (size_t i = 0; i < changes->material_count; ++i)
+    for (size_t i = 0; i < changes->material_count; i++)
         if (scene->materials[changes->materials[i]].constants)
             update->materials[changes->materials[i]] = true;
 }
@@ -119,11 +119,11 @@ static void mark_materials(scene_update *update) {
 static void mark_instances(scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     const lobe_scene *scene = update->scene->scene;
-    for (size_t i = 0; i < changes->instance_count; ++i)
+    for (size_t i = 0; i < changes->instance_count; i++)
         update->instances[changes->instances[i]] = true;
-    for (size_t n = 0; n < scene->instance_count; ++n) {
+    for (size_t n = 0; n < scene->instance_count; n++) {
         update->instances[n] |= update->materials[scene->instances[n].material];
-        for (size_t i = 0; i < changes->mesh_count; ++i)
+        for (size_t i = 0; i < changes->mesh_count; i++)
             update->instances[n] |= scene->instances[n].mesh == changes->meshes[i];
     }
 }
@@ -168,15 +168,15 @@ static lobe_result apply(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
         result = update_image(update, changes->images[i]);
-    for (size_t i = 0; result == LOBE_OK && i < scene->material_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < scene->material_count; i++)
         if (update->materials[i])
             result = passes_device_scene_upload_material(update->device, update->scene, (uint32_t)i,
                                                          update->host);
-    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
         result = update_mesh(update, changes->meshes[i]);
-    for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; i++)
         if (update->instances[i])
             result =
                 passes_device_scene_upload_instance(update->device, update->scene, i, update->host);

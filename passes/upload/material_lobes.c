@@ -24,11 +24,11 @@ static bool texel_normal(const lobe_scene *scene, const device_material *materia
         return false;
     double scale[3] = {material->material->normal_scale, material->material->normal_scale, 1};
     double square = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         normal[i] = (2 * (double)value[i] - 1) * scale[i];
         square += normal[i] * normal[i];
     }
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         normal[i] = square > 0 && isfinite(square) ? normal[i] / sqrt(square) : i == 2;
     return true;
 }
@@ -70,9 +70,9 @@ uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_materi
         (material->maps[MAP_WIDTH].use &&
          !map_texel(scene, &material->maps[MAP_WIDTH], x, y, grid.width, grid.height, widths)))
         return 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         double pole[3] = {0, 0, 1};
-        for (int axis = 0; !microfacet && axis < 3; ++axis)
+        for (int axis = 0; !microfacet && axis < 3; axis++)
             pole[axis] = source->lobes[i].direction[axis];
         passes_material_lobe_rotate(normal, pole, lobes[i].axis);
         lobes[i].concentration = base_concentration(source, i, widths[microfacet ? 1 : 0]);

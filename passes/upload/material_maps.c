@@ -115,7 +115,7 @@ bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float v
         return false;
     const unsigned char *texel = (const unsigned char *)image->texels +
                                  ((size_t)y * image->width + x) * lobe_format_size(image->format);
-    for (uint32_t i = 0; i < 4; ++i)
+    for (uint32_t i = 0; i < 4; i++)
         value[i] = i < lobe_format_channels(image->format) ? channel(image, texel, i)
                                                            : (i == 3 ? 1.0f : 0.0f);
     return true;

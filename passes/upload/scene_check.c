@@ -26,7 +26,7 @@ lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, cons
     size_t count = exponent ? (size_t)image->width * image->height * channels : 0;
     const uint16_t *halves = image->texels;
     const uint32_t *singles = image->texels;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         uint32_t bits = exponent == 0x7c00 ? halves[i] : singles[i];
         if ((bits & exponent) != exponent)
             continue;
@@ -41,7 +41,7 @@ lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, cons
 
 static bool all_finite(const lobe_scene_vertex *vertex) {
     const float *values = (const float *)vertex;
-    for (size_t i = 0; i < sizeof *vertex / sizeof *values; ++i) {
+    for (size_t i = 0; i < sizeof *vertex / sizeof *values; i++) {
         if (!isfinite(values[i]))
             return false;
     }
@@ -55,14 +55,14 @@ lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const
                       mesh->name);
         return LOBE_ERROR_MALFORMED;
     }
-    for (size_t i = 0; i < mesh->index_count; ++i) {
+    for (size_t i = 0; i < mesh->index_count; i++) {
         if (mesh->indices[i] >= mesh->vertex_count) {
             lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
                           scene->name, mesh->name, i, mesh->indices[i], mesh->vertex_count);
             return LOBE_ERROR_MALFORMED;
         }
     }
-    for (size_t i = 0; i < mesh->vertex_count; ++i) {
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
         if (!all_finite(&mesh->vertices[i])) {
             lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': vertex %zu is not finite",
                           scene->name, mesh->name, i);
@@ -99,7 +99,7 @@ lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
         &material->width_map,       &material->specular_map,
         &material->height_map,
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
         lobe_result result = check_texture(scene, material->name, uses[i], host);
         if (result != LOBE_OK)
             return result;
@@ -121,7 +121,7 @@ static const char *fault_of_environment(const lobe_environment *environment) {
         return "is no image of four 32-bit floats";
     if (!(environment->intensity >= 0) || !isfinite(environment->intensity))
         return "has an intensity that is negative or not finite";
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         const float *a = environment->world_from_environment[i];
         const float *b = environment->world_from_environment[(i + 1) % 3];
         float square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
@@ -130,7 +130,7 @@ static const char *fault_of_environment(const lobe_environment *environment) {
             return "has a matrix that is no rotation";
     }
     const float *texels = image->texels;
-    for (size_t i = 0; i < (size_t)image->width * image->height * 4; ++i) {
+    for (size_t i = 0; i < (size_t)image->width * image->height * 4; i++) {
         if (i % 4 != 3 && (!(texels[i] >= 0) || !isfinite(texels[i])))
             return "has a texel that is negative or not finite";
     }

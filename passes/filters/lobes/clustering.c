@@ -38,8 +38,8 @@ static void camera_constants(const filter_context *context, size_t instance, boo
     glm_mat3_mul(world_to_camera, linear, rotation);
     // Of a rotation and a uniform scale: rows of equal length.
     float scale = glm_vec3_norm(linear[0]);
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++)
             constants->rotation[row][column] = scale > 0 ? rotation[column][row] / scale : 0;
     }
     vec4 eye, object_eye;
@@ -52,7 +52,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
 }
 
 static void object_constants(struct atlas_constants *constants) {
-    for (int row = 0; row < 3; ++row)
+    for (int row = 0; row < 3; row++)
         constants->rotation[row][row] = 1;
     constants->eye[3] = -1;
 }

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "passes/filters/filters.h"
+#include "passes/filters/filter.h"
 #include "passes/filters/lobes/clustering.h"
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"
@@ -161,7 +161,7 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     const lobe_material *source = material->material;
     bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
     bool along_normal = true;
-    for (uint32_t i = 0; !microfacet && i < source->lobe_count; ++i)
+    for (uint32_t i = 0; !microfacet && i < source->lobe_count; i++)
         along_normal = along_normal && source->lobes[i].direction[2] > 0.99999f;
     bool one_width = microfacet || !widths_differ(source);
     bool derivable = along_normal && one_width && !material->maps[MAP_WIDTH].use;
@@ -180,8 +180,8 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
         passes_filter_setting(context, "threshold") != 0)
         return 0;
     float mean[3] = {0};
-    for (uint32_t i = 0; i < source->lobe_count; ++i) {
-        for (int axis = 0; axis < 3; ++axis)
+    for (uint32_t i = 0; i < source->lobe_count; i++) {
+        for (int axis = 0; axis < 3; axis++)
             mean[axis] += passes_material_lobe_share(source, i) * source->lobes[i].direction[axis];
     }
     double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
@@ -193,9 +193,9 @@ static bool has_one_hue(const lobe_material *material) {
     if (material->model != LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return true;
     const float *first = material->lobes[0].colour;
-    for (uint32_t i = 1; i < material->lobe_count; ++i) {
+    for (uint32_t i = 1; i < material->lobe_count; i++) {
         const float *colour = material->lobes[i].colour;
-        for (int a = 0; a < 3; ++a) {
+        for (int a = 0; a < 3; a++) {
             int b = (a + 1) % 3;
             if (fabsf(colour[a] * first[b] - colour[b] * first[a]) >
                 1e-4f * fabsf(colour[a] * first[b]) + 1e-6f)

@@ -14,7 +14,7 @@ static const double tolerance = 1.5, negligible = 0.03;
 static double concentration(double length) {
     double r = fmin(length, 1 - 1e-7);
     double kappa = r * (3 - r * r) / (1 - r * r);
-    for (int i = 0; i < 3 && kappa > 1e-3; ++i) {
+    for (int i = 0; i < 3 && kappa > 1e-3; i++) {
         double sinh_kappa = sinh(fmin(kappa, 300));
         kappa -= (passes_mean_resultant_length(kappa) - r) /
                  (1 / (kappa * kappa) - 1 / (sinh_kappa * sinh_kappa));
@@ -35,22 +35,22 @@ static size_t make_mixture(const material_patch *source, uint32_t subdivision,
                            material_lobe mixture[8]) {
     static const uint32_t clusters_a_lobe[] = {8, 2, 1};
     double sums[8][4] = {{0}};
-    for (size_t i = 0; i < source->count; ++i) {
+    for (size_t i = 0; i < source->count; i++) {
         const material_lobe *lobe = &source->lobes[i];
         double *sum = sums[cluster_of(lobe->axis) / clusters_a_lobe[subdivision]];
         double length = passes_mean_resultant_length(lobe->concentration);
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < 3; axis++)
             sum[axis] += lobe->weight * length * lobe->axis[axis];
         sum[3] += lobe->weight;
     }
     size_t count = 0;
-    for (uint32_t i = 0; i < 8; ++i) {
+    for (uint32_t i = 0; i < 8; i++) {
         double *sum = sums[i];
         double length = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
         if (length == 0)
             continue;
         material_lobe *lobe = &mixture[count++];
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < 3; axis++)
             lobe->axis[axis] = sum[axis] / length;
         lobe->concentration = concentration(length / sum[3]);
         lobe->weight = sum[3];
@@ -61,13 +61,13 @@ static size_t make_mixture(const material_patch *source, uint32_t subdivision,
 static void add_errors(const material_patch *source, double errors[3]) {
     material_lobe mixtures[3][8];
     size_t counts[3];
-    for (uint32_t subdivision = 0; subdivision < 3; ++subdivision)
+    for (uint32_t subdivision = 0; subdivision < 3; subdivision++)
         counts[subdivision] = make_mixture(source, subdivision, mixtures[subdivision]);
-    for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; ++i) {
+    for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; i++) {
         double direction[3];
         passes_material_patch_draw(source, i, direction);
         double truth = passes_material_patch_evaluate(source, direction);
-        for (int subdivision = 0; truth > 0 && subdivision < 3; ++subdivision) {
+        for (int subdivision = 0; truth > 0 && subdivision < 3; subdivision++) {
             double value = passes_material_lobes_evaluate(mixtures[subdivision],
                                                           counts[subdivision], direction);
             errors[subdivision] +=
@@ -79,7 +79,7 @@ static void add_errors(const material_patch *source, double errors[3]) {
 uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material) {
     double errors[3] = {0};
     material_patch source;
-    for (uint32_t i = 0; i < MATERIAL_PATCHES; ++i) {
+    for (uint32_t i = 0; i < MATERIAL_PATCHES; i++) {
         if (!passes_material_patch_read(scene, material, i, &source))
             return 2;
         add_errors(&source, errors);

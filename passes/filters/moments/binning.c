@@ -11,7 +11,7 @@ static void read_colours(const filter_context *context, const device_material *m
                          lobe_pass *pass) {
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
     static const char *const names[] = {"base_colour_map", "specular_map"};
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         lobe_pass_read(pass,
                        &(lobe_binding){.name = names[i],
                                        .resource = passes_device_map_import(

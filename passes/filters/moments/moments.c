@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "passes/filters/filters.h"
+#include "passes/filters/filter.h"
 #include "passes/filters/moments/binning.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
@@ -89,7 +89,7 @@ static bool has_bin_colour(const filter_context *context, const device_material 
 static float largest_texel(const lobe_scene *scene, const device_map *map) {
     const lobe_image *image = map->use ? &scene->images[map->use->image].image : NULL;
     float largest = 1, texel[4];
-    for (uint32_t i = 0; image && i < image->width * image->height; ++i) {
+    for (uint32_t i = 0; image && i < image->width * image->height; i++) {
         if (!passes_image_texel(image, i % image->width, i / image->width, texel))
             return largest;
         largest = fmaxf(largest, fmaxf(texel[0], fmaxf(texel[1], texel[2])));
@@ -101,7 +101,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
 static float largest_colour(const lobe_scene *scene, const device_material *material) {
     const lobe_material *source = material->material;
     float base = 1, specular = 1;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         base = fmaxf(base, source->base_colour[i]);
         for (uint32_t k = 0; source->model != LOBE_MATERIAL_MICROFACET && k < source->lobe_count;
              ++k)

@@ -58,14 +58,14 @@ static uint32_t take_samples(const lobe_scene *scene, const device_material *mat
                              sample samples[SAMPLES * LOBE_MATERIAL_MAXIMUM_LOBES]) {
     const lobe_grid grid = passes_lobe_grid(material);
     uint32_t count = 0;
-    for (uint32_t i = 0; i < SAMPLES; ++i) {
+    for (uint32_t i = 0; i < SAMPLES; i++) {
         float position[2];
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
         passes_sample_position(i, SAMPLES, position);
         uint32_t found =
             passes_material_lobes_read(scene, material, (uint32_t)(position[0] * (float)grid.width),
                                        (uint32_t)(position[1] * (float)grid.height), lobes);
-        for (uint32_t k = 0; k < found; ++k) {
+        for (uint32_t k = 0; k < found; k++) {
             sample *taken = &samples[count++];
             plane_from_direction(lobes[k].axis, taken->place);
             taken->variance = variance_of(lobes[k].concentration);
@@ -99,13 +99,13 @@ static double logarithm_of_chance(const component *c, double lobe_points, const 
 /// Fills the members' parts [0, 1]; returns the logarithm of the sum of chances.
 static double share(const mixture *m, const sample *s, double members[MOMENT_MAXIMUM_BINS]) {
     double most = -INFINITY, sum = 0;
-    for (uint32_t i = 0; i < m->count; ++i) {
+    for (uint32_t i = 0; i < m->count; i++) {
         members[i] = logarithm_of_chance(&m->components[i], m->points, s);
         most = fmax(most, members[i]);
     }
-    for (uint32_t i = 0; i < m->count; ++i)
+    for (uint32_t i = 0; i < m->count; i++)
         sum += members[i] = exp(members[i] - most);
-    for (uint32_t i = 0; i < m->count; ++i)
+    for (uint32_t i = 0; i < m->count; i++)
         members[i] /= sum;
     return most + log(sum);
 }
@@ -131,7 +131,7 @@ static void maximise(const component_sums *sums, double total, double lobe_point
     c->weight = fmax(sums->weight / total, 1e-9);
     if (sums->weight < 1e-9 * total)
         return;
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         c->mean[i] = sums->place[i] / weight;
     double variance = sums->variance / weight;
     c->covariance[0] = fmax(sums->moments[0] / weight - c->mean[0] * c->mean[0], 0) + variance;
@@ -144,14 +144,14 @@ static void improve(mixture *m, const sample *samples, uint32_t count) {
     component_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
     double total = 0;
     m->likelihood = 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         double members[MOMENT_MAXIMUM_BINS];
         m->likelihood += samples[i].weight * share(m, &samples[i], members);
         total += samples[i].weight;
-        for (uint32_t k = 0; k < m->count; ++k)
+        for (uint32_t k = 0; k < m->count; k++)
             add(&sums[k], &samples[i], samples[i].weight * members[k]);
     }
-    for (uint32_t k = 0; k < m->count; ++k)
+    for (uint32_t k = 0; k < m->count; k++)
         maximise(&sums[k], total, m->points, &m->components[k]);
 }
 
@@ -173,7 +173,7 @@ static double next_number(uint64_t *state) {
 static const sample *choose_far(sample *samples, uint32_t count, const sample *last, double spread,
                                 uint64_t *state) {
     double sum = 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         samples[i].nearest = fmin(samples[i].nearest, distance(&samples[i], last, spread));
         sum += samples[i].nearest;
     }
@@ -186,9 +186,9 @@ static const sample *choose_far(sample *samples, uint32_t count, const sample *l
 
 static void start(mixture *m, sample *samples, uint32_t count, double spread, uint64_t *state) {
     const sample *s = &samples[(uint32_t)(next_number(state) * count)];
-    for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t i = 0; i < count; i++)
         samples[i].nearest = INFINITY;
-    for (uint32_t k = 0; k < m->count; ++k) {
+    for (uint32_t k = 0; k < m->count; k++) {
         if (k > 0)
             s = choose_far(samples, count, s, spread, state);
         component *c = &m->components[k];
@@ -200,7 +200,7 @@ static void start(mixture *m, sample *samples, uint32_t count, double spread, ui
 
 static double spread_of(const sample *samples, uint32_t count) {
     component_sums sums = {0};
-    for (uint32_t i = 0; i < count; ++i)
+    for (uint32_t i = 0; i < count; i++)
         add(&sums, &samples[i], samples[i].weight);
     double x = sums.place[0] / sums.weight, y = sums.place[1] / sums.weight;
     return fmax((sums.moments[0] + sums.moments[1]) / sums.weight - x * x - y * y, 0) / 2;
@@ -209,10 +209,10 @@ static double spread_of(const sample *samples, uint32_t count) {
 static void fit(sample *samples, uint32_t count, uint32_t bins, double lobe_points, mixture *best) {
     uint64_t state = 2013;
     double spread = spread_of(samples, count);
-    for (int i = 0; i < (bins > 1 ? STARTS : 1); ++i) {
+    for (int i = 0; i < (bins > 1 ? STARTS : 1); i++) {
         mixture trial = {.count = bins, .points = lobe_points};
         start(&trial, samples, count, spread, &state);
-        for (int round = 0; round < (bins > 1 ? ROUNDS : 1); ++round)
+        for (int round = 0; round < (bins > 1 ? ROUNDS : 1); round++)
             improve(&trial, samples, count);
         if (i == 0 || trial.likelihood > best->likelihood)
             *best = trial;
@@ -244,7 +244,7 @@ static double largest_mass(const lobe_material *material, double kappa) {
 static void extend(extremes *range, const material_lobe *lobe) {
     double place[2];
     plane_from_direction(lobe->axis, place);
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         range->low[i] = fmin(range->low[i], place[i]);
         range->high[i] = fmax(range->high[i], place[i]);
     }
@@ -259,7 +259,7 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
     const lobe_grid grid = passes_lobe_grid(material);
     uint32_t columns = grid.width < SCAN ? grid.width : SCAN;
     uint32_t rows = grid.height < SCAN ? grid.height : SCAN;
-    for (uint32_t i = 0; i < columns * rows; ++i) {
+    for (uint32_t i = 0; i < columns * rows; i++) {
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
         uint32_t x = (uint32_t)((uint64_t)(i % columns) * grid.width / columns);
         uint32_t y = (uint32_t)((uint64_t)(i / columns) * grid.height / rows);
@@ -267,7 +267,7 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
         if (count == 0)
             return everything;
         double mass = 0; // of all lobes, which one bin may get
-        for (uint32_t k = 0; k < count; ++k) {
+        for (uint32_t k = 0; k < count; k++) {
             extend(&range, &lobes[k]);
             mass += lobes[k].weight * largest_mass(material->material, lobes[k].concentration);
         }
@@ -280,7 +280,7 @@ static void set_range(const extremes *found, moment_range *range) {
     range->place[2] = 1e-3f; // of maps without any slope: not 0, which would be divided by
     // As much again for what the scan passed over.
     const double margin = 1.05;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         range->place[i] = (float)(0.5 * (found->low[i] + found->high[i]));
         float half = (float)(0.5 * margin * (found->high[i] - found->low[i]));
         range->place[2] = fmaxf(range->place[2], half);
@@ -294,14 +294,14 @@ static void set_range(const extremes *found, moment_range *range) {
 
 static void set_fitted(const mixture *m, moment_partition *partition) {
     partition->bins = m->count;
-    for (uint32_t i = 0; i < m->count; ++i) {
+    for (uint32_t i = 0; i < m->count; i++) {
         const component *c = &m->components[i];
         struct moment_bin *bin = &partition->constants.bins[i];
         bin->centre[0] = (float)c->mean[0];
         bin->centre[1] = (float)c->mean[1];
         bin->centre[2] = (float)c->offset;
         bin->centre[3] = (float)(0.5 * m->points * (c->inverse[0] + c->inverse[1]));
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < 3; k++)
             bin->shape[k] = (float)(0.5 * m->points * c->inverse[k]);
     }
 }
@@ -311,13 +311,13 @@ static void set_fitted(const mixture *m, moment_partition *partition) {
 static void set_hats(const sample *samples, uint32_t count, moment_partition *partition) {
     component_sums sums = {0};
     double least = INFINITY, most = 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < count; i++) {
         add(&sums, &samples[i], samples[i].weight);
         least = fmin(least, samples[i].variance);
         most = fmax(most, samples[i].variance);
     }
     float *hats = partition->constants.hats;
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         hats[i] = (float)(sums.place[i] / fmax(sums.weight, 1e-12));
     double spread = count > 0 ? spread_of(samples, count) : 0;
     hats[2] = (float)(1 / (2 * sqrt(fmax(spread, 1e-8))));
@@ -332,17 +332,17 @@ static void set_hats(const sample *samples, uint32_t count, moment_partition *pa
 static uint32_t collect(const material_patch *patch, const mixture *m,
                         component bins[MOMENT_MAXIMUM_BINS]) {
     component_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
-    for (size_t i = 0; i < patch->count; ++i) {
+    for (size_t i = 0; i < patch->count; i++) {
         const material_lobe *lobe = &patch->lobes[i];
         sample s = {.variance = variance_of(lobe->concentration), .weight = lobe->weight};
         double members[MOMENT_MAXIMUM_BINS];
         plane_from_direction(lobe->axis, s.place);
         share(m, &s, members);
-        for (uint32_t k = 0; k < m->count; ++k)
+        for (uint32_t k = 0; k < m->count; k++)
             add(&sums[k], &s, s.weight * members[k]);
     }
     uint32_t count = 0;
-    for (uint32_t k = 0; k < m->count; ++k) {
+    for (uint32_t k = 0; k < m->count; k++) {
         if (sums[k].weight > 1e-6)
             maximise(&sums[k], 1, 1, &bins[count++]);
     }
@@ -352,7 +352,7 @@ static uint32_t collect(const material_patch *patch, const mixture *m,
 static double evaluate_bins(const component *bins, uint32_t count, const double direction[3]) {
     double place[2], sum = 0;
     plane_from_direction(direction, place);
-    for (uint32_t k = 0; k < count; ++k) {
+    for (uint32_t k = 0; k < count; k++) {
         double x = place[0] - bins[k].mean[0], y = place[1] - bins[k].mean[1];
         double square = bins[k].inverse[0] * x * x + bins[k].inverse[1] * y * y +
                         2 * bins[k].inverse[2] * x * y;
@@ -366,7 +366,7 @@ static double evaluate_bins(const component *bins, uint32_t count, const double 
 static void add_error(const material_patch *patch, const mixture *m, double integrals[2]) {
     component bins[MOMENT_MAXIMUM_BINS];
     uint32_t count = collect(patch, m, bins);
-    for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; ++i) {
+    for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; i++) {
         double direction[3];
         passes_material_patch_draw(patch, i, direction);
         double truth = passes_material_patch_evaluate(patch, direction);
@@ -382,7 +382,7 @@ enum { MOST = 3 };
 /// Relative L2 over all patches.
 static double patch_error(const material_patch *patches, const mixture *m) {
     double integrals[2] = {0};
-    for (uint32_t i = 0; i < MATERIAL_PATCHES; ++i)
+    for (uint32_t i = 0; i < MATERIAL_PATCHES; i++)
         add_error(&patches[i], m, integrals);
     return sqrt(integrals[0] / fmax(integrals[1], 1e-30));
 }
@@ -391,7 +391,7 @@ static double patch_error(const material_patch *patches, const mixture *m) {
 static double fit_best(const material_patch *patches, sample *samples, uint32_t count,
                        uint32_t bins, mixture *best) {
     double least = INFINITY;
-    for (int i = 0; i < (bins > 1 ? POINT_NUMBERS : 1); ++i) {
+    for (int i = 0; i < (bins > 1 ? POINT_NUMBERS : 1); i++) {
         mixture trial;
         fit(samples, count, bins, points[i], &trial);
         double error = patch_error(patches, &trial);
@@ -413,7 +413,7 @@ static void choose(const material_patch *patches, sample *samples, uint32_t coun
     }
     mixture candidates[MOST];
     double errors[MOST], least = INFINITY;
-    for (uint32_t k = 0; k < MOST; ++k) {
+    for (uint32_t k = 0; k < MOST; k++) {
         errors[k] = fit_best(patches, samples, count, k + 1, &candidates[k]);
         least = fmin(least, errors[k]);
     }
@@ -432,7 +432,7 @@ static bool choose_for_material(const lobe_allocator *allocator, const lobe_scen
     if (!patches)
         return false;
     bool readable = count > 0;
-    for (uint32_t i = 0; readable && i < MATERIAL_PATCHES; ++i)
+    for (uint32_t i = 0; readable && i < MATERIAL_PATCHES; i++)
         readable = passes_material_patch_read(scene, material, i, &patches[i]);
     if (readable)
         choose(patches, samples, count, bins, chosen);

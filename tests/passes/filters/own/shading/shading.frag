@@ -1,0 +1,1 @@
+../../../../../shaders/shading/shading.frag
