@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "passes/environment/check.h"
-#include "tools/bench/median.h"
+#include "tools/bench/timing.h"
 
 #define MOST_ROUNDS 16
 /// Updates whose median is taken: each is long.
@@ -49,7 +49,7 @@ static environment_check_request begin(const measurement *m, lobe_graph **graph,
 
 static double time_of(const lobe_graph *graph, const char *name) {
     const lobe_graph_report *report = lobe_graph_describe(graph);
-    for (size_t i = 0; i < report->pass_count; ++i) {
+    for (size_t i = 0; i < report->pass_count; i++) {
         if (strcmp(report->passes[i].name, name) == 0)
             return report->passes[i].milliseconds;
     }
@@ -70,10 +70,10 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
     if (result != LOBE_OK)
         return result;
     const float *data = lobe_graph_data(graph, sums, NULL);
-    for (size_t i = 0; i < (size_t)CHECK_LOBES * m->job->directions; ++i) {
+    for (size_t i = 0; i < (size_t)CHECK_LOBES * m->job->directions; i++) {
         double peak =
             passes_environment_check_peak(m->findings->concentrations[i / m->job->directions]);
-        for (int channel = 0; channel < 3; ++channel)
+        for (int channel = 0; channel < 3; channel++)
             m->exact[3 * i + channel] += peak * (double)data[4 * i + channel];
     }
     return LOBE_OK;
@@ -101,8 +101,8 @@ static lobe_result find_exact_light(measurement *m) {
 static double relative_l2(const measurement *m, uint32_t lobe, const float *lights) {
     const double *exact = m->exact + (size_t)3 * lobe * m->job->directions;
     double difference = 0, total = 0;
-    for (size_t i = 0; i < m->job->directions; ++i) {
-        for (int channel = 0; channel < 3; ++channel) {
+    for (size_t i = 0; i < m->job->directions; i++) {
+        for (int channel = 0; channel < 3; channel++) {
             double expected = exact[3 * i + channel];
             double error = (double)lights[4 * i + channel] - expected;
             difference += error * error;
@@ -140,12 +140,12 @@ static lobe_result measure(measurement *m, uint32_t lobe, const environment_meth
                            const uint32_t *samples, uint32_t count, environment_error *errors) {
     double times[ENVIRONMENT_METHOD_COUNT][MOST_ROUNDS];
     lobe_result result = LOBE_OK;
-    for (uint32_t round = 0; result == LOBE_OK && round < m->job->rounds; ++round) {
-        for (uint32_t i = 0; result == LOBE_OK && i < count; ++i)
+    for (uint32_t round = 0; result == LOBE_OK && round < m->job->rounds; round++) {
+        for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
             result = look_up(m, lobe, methods[i], samples[i], &errors[i], &times[i][round]);
     }
-    for (uint32_t i = 0; result == LOBE_OK && i < count; ++i)
-        errors[i].milliseconds = median(times[i], m->job->rounds);
+    for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
+        errors[i].milliseconds = timing_median(times[i], m->job->rounds);
     return result;
 }
 
@@ -173,7 +173,7 @@ static lobe_result measure_methods(measurement *m) {
     progress_step(m->job->progress, "%s, faces of %u: methods", m->job->environment->name,
                   m->findings->face);
     lobe_result result = LOBE_OK;
-    for (uint32_t lobe = 0; result == LOBE_OK && lobe < CHECK_LOBES; ++lobe) {
+    for (uint32_t lobe = 0; result == LOBE_OK && lobe < CHECK_LOBES; lobe++) {
         result = measure(m, lobe, methods, (uint32_t[4]){0, 0, 0, SAMPLES}, 4,
                          m->findings->errors[lobe]);
         if (result == LOBE_OK)
@@ -187,7 +187,7 @@ static lobe_result measure_methods(measurement *m) {
 // Preparation
 
 static double mip_time(const lobe_environment_maps_information *information) {
-    for (size_t i = 0; i < information->pass_count; ++i) {
+    for (size_t i = 0; i < information->pass_count; i++) {
         if (strcmp(information->passes[i].name, "environment_reduction") == 0)
             return information->passes[i].milliseconds;
     }
@@ -229,7 +229,7 @@ static lobe_result time_updates(measurement *m) {
     progress_step(m->job->progress, "%s, faces of %u: updates", m->job->environment->name,
                   m->findings->face);
     lobe_result result = LOBE_OK;
-    for (uint32_t round = 0; result == LOBE_OK && round < UPDATES; ++round) {
+    for (uint32_t round = 0; result == LOBE_OK && round < UPDATES; round++) {
         result = lobe_environment_maps_update(m->maps, NULL);
         const lobe_environment_maps_information *information =
             lobe_environment_maps_describe(m->maps);
@@ -239,8 +239,8 @@ static lobe_result time_updates(measurement *m) {
     }
     if (result != LOBE_OK)
         return result;
-    m->findings->update_milliseconds = median(updates, UPDATES);
-    m->findings->mip_milliseconds = median(chains, UPDATES);
+    m->findings->update_milliseconds = timing_median(updates, UPDATES);
+    m->findings->mip_milliseconds = timing_median(chains, UPDATES);
     return LOBE_OK;
 }
 
@@ -265,7 +265,7 @@ lobe_result environment_check_run(const environment_check_job *job, uint32_t fac
                                   environment_findings *findings) {
     measurement m = {.job = job, .findings = findings, .repeats = choose_repeats(job->device)};
     *findings = (environment_findings){.face = face};
-    for (int lobe = 0; lobe < CHECK_LOBES; ++lobe)
+    for (int lobe = 0; lobe < CHECK_LOBES; lobe++)
         findings->concentrations[lobe] = job->kappa * pow(4, lobe);
     lobe_result result = allocate(&m);
     if (result == LOBE_OK)

@@ -102,7 +102,7 @@ static lobe_result check(const environment_request *request, environment_state *
     environment_findings findings[CHECKED_FACES];
     size_t count = request->has_face ? 1 : CHECKED_FACES;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < count; i++)
         result =
             check_face(&job, request->has_face ? request->face : checked_faces[i], &findings[i]);
     if (result == LOBE_OK && request->json)

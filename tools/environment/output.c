@@ -26,11 +26,11 @@ void environment_output_print(const environment_output *output) {
     printf("%s: %ux%u texels on faces of %u, filtered with %s lobes\n  level   face      kappa\n",
            output->environment->name, image->width, image->height, output->size,
            kernel_name(output->map));
-    for (uint32_t level = 0; level < information->levels[output->map]; ++level)
+    for (uint32_t level = 0; level < information->levels[output->map]; level++)
         printf("  %5u  %5u  %9.4g\n", level, width >> level,
                lobe_environment_level_concentration(width, level));
     printf("  %-36s %5s %12s\n", "passes", "", "ms");
-    for (size_t i = 0; i < information->pass_count; ++i)
+    for (size_t i = 0; i < information->pass_count; i++)
         printf("    %-34s %4ux %12.3f\n", information->passes[i].name, information->passes[i].count,
                information->passes[i].milliseconds);
     printf("    %-40s %12.3f\n", "all", information->milliseconds);
@@ -54,7 +54,7 @@ static lobe_result take_face(const environment_output *output, cube_image *cube,
 static lobe_result take_cube(const environment_output *output, cube_image *cube) {
     uint32_t width = lobe_environment_maps_describe(output->maps)->width[output->map];
     lobe_result result = passes_cube_image_allocate(cube, width, output->host);
-    for (uint32_t i = 0; result == LOBE_OK && i < 6 * cube->levels; ++i)
+    for (uint32_t i = 0; result == LOBE_OK && i < 6 * cube->levels; i++)
         result = take_face(output, cube, i / 6, i % 6);
     return result;
 }
@@ -80,7 +80,7 @@ static void fill_header(const environment_output *output, const cube_image *cube
     add_text(header, "kernel", kernel_name(output->map));
     header->attributes[header->count++] = (lobe_exr_attribute){
         .name = "face", .type = LOBE_EXR_INTEGER, .integer = (int32_t)output->size};
-    for (uint32_t level = 0; level < cube->levels && level < MOST_LEVELS; ++level) {
+    for (uint32_t level = 0; level < cube->levels && level < MOST_LEVELS; level++) {
         char *name = header->names[level];
         snprintf(name, sizeof header->names[level], "kappa%u", level);
         header->attributes[header->count++] = (lobe_exr_attribute){

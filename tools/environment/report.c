@@ -15,12 +15,12 @@
 static void print_errors(const environment_findings *findings) {
     printf("\nFaces of %u: relative L2 error against the exact light, and ms\n  %6s",
            findings->face, "kappa");
-    for (int method = 0; method < ENVIRONMENT_METHOD_COUNT; ++method)
+    for (int method = 0; method < ENVIRONMENT_METHOD_COUNT; method++)
         printf("  %26s", environment_method_name(method));
     printf("\n");
-    for (int lobe = 0; lobe < CHECK_LOBES; ++lobe) {
+    for (int lobe = 0; lobe < CHECK_LOBES; lobe++) {
         printf("  %6.0f", findings->concentrations[lobe]);
-        for (int method = 0; method < ENVIRONMENT_METHOD_COUNT; ++method) {
+        for (int method = 0; method < ENVIRONMENT_METHOD_COUNT; method++) {
             const environment_error *error = &findings->errors[lobe][method];
             char samples[16] = "";
             if (method == ENVIRONMENT_SAMPLED_EQUAL_TIME)
@@ -57,7 +57,7 @@ static void add_number(cJSON *object, const char *name, double value) {
 }
 
 static void add_results(cJSON *array, const environment_findings *findings) {
-    for (int i = 0; i < CHECK_LOBES * ENVIRONMENT_METHOD_COUNT; ++i) {
+    for (int i = 0; i < CHECK_LOBES * ENVIRONMENT_METHOD_COUNT; i++) {
         int lobe = i / ENVIRONMENT_METHOD_COUNT, method = i % ENVIRONMENT_METHOD_COUNT;
         const environment_error *error = &findings->errors[lobe][method];
         cJSON *result = cJSON_CreateObject();
@@ -105,7 +105,7 @@ static char *describe(const environment_check_job *job, const environment_findin
     int size[2] = {(int)image->width, (int)image->height};
     cJSON_AddItemToObject(prepare, "image", cJSON_CreateIntArray(size, 2));
     cJSON *faces = cJSON_AddArrayToObject(prepare, "faces");
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         add_results(results, &findings[i]);
         add_preparation(faces, &findings[i]);
     }
