@@ -23,7 +23,7 @@ uint32_t bench_frames(const bench_job *job, const bench_filter *filter) {
 }
 
 void bench_result_free(bench_result *result) {
-    for (int kind = 0; kind < 2; ++kind)
+    for (int kind = 0; kind < 2; kind++)
         lobe_profile_destroy(&result->profiles[kind]);
 }
 
@@ -146,7 +146,7 @@ static lobe_result time_frame(const bench_run *run, size_t index, const bench_fi
 static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
                               bench_result *results) {
     lobe_result status = LOBE_OK;
-    for (size_t i = 0; status == LOBE_OK && i < run->job->filter_count; ++i) {
+    for (size_t i = 0; status == LOBE_OK && i < run->job->filter_count; i++) {
         const bench_filter *filter = &run->job->filters[i];
         bool left_out = keep ? round >= bench_frames(run->job, filter)
                              : lobe_filter_supersamples(filter->filter);
@@ -173,15 +173,15 @@ static lobe_result summarise(bench_result *result) {
 static lobe_result measure_times(const bench_run *run, bench_result *results) {
     progress_step(run->job->progress, "%s: times of %u frames", run->name, run->job->frames);
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; i++)
         result = open_profiles(run, &results[i]);
     if (result == LOBE_OK)
         result = time_round(run, 0, false, results);
-    for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; ++round) {
+    for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; round++) {
         result = time_round(run, round, true, results);
         progress_part(run->job->progress, (round + 1.0) / run->job->frames);
     }
-    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; i++)
         result = summarise(&results[i]);
     return result;
 }
@@ -190,7 +190,7 @@ lobe_result bench_measure(const bench_job *job, const lobe_scene *scene, const c
                           bench_result *results) {
     bench_run run = {.job = job, .scene = scene, .name = name};
     lobe_result result = render_truths(&run);
-    for (size_t i = 0; result == LOBE_OK && i < job->filter_count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < job->filter_count; i++) {
         results[i].scene = name;
         results[i].filter = &job->filters[i];
         result = measure_memory(&run, i, &results[i]);
@@ -199,7 +199,7 @@ lobe_result bench_measure(const bench_job *job, const lobe_scene *scene, const c
     }
     if (result == LOBE_OK)
         result = measure_times(&run, results);
-    for (size_t i = 0; i < job->filter_count; ++i)
+    for (size_t i = 0; i < job->filter_count; i++)
         lobe_renderer_destroy(&run.renderers[i]);
     lobe_image_free(&run.truth);
     lobe_image_free(&run.truth_lobe_base);

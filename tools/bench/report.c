@@ -11,7 +11,7 @@
 
 static void print_passes(const bench_result *result) {
     printf("  %s\n", lobe_filter_name(result->filter->filter));
-    for (size_t i = 0; i < result->rebuilt.pass_count; ++i) {
+    for (size_t i = 0; i < result->rebuilt.pass_count; i++) {
         const lobe_profile_times *pass = &result->rebuilt.passes[i];
         printf("    %-36s %12.3f %12.3f\n", pass->name, pass->median_milliseconds,
                pass->p95_milliseconds);
@@ -37,10 +37,10 @@ static void print_scene(const bench_job *job, const bench_result *results) {
            "bytes a", "error", "L2, lobes");
     printf("  %-10s %10s %10s %10s %10s %8s %8s %9s %9s %9s %9s\n", "filter", "median ms", "p95 ms",
            "median ms", "p95 ms", "MiB", "texel", "rel. L2", "rel. L1", "FLIP", "as base");
-    for (size_t i = 0; i < job->filter_count; ++i)
+    for (size_t i = 0; i < job->filter_count; i++)
         print_summary(&results[i]);
     printf("  passes with maps rebuilt %28s %12s\n", "median ms", "p95 ms");
-    for (size_t i = 0; i < job->filter_count; ++i)
+    for (size_t i = 0; i < job->filter_count; i++)
         print_passes(&results[i]);
 }
 
@@ -80,7 +80,7 @@ static void add_error(cJSON *object, const char *name, const error_metrics *erro
 
 static void add_knobs(cJSON *object, const bench_filter *filter) {
     cJSON *knobs = cJSON_AddObjectToObject(object, "knobs");
-    for (size_t i = 0; i < lobe_filter_knob_count(filter->filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter->filter); i++) {
         const lobe_knob *knob = lobe_filter_knob(filter->filter, i);
         double value = filter->settings.values[i];
         if (knob->kind == LOBE_KNOB_CHOICE)
@@ -92,7 +92,7 @@ static void add_knobs(cJSON *object, const bench_filter *filter) {
 
 static void add_passes(cJSON *object, const char *name, const lobe_profile_summary *summary) {
     cJSON *passes = cJSON_AddArrayToObject(object, name);
-    for (size_t i = 0; i < summary->pass_count; ++i) {
+    for (size_t i = 0; i < summary->pass_count; i++) {
         cJSON *pass = cJSON_CreateObject();
         cJSON_AddStringToObject(pass, "name", summary->passes[i].name);
         add_number(pass, "median_ms", summary->passes[i].median_milliseconds);
@@ -135,7 +135,7 @@ char *bench_describe(const bench_job *job, const bench_result *results, size_t c
     cJSON_AddStringToObject(device, "type", lobe_device_type_name(information->type));
     cJSON_AddNumberToObject(root, "reference_samples", job->samples);
     cJSON *array = cJSON_AddArrayToObject(root, "results");
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         cJSON_AddItemToArray(array, describe_result(job, &results[i]));
     char *text = cJSON_Print(root);
     cJSON_Delete(root);

@@ -17,7 +17,7 @@
 static void list_scenes(const sweep_results *figures, char *text, size_t size) {
     size_t used = 0;
     snprintf(text, size, "nothing");
-    for (size_t i = 0; i < figures->scene_count && used < size; ++i) {
+    for (size_t i = 0; i < figures->scene_count && used < size; i++) {
         if (!figures->scenes[i].skipped)
             used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "",
                                      figures->scenes[i].name);
@@ -31,7 +31,7 @@ static bool is_of_scene(const sweep_scene *entry, const char *name) {
 static lobe_result check_scene(const char *path, const char *name, const lobe_host *host,
                                const sweep_results *figures) {
     const sweep_scene *skipped = NULL;
-    for (size_t i = 0; i < figures->scene_count; ++i) {
+    for (size_t i = 0; i < figures->scene_count; i++) {
         if (!is_of_scene(&figures->scenes[i], name))
             continue;
         if (!figures->scenes[i].skipped)
@@ -62,7 +62,7 @@ static lobe_result find_entry(const char *path, const budget_picture *picture,
                               const sweep_scene **entry) {
     const lobe_environment *environment = picture->scene->environment;
     const char *name = environment ? environment->name : NULL;
-    for (size_t i = 0; i < figures->scene_count; ++i) {
+    for (size_t i = 0; i < figures->scene_count; i++) {
         *entry = &figures->scenes[i];
         if (!(*entry)->skipped && sweep_scene_is(*entry, picture->name, name, picture->lighting))
             return LOBE_OK;
@@ -123,7 +123,7 @@ static bool read_row(const sweep_row *row, const lobe_filter **filter, lobe_sett
     if (lobe_filter_find(row->filter, NULL, filter) != LOBE_OK || lobe_filter_supersamples(*filter))
         return false;
     lobe_settings_default(*filter, settings);
-    for (size_t i = 0; i < row->setting_count; ++i) {
+    for (size_t i = 0; i < row->setting_count; i++) {
         char assignment[80];
         snprintf(assignment, sizeof assignment, "%s=%s", row->settings[i].name,
                  row->settings[i].value);
@@ -137,7 +137,7 @@ static bool read_row(const sweep_row *row, const lobe_filter **filter, lobe_sett
 static size_t list_rows(const sweep_results *figures, const sweep_scene *scene,
                         const sweep_row **rows) {
     size_t count = 0;
-    for (size_t i = 0; i < figures->row_count; ++i) {
+    for (size_t i = 0; i < figures->row_count; i++) {
         const sweep_row *row = &figures->rows[i];
         const lobe_filter *filter;
         lobe_settings settings;
@@ -149,7 +149,7 @@ static size_t list_rows(const sweep_results *figures, const sweep_scene *scene,
 
 /// What the truth's noise adds to errors is no filter's fault.
 static void leave_out_noise(const sweep_scene *scene, sweep_results *figures) {
-    for (size_t i = 0; scene && i < figures->row_count; ++i) {
+    for (size_t i = 0; scene && i < figures->row_count; i++) {
         sweep_row *row = &figures->rows[i];
         if (strcmp(row->scene, scene->name) == 0)
             row->error.relative_l2 = sweep_error_without_noise(scene, row);
@@ -184,7 +184,7 @@ static text name_row(const sweep_row *row) {
         return name;
     lobe_settings_default(filter, &defaults);
     const char *separator = " with ";
-    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         if (settings.values[i] == defaults.values[i] || used >= sizeof name.characters)
             continue;
         char value[64];

@@ -9,7 +9,7 @@
 #define CALIBRATION_SAMPLES 64
 
 static void add_filters(bench_job *bench) {
-    for (size_t i = 0; i < lobe_filter_count(); ++i) {
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
         const lobe_filter *filter = lobe_filter_get(i);
         if (lobe_filter_supersamples(filter) || bench->filter_count == BENCH_MAXIMUM_FILTERS)
             continue;
@@ -46,7 +46,7 @@ static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_
     progress_expect(bench->progress, sweep_scene_work(job));
     lobe_result result = sweep_measure(job, scene, &entry, results->rows);
     progress_end(bench->progress);
-    for (size_t i = 0; result == LOBE_OK && i < results->row_count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < results->row_count; i++)
         results->rows[i].error.relative_l2 = sweep_error_without_noise(&entry, &results->rows[i]);
     return result;
 }

@@ -61,11 +61,11 @@ static void consider_better(const trade_request *request, const sweep_row *row,
 trade_choice trade_choose(const trade_request *request, const sweep_row *const *rows,
                           size_t count) {
     trade_choice choice = {0};
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         if (is_candidate(request, rows[i]))
             consider(request, rows[i], &choice);
     }
-    for (size_t i = 0; choice.picked && i < count; ++i) {
+    for (size_t i = 0; choice.picked && i < count; i++) {
         if (is_candidate(request, rows[i]))
             consider_better(request, rows[i], &choice);
     }

@@ -6,13 +6,14 @@
 #include <lobe/lobe.h>
 
 #include "tools/cli/subcommand.h"
+#include "tools/manual/option_form.h"
 
 static void print_help(FILE *stream) {
     fputs("Usage: lobe SUBCOMMAND [OPTION]... [OPERAND]...\n\n"
           "Renders scenes whose appearance stays true at every distance: normal and BRDF maps\n"
           "are filtered into mixtures of lobes.\n\nSubcommands:\n",
           stream);
-    for (size_t i = 0; subcommands[i]; ++i)
+    for (size_t i = 0; subcommands[i]; i++)
         fprintf(stream, "  %-11s %s\n", subcommands[i]->name, subcommands[i]->summary);
     fputs("\n'lobe help SUBCOMMAND' or 'lobe SUBCOMMAND --help' tells more.\n"
           "'lobe --version' prints the version.\n"
@@ -58,6 +59,7 @@ static int run(int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+    options_set_form_finder(option_form_find);
     int status = run(argc, argv);
     // What was printed may still be lost, on a full disk for example.
     bool failed = fflush(stdout) != 0 || ferror(stdout);

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tools/manual/option_form.h"
-
 // ---------------------------------------------------------------------------------------------
 // Values
 
@@ -208,6 +206,12 @@ static int store(const option_table *table, const option *option, const char *te
 // ---------------------------------------------------------------------------------------------
 // Parsing
 
+static option_form *(*find_form)(const char *name);
+
+void options_set_form_finder(option_form *(*find)(const char *name)) {
+    find_form = find;
+}
+
 typedef struct parser {
     const option_table *table;
     char **argv;
@@ -252,7 +256,10 @@ static int take_value(parser *parser, const option *option, const char *value) {
 
 /// `equals` is the end of "--help=FORM", or NULL.
 static int ask_for_help(parser *parser, const char *equals) {
-    parser->help = equals != NULL ? option_form_find(equals + 1) : options_print_help;
+    if (equals == NULL)
+        parser->help = options_print_help;
+    else
+        parser->help = find_form != NULL ? find_form(equals + 1) : NULL;
     return parser->help != NULL
                ? 0
                : options_usage_error(parser->table, "--help: there is no form '%s'", equals + 1);

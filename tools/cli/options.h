@@ -82,6 +82,13 @@ typedef struct option_table {
 bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
                    int *status);
 
+/// Prints a table in some form.
+typedef void option_form(const option_table *table, FILE *stream);
+
+/// Sets the function that finds the form of `--help=FORM`, or NULL if there is no such form.
+/// Without it there are none.
+void options_set_form_finder(option_form *(*find)(const char *name));
+
 /// Frees the lists the table's options point to, and the operands (may be NULL).
 void options_free(const option_table *table, option_list *operands);
 

@@ -76,7 +76,7 @@ static bool is_intensity(const double rgb[3]) {
 }
 
 static void store(const double source[3], double scale, float target[3]) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         target[i] = (float)(scale * source[i]);
 }
 
@@ -117,7 +117,7 @@ int view_options_parse_lights(const option_table *table, const view_options *opt
         fprintf(stderr, "%s: out of memory\n", table->program);
         return 1;
     }
-    for (size_t i = 0; i < options->lights.count; ++i) {
+    for (size_t i = 0; i < options->lights.count; i++) {
         const char *wrong = parse_light(options->lights.values[i], &parsed[i]);
         if (wrong) {
             lobe_release(parsed);

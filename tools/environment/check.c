@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "passes/environment/standalone_maps.h"
-#include "tools/bench/median.h"
+#include "tools/bench/timing.h"
 #include "tools/environment/check_passes.h"
 
 #define MOST_ROUNDS 16
@@ -145,7 +145,7 @@ static lobe_result measure(measurement *m, uint32_t lobe, const environment_meth
             result = look_up(m, lobe, methods[i], samples[i], &errors[i], &times[i][round]);
     }
     for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
-        errors[i].milliseconds = median(times[i], m->job->rounds);
+        errors[i].milliseconds = timing_median(times[i], m->job->rounds);
     return result;
 }
 
@@ -239,8 +239,8 @@ static lobe_result time_updates(measurement *m) {
     }
     if (result != LOBE_OK)
         return result;
-    m->findings->update_milliseconds = median(updates, UPDATES);
-    m->findings->mip_milliseconds = median(chains, UPDATES);
+    m->findings->update_milliseconds = timing_median(updates, UPDATES);
+    m->findings->mip_milliseconds = timing_median(chains, UPDATES);
     return LOBE_OK;
 }
 

@@ -19,7 +19,7 @@ static void describe_values(const lobe_filter *filter, size_t index, char *text,
                  knob->kind == LOBE_KNOB_INTEGER ? " whole" : "");
         return;
     }
-    for (size_t i = 0; knob->choices[i] && used < size; ++i)
+    for (size_t i = 0; knob->choices[i] && used < size; i++)
         used += (size_t)snprintf(text + used, size - used, "%s%s", i == 0 ? "{" : ", ",
                                  knob->choices[i]);
     if (used < size)
@@ -30,7 +30,7 @@ static void print_filter(const lobe_filter *filter) {
     printf("%s: %s\n", lobe_filter_name(filter), lobe_filter_summary(filter));
     if (lobe_filter_paper(filter)[0] != '\0')
         printf("    from %s\n", lobe_filter_paper(filter));
-    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         char values[256];
         describe_values(filter, i, values, sizeof values);
         printf("    %-12s %s\n", lobe_filter_knob(filter, i)->name, values);
@@ -49,7 +49,7 @@ static void print_manual_of_filter(FILE *stream, const lobe_filter *filter) {
         fputc(')', stream);
     }
     fputc('\n', stream);
-    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         const lobe_knob *knob = lobe_filter_knob(filter, i);
         char values[256];
         describe_values(filter, i, values, sizeof values);
@@ -59,7 +59,7 @@ static void print_manual_of_filter(FILE *stream, const lobe_filter *filter) {
 
 static void print_manual(FILE *stream) {
     roff_section(stream, "FILTERS");
-    for (size_t i = 0; i < lobe_filter_count(); ++i)
+    for (size_t i = 0; i < lobe_filter_count(); i++)
         print_manual_of_filter(stream, lobe_filter_get(i));
 }
 
@@ -73,7 +73,7 @@ static int run(int argc, char **argv) {
     int status;
     if (!options_parse(&table, argc, argv, NULL, &status))
         return status;
-    for (size_t i = 0; i < lobe_filter_count(); ++i) {
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
         if (i > 0)
             putchar('\n');
         print_filter(lobe_filter_get(i));

@@ -9,13 +9,13 @@
 
 static void print_list(const lobe_device_information *devices, size_t count) {
     printf("lobe %s\n\nVulkan devices:\n", lobe_version());
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         printf("  %zu  %s (%s)\n", i, devices[i].name, lobe_device_type_name(devices[i].type));
 }
 
 static void print_features(const lobe_device_information *device, bool present) {
     size_t count = 0;
-    for (size_t i = 0; i < device->feature_count; ++i) {
+    for (size_t i = 0; i < device->feature_count; i++) {
         const lobe_device_feature *feature = &device->features[i];
         if (feature->present != present)
             continue;

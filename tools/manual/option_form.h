@@ -3,9 +3,6 @@
 
 #include "tools/cli/options.h"
 
-/// Writes a table down in one of the forms it is needed in.
-typedef void option_form(const option_table *table, FILE *stream);
-
 /// The form that `--help=NAME` asks for: "man" is the manual page; "bash", "zsh" and "fish" are the
 /// subcommand's part of that shell's completion. NULL for any other name.
 option_form *option_form_find(const char *name);

@@ -54,7 +54,7 @@ static void append_knob(attribute_list *list, const lobe_knob *knob, double valu
 static void append_times(attribute_list *list, const lobe_profile_summary *times) {
     append(list, "milliseconds", "", LOBE_EXR_NUMBER)->number =
         (float)times->frame.median_milliseconds;
-    for (size_t i = 0; i < times->pass_count; ++i)
+    for (size_t i = 0; i < times->pass_count; i++)
         append(list, "milliseconds.", times->passes[i].name, LOBE_EXR_NUMBER)->number =
             (float)times->passes[i].median_milliseconds;
 }
@@ -73,7 +73,7 @@ static bool describe(const capture *capture, attribute_list *list) {
     append_text(list, "device", capture->device->name);
     append_text(list, "driver", capture->device->driver);
     append(list, "samples", "", LOBE_EXR_INTEGER)->integer = (int32_t)capture->samples;
-    for (size_t i = 0; i < knobs; ++i)
+    for (size_t i = 0; i < knobs; i++)
         append_knob(list, lobe_filter_knob(capture->filter, i), capture->settings->values[i]);
     append_times(list, capture->times);
     return true;
@@ -143,7 +143,7 @@ static lobe_result heat_map(const capture *capture, float maximum, const lobe_ho
         return result;
     const float *value = values->texels;
     uint8_t *texel = picture->texels;
-    for (size_t i = 0; i < (size_t)values->width * values->height; ++i) {
+    for (size_t i = 0; i < (size_t)values->width * values->height; i++) {
         float part = value[4 * i + 3] > 0 ? value[4 * i] / maximum : NAN;
         lobe_heat_colour(part, &texel[4 * i]);
         texel[4 * i + 3] = 255;

@@ -65,7 +65,7 @@ static bool is_png(const char *path) {
 
 /// Whether an output is a picture (`png`), or holds radiance.
 static bool writes(const render_request *request, bool png) {
-    for (size_t i = 0; i < request->outputs.count; ++i) {
+    for (size_t i = 0; i < request->outputs.count; i++) {
         if (is_png(request->outputs.values[i]) == png)
             return true;
     }
@@ -75,7 +75,7 @@ static bool writes(const render_request *request, bool png) {
 static int check_outputs(const option_table *table, const render_request *request) {
     if (request->outputs.count == 0)
         return options_usage_error(table, "no output: give -o FILE.exr or -o FILE.png");
-    for (size_t i = 0; i < request->outputs.count; ++i) {
+    for (size_t i = 0; i < request->outputs.count; i++) {
         const char *path = request->outputs.values[i];
         if (!is_png(path) && !output_file_has_ending(path, ".exr"))
             return options_usage_error(table, "output '%s' ends neither in .exr nor in .png", path);
@@ -116,7 +116,7 @@ static int choose_filter(render_request *request, const lobe_host *host) {
     if (lobe_filter_find(request->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
-    for (size_t i = 0; i < request->assignments.count; ++i) {
+    for (size_t i = 0; i < request->assignments.count; i++) {
         if (lobe_settings_set(request->filter, &request->settings, request->assignments.values[i],
                               host) != LOBE_OK)
             return 2;
@@ -211,7 +211,7 @@ static lobe_result render_frame(const render_request *request, render_state *sta
 /// The first frame builds the maps, later ones find them ready.
 static lobe_result render_frames(const render_request *request, render_state *state) {
     lobe_result result = lobe_profile_create(&state->host, &state->profile);
-    for (uint32_t i = 0; result == LOBE_OK && i < request->frames; ++i) {
+    for (uint32_t i = 0; result == LOBE_OK && i < request->frames; i++) {
         progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
                       request->frames);
         result = render_frame(request, state);
@@ -251,7 +251,7 @@ static lobe_result write_images(const render_request *request, render_state *sta
         .exposure = request->exposure,
     };
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++) {
         const char *path = request->outputs.values[i];
         result = is_png(path) ? capture_write_png(path, &capture, &state->host)
                               : capture_write_exr(path, &capture, &state->host);
@@ -268,7 +268,7 @@ static void print_times(const render_request *request, const render_state *state
            device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
                                            : "");
     printf("  %-36s %8s %12s\n", "pass", "frames", "median ms");
-    for (size_t i = 0; i < times->pass_count; ++i)
+    for (size_t i = 0; i < times->pass_count; i++)
         printf("  %-36s %8u %12.3f\n", times->passes[i].name, times->passes[i].runs,
                times->passes[i].median_milliseconds);
     printf("  %-36s %8u %12.3f\n", "whole frame", times->frame.runs,
@@ -278,7 +278,7 @@ static void print_times(const render_request *request, const render_state *state
 /// Nobody should wait minutes to learn of a misspelt folder.
 static lobe_result check_files(const render_request *request, const lobe_host *host) {
     lobe_result result = output_file_check(request->graph, host);
-    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; ++i)
+    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++)
         result = output_file_check(request->outputs.values[i], host);
     return result;
 }

@@ -34,7 +34,7 @@ static void name_copy(uint64_t bytes, char name[64]) {
 // Which sizes
 
 static bool has_size(const sweep_copies *copies, uint64_t bytes) {
-    for (size_t i = 0; i < copies->count; ++i) {
+    for (size_t i = 0; i < copies->count; i++) {
         if (copies->bytes[i] == bytes)
             return true;
     }
@@ -46,7 +46,7 @@ static bool add_sizes(sweep_copies *copies, const sweep_row *row) {
     if (!grown)
         return false;
     copies->bytes = grown;
-    for (size_t i = 0; i < row->pass_count; ++i) {
+    for (size_t i = 0; i < row->pass_count; i++) {
         uint64_t bytes = copied_bytes(row->passes[i].bytes);
         if (row->passes[i].bytes > 0 && !has_size(copies, bytes))
             grown[copies->count++] = bytes;
@@ -59,7 +59,7 @@ lobe_result sweep_copies_create(const sweep_job *job, const sweep_row *rows, siz
     const lobe_host *host = job->bench.host;
     *copies = calloc(1, sizeof **copies);
     bool fits = *copies != NULL;
-    for (size_t i = 0; fits && i < row_count; ++i)
+    for (size_t i = 0; fits && i < row_count; i++)
         fits = add_sizes(*copies, &rows[i]);
     if (!fits)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
@@ -100,7 +100,7 @@ static lobe_result copy(lobe_graph *graph, uint64_t bytes) {
 
 lobe_result sweep_copies_time(sweep_copies *copies) {
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < copies->count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < copies->count; i++) {
         // The first touches new memory, the second finds it ready.
         result = copy(copies->graph, copies->bytes[i]);
         if (result == LOBE_OK)
@@ -112,7 +112,7 @@ lobe_result sweep_copies_time(sweep_copies *copies) {
 }
 
 static double median_of(const lobe_profile_summary *summary, const char *name) {
-    for (size_t i = 0; i < summary->pass_count; ++i) {
+    for (size_t i = 0; i < summary->pass_count; i++) {
         if (strcmp(summary->passes[i].name, name) == 0)
             return summary->passes[i].median_milliseconds;
     }
@@ -122,8 +122,8 @@ static double median_of(const lobe_profile_summary *summary, const char *name) {
 lobe_result sweep_copies_summarise(sweep_copies *copies, sweep_row *rows, size_t row_count) {
     lobe_profile_summary summary;
     lobe_result result = lobe_profile_statistics(copies->profile, &summary);
-    for (size_t i = 0; result == LOBE_OK && i < row_count; ++i) {
-        for (size_t k = 0; k < rows[i].pass_count; ++k) {
+    for (size_t i = 0; result == LOBE_OK && i < row_count; i++) {
+        for (size_t k = 0; k < rows[i].pass_count; k++) {
             sweep_pass *pass = &rows[i].passes[k];
             if (pass->bytes <= 0)
                 continue;

@@ -16,7 +16,7 @@ static lobe_result render_pair(const sweep_job *job, const lobe_scene *scene,
                                uint32_t station, lobe_frame pair[2]) {
     lobe_result result = LOBE_OK;
     parameters.discard = false;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         lobe_camera camera;
         lobe_scene_path(scene, (station + 0.5) / job->stations + i * step, &camera);
         parameters.camera = &camera;
@@ -39,11 +39,11 @@ static void free_pair(lobe_frame pair[2]) {
 static void keep_changes(const sweep_job *job, lobe_frame pairs[2][2], uint32_t station,
                          sweep_path *path) {
     const float *before[2] = {pairs[0][0].radiance.texels, pairs[1][0].radiance.texels};
-    for (size_t i = 0; i < 4 * pixel_count(job); ++i)
+    for (size_t i = 0; i < 4 * pixel_count(job); i++)
         path->squares += i % 4 != 3 ? (double)before[0][i] * before[1][i] : 0;
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 2; k++) {
         float *after = pairs[k][1].radiance.texels;
-        for (size_t i = 0; i < 4 * pixel_count(job); ++i)
+        for (size_t i = 0; i < 4 * pixel_count(job); i++)
             after[i] -= before[k][i];
         path->changes[k][station] = pairs[k][1].radiance;
         pairs[k][1].radiance = (lobe_image){0};
@@ -55,7 +55,7 @@ static lobe_result render_station(const sweep_job *job, const lobe_scene *scene,
                                   uint32_t station, sweep_path *path) {
     lobe_frame pairs[2][2] = {0};
     lobe_result result = LOBE_OK;
-    for (uint32_t k = 0; result == LOBE_OK && k < 2; ++k) {
+    for (uint32_t k = 0; result == LOBE_OK && k < 2; k++) {
         parameters.reference.pattern = k;
         result = render_pair(job, scene, renderer, parameters, station, pairs[k]);
     }
@@ -69,7 +69,7 @@ static lobe_result render_station(const sweep_job *job, const lobe_scene *scene,
 lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
                               lobe_renderer *renderer, sweep_path *path) {
     *path = (sweep_path){0};
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 2; k++) {
         path->changes[k] = calloc(job->stations + 1, sizeof *path->changes[k]);
         if (!path->changes[k])
             return lobe_host_fail(job->bench.host, LOBE_ERROR_OUT_OF_MEMORY,
@@ -79,7 +79,7 @@ lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
     lobe_result result = lobe_filter_find("reference", job->bench.host, &reference.filter.filter);
     lobe_render_parameters parameters = sweep_parameters(job, &reference);
     parameters.reference.samples = job->path_samples;
-    for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); ++i) {
+    for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); i++) {
         progress_step(job->bench.progress, "%s: references along the path, %u of %u", scene->name,
                       i + 1, job->stations);
         progress_weigh(job->bench.progress, 4.0 * job->path_samples);
@@ -89,8 +89,8 @@ lobe_result sweep_path_render(const sweep_job *job, const lobe_scene *scene,
 }
 
 void sweep_path_free(const sweep_job *job, sweep_path *path) {
-    for (int k = 0; k < 2; ++k) {
-        for (uint32_t i = 0; path->changes[k] && i < job->stations; ++i)
+    for (int k = 0; k < 2; k++) {
+        for (uint32_t i = 0; path->changes[k] && i < job->stations; i++)
             lobe_image_free(&path->changes[k][i]);
         free(path->changes[k]);
     }
@@ -106,7 +106,7 @@ static double excess_products(const sweep_job *job, const lobe_frame pair[2],
     const float *first = path->changes[0][station].texels;
     const float *second = path->changes[1][station].texels;
     double sum = 0;
-    for (size_t i = 0; i < 4 * pixel_count(job); ++i) {
+    for (size_t i = 0; i < 4 * pixel_count(job); i++) {
         double change = (double)after[i] - before[i];
         sum += i % 4 != 3 ? (change - first[i]) * (change - second[i]) : 0;
     }
@@ -121,7 +121,7 @@ lobe_result sweep_path_flicker(const sweep_job *job, const lobe_scene *scene,
         return LOBE_OK;
     lobe_result result = LOBE_OK;
     double squares = 0;
-    for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); ++i) {
+    for (uint32_t i = 0; result == LOBE_OK && i < job->stations && !sweep_stopped(job); i++) {
         lobe_frame pair[2];
         result = render_pair(job, scene, renderer, sweep_parameters(job, variant), i, pair);
         if (result == LOBE_OK && !sweep_stopped(job))

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tools/bench/median.h"
 #include "tools/bench/timing.h"
 
 /// Frames of a kind in one turn of a row: each turn is paid for with two untimed ones.
@@ -57,7 +56,7 @@ static double still_work(const sweep_job *job, const sweep_variant *variant) {
 
 static double time_work(const sweep_job *job) {
     double work = 0;
-    for (size_t i = 0; i < job->plan.count; ++i) {
+    for (size_t i = 0; i < job->plan.count; i++) {
         const sweep_variant *variant = &job->plan.variants[i];
         work += bench_frames(&job->bench, &variant->filter) * (2.0 * sample_count(variant) + 1);
     }
@@ -67,7 +66,7 @@ static double time_work(const sweep_job *job) {
 double sweep_scene_work(const sweep_job *job) {
     double truths = job->brief ? 1 : 2;
     double work = truths * job->bench.samples + 4.0 * job->stations * job->path_samples;
-    for (size_t i = 0; i < job->plan.count; ++i)
+    for (size_t i = 0; i < job->plan.count; i++)
         work += still_work(job, &job->plan.variants[i]);
     return work + time_work(job);
 }
@@ -108,7 +107,7 @@ static double merge_parts(lobe_image *first, const lobe_image *second, const uin
     const float *other = second->texels;
     float *texels = first->texels;
     double distances = 0, squares = 0;
-    for (size_t i = 0; i < 4 * (size_t)first->width * first->height; ++i) {
+    for (size_t i = 0; i < 4 * (size_t)first->width * first->height; i++) {
         const double difference = (double)other[i] - texels[i];
         texels[i] += (float)(weight * difference);
         distances += i % 4 != 3 ? difference * difference : 0;
@@ -175,7 +174,7 @@ static lobe_result render_truths(scene_run *run, sweep_scene *entry) {
 // Passes, memory, error and flicker of a row
 
 static const lobe_pass_time *find_pass(const lobe_frame *frame, const char *name) {
-    for (size_t i = 0; i < frame->pass_count; ++i) {
+    for (size_t i = 0; i < frame->pass_count; i++) {
         if (strcmp(frame->passes[i].name, name) == 0)
             return &frame->passes[i];
     }
@@ -189,7 +188,7 @@ static lobe_result list_passes(const scene_run *run, const lobe_frame *built,
     if (!row->passes)
         return out_of_memory(run);
     row->pass_count = built->pass_count;
-    for (size_t i = 0; i < built->pass_count; ++i) {
+    for (size_t i = 0; i < built->pass_count; i++) {
         const lobe_pass_time *time = &built->passes[i];
         sweep_pass *pass = &row->passes[i];
         snprintf(pass->name, sizeof pass->name, "%s", time->name);
@@ -271,7 +270,7 @@ static lobe_result measure_stills(const scene_run *run) {
     const sweep_job *job = run->job;
     lobe_renderer *renderer = NULL;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < job->plan.count && !sweep_stopped(job); ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < job->plan.count && !sweep_stopped(job); i++) {
         const sweep_variant *variant = &job->plan.variants[i];
         progress_step(job->bench.progress, "%s: error%s of %s, row %zu of %zu", run->name,
                       job->brief ? "" : " and flicker", run->rows[i].filter, i + 1,
@@ -293,7 +292,7 @@ static lobe_result add_parts(const scene_run *run, size_t index, const lobe_fram
     lobe_pass_report parts[2] = {{.name = "building", .state = LOBE_PASS_RUN},
                                  {.name = "shading", .state = LOBE_PASS_RUN}};
     const sweep_row *row = &run->rows[index];
-    for (size_t i = 0; i < row->pass_count; ++i) {
+    for (size_t i = 0; i < row->pass_count; i++) {
         const lobe_pass_time *time = find_pass(frame, row->passes[i].name);
         parts[row->passes[i].building ? 0 : 1].milliseconds += time ? time->milliseconds : 0;
     }
@@ -304,7 +303,7 @@ static lobe_result add_parts(const scene_run *run, size_t index, const lobe_fram
 
 /// How often passes run in a whole frame: the reference's were listed from a single sample.
 static void count_passes(sweep_row *row, const lobe_frame *frame) {
-    for (size_t i = 0; i < row->pass_count; ++i) {
+    for (size_t i = 0; i < row->pass_count; i++) {
         const lobe_pass_time *time = find_pass(frame, row->passes[i].name);
         row->passes[i].count = time ? time->count : row->passes[i].count;
     }
@@ -335,7 +334,7 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
 static lobe_result time_frames(const scene_run *run, lobe_renderer *renderer, size_t index,
                                bool rebuild, uint32_t count) {
     lobe_result result = time_frame(run, renderer, index, rebuild, false);
-    for (uint32_t i = 0; result == LOBE_OK && i < count; ++i)
+    for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
         result = time_frame(run, renderer, index, rebuild, true);
     return result;
 }
@@ -357,8 +356,8 @@ static lobe_result take_turns(const scene_run *run, lobe_renderer *renderer, swe
                   job->bench.frames, job->plan.count);
     progress_weigh(job->bench.progress, time_work(job));
     lobe_result result = LOBE_OK;
-    for (uint32_t round = 0; round < rounds; ++round) {
-        for (size_t i = 0; i < job->plan.count; ++i) {
+    for (uint32_t round = 0; round < rounds; round++) {
+        for (size_t i = 0; i < job->plan.count; i++) {
             if (result == LOBE_OK && !sweep_stopped(job))
                 result = take_turn(run, renderer, i, round * TURN_FRAMES);
         }
@@ -394,8 +393,8 @@ static lobe_result summarise_passes(const row_times *times, sweep_row *row) {
     lobe_result result = lobe_profile_statistics(times->rebuilt, &summary);
     row->rebuilt_ms = summary.frame.median_milliseconds;
     row->rebuilt_p95_ms = summary.frame.p95_milliseconds;
-    for (size_t i = 0; result == LOBE_OK && i < summary.pass_count; ++i) {
-        for (size_t k = 0; k < row->pass_count; ++k) {
+    for (size_t i = 0; result == LOBE_OK && i < summary.pass_count; i++) {
+        for (size_t k = 0; k < row->pass_count; k++) {
             if (strcmp(row->passes[k].name, summary.passes[i].name) == 0)
                 row->passes[k].milliseconds = summary.passes[i].median_milliseconds;
         }
@@ -424,9 +423,9 @@ static lobe_result summarise(const row_times *times, sweep_row *row) {
 static lobe_result mark_once(const row_times *times, sweep_row *row) {
     lobe_profile_summary summary;
     lobe_result result = lobe_profile_statistics(times->rebuilt, &summary);
-    for (size_t i = 0; result == LOBE_OK && i < row->pass_count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < row->pass_count; i++) {
         bool timed = false;
-        for (size_t k = 0; k < summary.pass_count; ++k)
+        for (size_t k = 0; k < summary.pass_count; k++)
             timed = timed || strcmp(summary.passes[k].name, row->passes[i].name) == 0;
         row->passes[i].once = row->passes[i].building && !timed;
     }
@@ -436,9 +435,9 @@ static lobe_result mark_once(const row_times *times, sweep_row *row) {
 /// Lists where rows keep the time of a pass that prepares the environment; returns how many do.
 static size_t list_once(const scene_run *run, const char *name, double **places) {
     size_t count = 0;
-    for (size_t i = 0; i < run->job->plan.count; ++i) {
+    for (size_t i = 0; i < run->job->plan.count; i++) {
         const sweep_row *row = &run->rows[i];
-        for (size_t k = 0; k < row->pass_count; ++k) {
+        for (size_t k = 0; k < row->pass_count; k++) {
             if (row->passes[k].once && strcmp(row->passes[k].name, name) == 0)
                 places[count++] = &row->passes[k].milliseconds;
         }
@@ -449,19 +448,19 @@ static size_t list_once(const scene_run *run, const char *name, double **places)
 /// Rows prepare the environment alike: all get the median of them.
 static void share_median(const scene_run *run, const char *name, double **places, double *times) {
     const size_t count = list_once(run, name, places);
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         times[i] = *places[i];
-    const double shared = median(times, count);
-    for (size_t i = 0; i < count; ++i)
+    const double shared = timing_median(times, count);
+    for (size_t i = 0; i < count; i++)
         *places[i] = shared;
 }
 
 static lobe_result summarise_environment(const scene_run *run) {
     double *times = calloc(run->job->plan.count, sizeof *times);
     double **places = calloc(run->job->plan.count, sizeof *places);
-    for (size_t i = 0; times && places && i < run->job->plan.count; ++i) {
+    for (size_t i = 0; times && places && i < run->job->plan.count; i++) {
         sweep_row *row = &run->rows[i];
-        for (size_t k = 0; k < row->pass_count; ++k) {
+        for (size_t k = 0; k < row->pass_count; k++) {
             if (!row->passes[k].once)
                 continue;
             share_median(run, row->passes[k].name, places, times);
@@ -476,7 +475,7 @@ static lobe_result summarise_environment(const scene_run *run) {
 
 static lobe_result summarise_rows(const scene_run *run) {
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; i++) {
         result = summarise(&run->times[i], &run->rows[i]);
         if (result == LOBE_OK)
             result = mark_once(&run->times[i], &run->rows[i]);
@@ -500,18 +499,18 @@ static lobe_result open_rows(scene_run *run, const char *scene) {
     const lobe_host *host = run->job->bench.host;
     run->times = calloc(run->job->plan.count, sizeof *run->times);
     lobe_result result = run->times ? LOBE_OK : out_of_memory(run);
-    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; i++) {
         lobe_profile **const profiles[] = {&run->times[i].rebuilt, &run->times[i].retained,
                                            &run->times[i].parts};
         result = name_row(run, &run->job->plan.variants[i], scene, &run->rows[i]);
-        for (int k = 0; result == LOBE_OK && k < 3; ++k)
+        for (int k = 0; result == LOBE_OK && k < 3; k++)
             result = lobe_profile_create(host, profiles[k]);
     }
     return result;
 }
 
 static void close_run(scene_run *run) {
-    for (size_t i = 0; run->times && i < run->job->plan.count; ++i) {
+    for (size_t i = 0; run->times && i < run->job->plan.count; i++) {
         lobe_profile_destroy(&run->times[i].rebuilt);
         lobe_profile_destroy(&run->times[i].retained);
         lobe_profile_destroy(&run->times[i].parts);

@@ -38,17 +38,17 @@ static char *real_folder_of(const char *file) {
 /// How `to` is called from within `from`, with a slash at its end; both absolute and without links.
 static char *relative_path(const char *from, const char *to) {
     size_t common = 0, ups = 0;
-    for (size_t i = 0; from[i] == to[i] || !from[i] || !to[i]; ++i) {
+    for (size_t i = 0; from[i] == to[i] || !from[i] || !to[i]; i++) {
         bool from_ends = !from[i] || from[i] == '/', to_ends = !to[i] || to[i] == '/';
         common = from_ends && to_ends ? i : common;
         if (!from[i] || !to[i])
             break;
     }
-    for (size_t i = common; from[i]; ++i)
+    for (size_t i = common; from[i]; i++)
         ups += from[i] == '/' && from[i + 1];
     const char *rest = to[common] == '/' ? &to[common + 1] : &to[common];
     char *path = calloc(3 * ups + strlen(rest) + 2, 1);
-    for (size_t i = 0; path && i < ups; ++i)
+    for (size_t i = 0; path && i < ups; i++)
         strcat(path, "../");
     return path && rest[0] ? strcat(strcat(path, rest), "/") : path;
 }
@@ -88,7 +88,7 @@ void sweep_pictures_close(sweep_job *job) {
 /// FNV-1a (Fowler, Noll, Vo 1991), 32 bits.
 static uint32_t digest(const char *text) {
     uint32_t hash = 2166136261u;
-    for (; *text; ++text)
+    for (; *text; text++)
         hash = (hash ^ (unsigned char)*text) * 16777619u;
     return hash;
 }
@@ -99,7 +99,7 @@ static void name_scene(const char *scene, char name[96]) {
     const char *slash = strrchr(scene, '/');
     const char *last = slash ? slash + 1 : scene;
     size_t length = 0;
-    for (; last[length] && last[length] != '.' && length < 64; ++length)
+    for (; last[length] && last[length] != '.' && length < 64; length++)
         name[length] =
             isalnum((unsigned char)last[length]) || last[length] == '_' ? last[length] : '-';
     name[length] = '\0';

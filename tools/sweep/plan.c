@@ -42,7 +42,7 @@ static lobe_result add_values(sweep_plan *plan, const bench_filter *filter, size
 }
 
 static bool has_filter(const sweep_plan *plan, const lobe_filter *filter) {
-    for (size_t i = 0; i < plan->count; ++i) {
+    for (size_t i = 0; i < plan->count; i++) {
         if (plan->variants[i].filter.filter == filter)
             return true;
     }
@@ -68,7 +68,7 @@ static lobe_result add_filter(const sweep_plan_request *request, const bench_fil
     lobe_result result = add(plan, filter, "", host);
     size_t knobs =
         lobe_filter_supersamples(filter->filter) ? 0 : lobe_filter_knob_count(filter->filter);
-    for (size_t i = 0; result == LOBE_OK && i < knobs; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < knobs; i++) {
         if (goes_through(request, lobe_filter_knob(filter->filter, i)))
             result = add_values(plan, filter, i, host);
     }
@@ -79,7 +79,7 @@ lobe_result sweep_plan_make(const sweep_plan_request *request, const lobe_host *
                             sweep_plan *plan) {
     *plan = (sweep_plan){0};
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < request->filter_count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < request->filter_count; i++) {
         if (!has_filter(plan, request->filters[i].filter))
             result = add_filter(request, &request->filters[i], host, plan);
     }
@@ -94,7 +94,7 @@ void sweep_plan_free(sweep_plan *plan) {
 size_t sweep_variant_settings(const sweep_variant *variant, sweep_setting *settings) {
     const bench_filter *filter = &variant->filter;
     size_t count = lobe_filter_knob_count(filter->filter);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         snprintf(settings[i].name, sizeof settings[i].name, "%s",
                  lobe_filter_knob(filter->filter, i)->name);
         lobe_settings_print(filter->filter, &filter->settings, i, settings[i].value,

@@ -24,7 +24,7 @@ static double gigabytes_a_second(double bytes, double milliseconds) {
 }
 
 static void print_passes(const sweep_row *row) {
-    for (size_t i = 0; i < row->pass_count; ++i) {
+    for (size_t i = 0; i < row->pass_count; i++) {
         const sweep_pass *pass = &row->passes[i];
         if (pass->building)
             printf("  %-10s %-36s %10.2f %10.2f %10.2f %10.2f\n", row->filter, pass->name,
@@ -48,13 +48,13 @@ static void print_scene(const sweep_results *results, const sweep_scene *scene) 
            "building", "shading", "retained", "MiB", "bytes a", "rel. L2", "rel. L1", "FLIP",
            "flicker");
     printf("  %-10s %-20s %10s %10s %10s %8s %8s\n", "", "", "ms", "ms", "ms", "", "texel");
-    for (size_t i = 0; i < results->row_count; ++i) {
+    for (size_t i = 0; i < results->row_count; i++) {
         if (is_of(&results->rows[i], scene))
             print_row(&results->rows[i]);
     }
     printf("  %-47s %10s %10s %10s %10s\n", "passes that build, at the defaults", "ms", "MiB",
            "GB/s", "copy GB/s");
-    for (size_t i = 0; i < results->row_count; ++i) {
+    for (size_t i = 0; i < results->row_count; i++) {
         if (is_of(&results->rows[i], scene) && results->rows[i].varied[0] == '\0')
             print_passes(&results->rows[i]);
     }
@@ -68,6 +68,6 @@ void sweep_print(const sweep_results *results) {
            "takes "
            "%d.\n",
            results->reference_samples, results->path_samples, BENCH_TIMED_SAMPLES);
-    for (size_t i = 0; i < results->scene_count; ++i)
+    for (size_t i = 0; i < results->scene_count; i++)
         print_scene(results, &results->scenes[i]);
 }

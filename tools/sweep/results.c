@@ -139,7 +139,7 @@ static const structure results_structure = STRUCTURE(sweep_results, results_memb
 // Freeing
 
 static void free_members(const structure *structure, void *object) {
-    for (size_t i = 0; i < structure->member_count; ++i) {
+    for (size_t i = 0; i < structure->member_count; i++) {
         const member *member = &structure->members[i];
         char *field = (char *)object + member->offset;
         if (member->kind == MEMBER_TEXT || member->kind == MEMBER_OPTIONAL_TEXT)
@@ -148,7 +148,7 @@ static void free_members(const structure *structure, void *object) {
             continue;
         char *elements = *(char **)field;
         size_t count = *(size_t *)((char *)object + member->count_offset);
-        for (size_t k = 0; k < count; ++k)
+        for (size_t k = 0; k < count; k++)
             free_members(member->element, elements + k * member->element->size);
         free(elements);
     }
@@ -183,7 +183,7 @@ static cJSON *describe_number(double value) {
 
 static cJSON *describe_list(const structure *element, const char *elements, size_t count) {
     cJSON *list = cJSON_CreateArray();
-    for (size_t i = 0; list && i < count; ++i) {
+    for (size_t i = 0; list && i < count; i++) {
         cJSON *item = describe_structure(element, elements + i * element->size);
         if (item && cJSON_AddItemToArray(list, item))
             continue;
@@ -226,7 +226,7 @@ static cJSON *describe_member(const member *member, const void *object) {
 /// NULL without memory.
 static cJSON *describe_structure(const structure *structure, const void *object) {
     cJSON *described = cJSON_CreateObject();
-    for (size_t i = 0; described && i < structure->member_count; ++i) {
+    for (size_t i = 0; described && i < structure->member_count; i++) {
         const member *member = &structure->members[i];
         cJSON *item = describe_member(member, object);
         if (item && cJSON_AddItemToObject(described, member->name, item))
@@ -400,7 +400,7 @@ static lobe_result read_structure(reader *reader, const structure *structure, co
     if (!cJSON_IsObject(item))
         return malformed(reader, "not an object");
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < structure->member_count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < structure->member_count; i++) {
         const member *member = &structure->members[i];
         size_t length = enter(reader, "%s%s", reader->place[0] ? "." : "", member->name);
         result = read_member(reader, member, cJSON_GetObjectItemCaseSensitive(item, member->name),
@@ -430,80 +430,4 @@ lobe_result sweep_results_read(const char *path, const lobe_host *host, sweep_re
     if (result != LOBE_OK)
         sweep_results_free(results);
     return result;
-}
-
-// ---------------------------------------------------------------------------------------------
-// Finding
-
-const sweep_scene *sweep_results_scene(const sweep_results *results, const char *name) {
-    for (size_t i = 0; i < results->scene_count; ++i) {
-        if (strcmp(results->scenes[i].name, name) == 0)
-            return &results->scenes[i];
-    }
-    return NULL;
-}
-
-/// No text is as good as an empty one.
-static bool same_text(const char *a, const char *b) {
-    return strcmp(a ? a : "", b ? b : "") == 0;
-}
-
-bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *environment,
-                    const char *lighting) {
-    return strcmp(entry->scene ? entry->scene : entry->name, scene) == 0 &&
-           same_text(entry->environment, environment) && same_text(entry->lighting, lighting);
-}
-
-/// The reference is the mean of two of chances of their own. Of a picture's square distance from
-/// it, what the products of its distances from both leave is theirs (noise_of in sweep_measure.c).
-double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
-    const double error = row->error.relative_l2;
-    if (isnan(scene->noise) || isnan(error))
-        return error;
-    return error > scene->noise ? sqrt(error * error - scene->noise * scene->noise) : 0;
-}
-
-const char *sweep_row_value(const sweep_row *row, const char *knob) {
-    for (size_t i = 0; i < row->setting_count; ++i) {
-        if (strcmp(row->settings[i].name, knob) == 0)
-            return row->settings[i].value;
-    }
-    return NULL;
-}
-
-static bool is_of(const sweep_row *row, const char *scene, const char *filter) {
-    return strcmp(row->scene, scene) == 0 && strcmp(row->filter, filter) == 0;
-}
-
-const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
-                                       const char *filter) {
-    for (size_t i = 0; i < results->row_count; ++i) {
-        if (is_of(&results->rows[i], scene, filter) && results->rows[i].varied[0] == '\0')
-            return &results->rows[i];
-    }
-    return NULL;
-}
-
-static bool has_setting(const sweep_row *row, const sweep_setting *setting) {
-    const char *value = sweep_row_value(row, setting->name);
-    return value && strcmp(value, setting->value) == 0;
-}
-
-static bool has_settings(const sweep_row *row, const sweep_setting *settings, size_t count) {
-    for (size_t i = 0; i < count; ++i) {
-        if (!has_setting(row, &settings[i]))
-            return false;
-    }
-    return row->setting_count == count;
-}
-
-const sweep_row *sweep_results_row(const sweep_results *results, const char *scene,
-                                   const char *filter, const sweep_setting *settings,
-                                   size_t setting_count) {
-    for (size_t i = 0; i < results->row_count; ++i) {
-        const sweep_row *row = &results->rows[i];
-        if (is_of(row, scene, filter) && has_settings(row, settings, setting_count))
-            return row;
-    }
-    return NULL;
 }

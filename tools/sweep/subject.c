@@ -33,7 +33,7 @@ static bool same(const char *a, const char *b) {
 /// Of one name must be one scene in one environment.
 static lobe_result check_name(const sweep_subject *subjects, size_t index, const lobe_host *host) {
     const sweep_subject *added = &subjects[index];
-    for (size_t i = 0; i < index; ++i) {
+    for (size_t i = 0; i < index; i++) {
         const sweep_subject *other = &subjects[i];
         if (strcmp(other->name, added->name) == 0 && !same(other->environment, added->environment))
             return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
@@ -49,7 +49,7 @@ lobe_result sweep_subjects_list(const option_list *scenes, const option_list *en
     *count = 0;
     *subjects = calloc(scenes->count * each + 1, sizeof **subjects);
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; *subjects && result == LOBE_OK && i < scenes->count * each; ++i) {
+    for (size_t i = 0; *subjects && result == LOBE_OK && i < scenes->count * each; i++) {
         sweep_subject *added = &(*subjects)[(*count)++];
         added->scene = scenes->values[i / each];
         added->environment = environments->count > 0 ? environments->values[i % each] : NULL;
@@ -62,7 +62,7 @@ lobe_result sweep_subjects_list(const option_list *scenes, const option_list *en
 }
 
 void sweep_subjects_free(sweep_subject **subjects, size_t count) {
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         free((*subjects)[i].name);
     free(*subjects);
     *subjects = NULL;

@@ -10,33 +10,6 @@
 
 #include "tools/cli/device_options.h"
 
-bool sweep_stopped(const sweep_job *job) {
-    return *job->interrupted != 0;
-}
-
-static bool go_on(void *user, double part) {
-    (void)part;
-    return !sweep_stopped(user);
-}
-
-bool sweep_show_progress(void *user, double part) {
-    const sweep_job *job = user;
-    progress_part(job->bench.progress, part);
-    return !sweep_stopped(job);
-}
-
-lobe_render_parameters sweep_parameters(const sweep_job *job, const sweep_variant *variant) {
-    return (lobe_render_parameters){
-        .filter = variant->filter.filter,
-        .settings = &variant->filter.settings,
-        .width = job->bench.size[0],
-        .height = job->bench.size[1],
-        .reference.samples = BENCH_TIMED_SAMPLES,
-        .discard = true,
-        .host = {.progress = go_on, .user = (void *)job},
-    };
-}
-
 static lobe_result out_of_memory(const sweep_job *job) {
     return lobe_host_fail(job->bench.host, LOBE_ERROR_OUT_OF_MEMORY, "sweep: out of memory");
 }
@@ -132,7 +105,7 @@ static bool is_done(const sweep_job *job, const sweep_results *results,
         return scene != NULL;
     const sweep_plan *plan = plan_for(job, scene->environment != NULL);
     bool measured = true;
-    for (size_t i = 0; measured && i < plan->count; ++i) {
+    for (size_t i = 0; measured && i < plan->count; i++) {
         sweep_setting settings[LOBE_MAXIMUM_KNOBS];
         const sweep_variant *variant = &plan->variants[i];
         size_t count = sweep_variant_settings(variant, settings);
@@ -145,13 +118,13 @@ static bool is_done(const sweep_job *job, const sweep_results *results,
 
 static void remove_scene(sweep_results *results, const char *name) {
     size_t rows = 0, scenes = 0;
-    for (size_t i = 0; i < results->row_count; ++i) {
+    for (size_t i = 0; i < results->row_count; i++) {
         if (strcmp(results->rows[i].scene, name) == 0)
             sweep_row_free(&results->rows[i]);
         else
             results->rows[rows++] = results->rows[i];
     }
-    for (size_t i = 0; i < results->scene_count; ++i) {
+    for (size_t i = 0; i < results->scene_count; i++) {
         if (strcmp(results->scenes[i].name, name) == 0)
             sweep_scene_free(&results->scenes[i]);
         else
@@ -228,7 +201,7 @@ static lobe_result open_scene(const sweep_job *job, const sweep_subject *subject
     reason_log kept = {.host = job->bench.host};
     const lobe_host host = {.write = keep_reason, .user = &kept};
     if (try_scene(job, subject, &host, scene) == LOBE_OK) {
-        for (size_t i = 0; i < (*scene)->instance_count; ++i)
+        for (size_t i = 0; i < (*scene)->instance_count; i++)
             entry->triangles += (*scene)->meshes[(*scene)->instances[i].mesh].index_count / 3;
         return LOBE_OK;
     }
@@ -288,7 +261,7 @@ static lobe_result measure_scene(const sweep_job *job, const sweep_subject *subj
         result = add_scene(job, results, &entry, rows, count);
         kept = result == LOBE_OK;
     }
-    for (size_t i = 0; rows && !kept && i < count; ++i)
+    for (size_t i = 0; rows && !kept && i < count; i++)
         sweep_row_free(&rows[i]);
     if (!kept)
         sweep_scene_free(&entry);
@@ -308,7 +281,7 @@ typedef struct subject_list {
 static size_t count_done(const sweep_job *job, const sweep_results *results,
                          const subject_list *list) {
     size_t done = 0;
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         done += is_done(job, results, &list->subjects[i]);
     return done;
 }
@@ -317,7 +290,7 @@ static size_t count_done(const sweep_job *job, const sweep_results *results,
 static lobe_result check_former(const sweep_job *job, const subject_list *list,
                                 sweep_results *results) {
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < list->count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < list->count; i++) {
         const char *name = list->subjects[i].name;
         const sweep_scene *scene = sweep_results_scene(results, name);
         if (scene && scene->skipped)
@@ -337,7 +310,7 @@ static lobe_result write_results(const sweep_job *job, const subject_list *list,
 static void expect_work(const sweep_job *job, const sweep_results *results,
                         const subject_list *list) {
     double work = 0;
-    for (size_t i = 0; i < list->count; ++i) {
+    for (size_t i = 0; i < list->count; i++) {
         if (!is_done(job, results, &list->subjects[i]))
             work += work_of(job, &list->subjects[i]);
     }
@@ -349,7 +322,7 @@ static lobe_result measure_scenes(const sweep_job *job, const subject_list *list
     expect_work(job, results, list);
     bool measured = count_done(job, results, list) == list->count;
     lobe_result result = measured ? write_results(job, list, results) : LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < list->count && !sweep_stopped(job); ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < list->count && !sweep_stopped(job); i++) {
         if (is_done(job, results, &list->subjects[i]))
             continue;
         result = measure_scene(job, &list->subjects[i], results);

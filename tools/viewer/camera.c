@@ -7,7 +7,7 @@
 #define MINIMUM_ANGLE 0.02
 
 static void subtract(const float a[3], const float b[3], double difference[3]) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         difference[i] = (double)a[i] - b[i];
 }
 
@@ -21,12 +21,12 @@ static double length(const double vector[3]) {
 
 static void normalise(double vector[3]) {
     const double size = length(vector);
-    for (int i = 0; i < 3 && size > 0; ++i)
+    for (int i = 0; i < 3 && size > 0; i++)
         vector[i] /= size;
 }
 
 static void cross(const double a[3], const double b[3], double product[3]) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
@@ -35,7 +35,7 @@ static void turn(const double axis[3], double angle, double vector[3]) {
     double across[3];
     cross(axis, vector, across);
     const double along = dot(axis, vector) * (1 - cos(angle));
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         vector[i] = vector[i] * cos(angle) + across[i] * sin(angle) + axis[i] * along;
 }
 
@@ -47,7 +47,7 @@ typedef struct axes {
 
 static axes axes_of(const lobe_camera *camera) {
     axes a;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         a.upright[i] = camera->up[i];
     normalise(a.upright);
     subtract(camera->target, camera->eye, a.forward);
@@ -71,7 +71,7 @@ static double limit_pitch(const axes *a, double up) {
 }
 
 static void move(float point[3], const double direction[3], double size) {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         point[i] = (float)(point[i] + direction[i] * size);
 }
 
@@ -113,7 +113,7 @@ void viewer_camera_pan(lobe_camera *camera, double right, double up) {
 void viewer_camera_fly(lobe_camera *camera, const double steps[3]) {
     const axes a = axes_of(camera);
     const double *directions[3] = {a.right, a.up, a.forward};
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         move(camera->eye, directions[i], steps[i] * a.distance);
         move(camera->target, directions[i], steps[i] * a.distance);
     }

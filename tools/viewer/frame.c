@@ -47,7 +47,7 @@ lobe_result viewer_frame_finish(const viewer_device *device, viewer_frame *frame
         return result;
     frame->under_way = false;
     result = VULKAN_CHECK(&device->host, vkResetFences(vulkan, 1, &frame->done), "frame");
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+    for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = viewer_side_finish(&sides[i]);
     return result;
 }
@@ -107,7 +107,7 @@ lobe_result viewer_frame_draw(const viewer_view *view, viewer_frame *frame, view
     uint32_t count = 0;
     lobe_result result = VULKAN_CHECK(
         &device->host, vkResetCommandPool(device->vulkan.device, frame->pool, 0), "frame");
-    for (int i = 0; i < side_count && result == LOBE_OK; ++i) {
+    for (int i = 0; i < side_count && result == LOBE_OK; i++) {
         bool is_recorded;
         result = record_side(view, &sides[i], frame->commands[i], &is_recorded);
         if (is_recorded)

@@ -26,7 +26,7 @@ static void next_comparison(viewer *v) {
 }
 
 static void next_filter(viewer *v) {
-    for (size_t i = 0; i < lobe_filter_count(); ++i) {
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
         if (lobe_filter_get(i) != v->sides[0].filter)
             continue;
         viewer_set_filter(&v->sides[0], lobe_filter_get((i + 1) % lobe_filter_count()));
@@ -35,7 +35,7 @@ static void next_filter(viewer *v) {
 }
 
 static void next_output(viewer *v) {
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         v->sides[i].output = (viewer_output)((v->sides[i].output + 1) % 3);
         v->sides[i].stale = true;
     }
@@ -43,22 +43,22 @@ static void next_output(viewer *v) {
 
 static void turn_left(viewer *v) {
     viewer_camera_orbit(&v->view.camera, -TURN, 0);
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 static void turn_right(viewer *v) {
     viewer_camera_orbit(&v->view.camera, TURN, 0);
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 static void turn_up(viewer *v) {
     viewer_camera_orbit(&v->view.camera, 0, TURN);
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 static void turn_down(viewer *v) {
     viewer_camera_orbit(&v->view.camera, 0, -TURN);
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 static void brighten(viewer *v) {
@@ -121,7 +121,7 @@ const viewer_key viewer_keys[] = {
 const size_t viewer_key_count = sizeof viewer_keys / sizeof *viewer_keys;
 
 void viewer_keys_press(viewer *v, int key) {
-    for (size_t i = 0; i < viewer_key_count; ++i)
+    for (size_t i = 0; i < viewer_key_count; i++)
         if (viewer_keys[i].key == key && viewer_keys[i].press)
             viewer_keys[i].press(v);
 }
@@ -139,7 +139,7 @@ bool viewer_keys_fly(const viewer *v, double seconds, double steps[3]) {
         held(v, GLFW_KEY_W) - held(v, GLFW_KEY_S),
     };
     bool any = false;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         steps[i] = size * directions[i];
         any = any || directions[i] != 0;
     }

@@ -26,7 +26,7 @@ static void wish(char **place, const char *text) {
 
 const char *viewer_name_of(const char *path) {
     const char *name = path;
-    for (const char *c = path; *c; ++c)
+    for (const char *c = path; *c; c++)
         if (*c == '/' && c[1] != '\0')
             name = c + 1;
     return name;
@@ -36,19 +36,19 @@ const char *viewer_name_of(const char *path) {
 static void announce(viewer *v, const char *name) {
     char text[VIEWER_MESSAGE_SIZE];
     snprintf(text, sizeof text, "opening %.400s ...", viewer_name_of(name));
-    viewer_say(v, text);
+    viewer_show_message(v, text);
     v->opens = true;
     v->frames_to_opening = FRAMES_TO_OPENING;
 }
 
-void viewer_light(viewer *v, const char *environment) {
+void viewer_request_light(viewer *v, const char *environment) {
     wish(&v->wanted_environment, environment);
     announce(v, environment);
 }
 
-void viewer_drop(viewer *v, const char *path) {
+void viewer_request_opening(viewer *v, const char *path) {
     if (output_file_has_ending(path, ".hdr") || output_file_has_ending(path, ".exr"))
-        viewer_light(v, path);
+        viewer_request_light(v, path);
     else {
         wish(&v->wanted_scene, path);
         announce(v, path);
@@ -84,7 +84,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
 static lobe_result give_scene(viewer *v, const lobe_scene *scene) {
     v->view.scene = scene;
     lobe_result result = LOBE_OK;
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+    for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = viewer_side_set_scene(&v->view, &v->sides[i]);
     return result;
 }
@@ -124,10 +124,10 @@ static lobe_result replace_environment(viewer *v, const char *name) {
                                  .background = environment != NULL};
     v->turned = 0;
     lobe_result result = LOBE_OK;
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+    for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = lobe_renderer_update_scene(v->sides[i].renderer,
                                             &(lobe_scene_changes){.environment = true});
-    viewer_changed(v);
+    viewer_redraw_scene(v);
     return result;
 }
 
@@ -136,7 +136,7 @@ static void end_announcement(viewer *v) {
     if (!v->opens || v->sides[0].stale)
         return;
     v->opens = false;
-    viewer_say(v, "");
+    viewer_show_message(v, "");
 }
 
 lobe_result viewer_open_wanted(viewer *v) {

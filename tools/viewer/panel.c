@@ -31,7 +31,7 @@ static void choose_scene(viewer *v) {
         if (strcmp(scene_list_get(i).name, v->scene->name) != 0)
             names[count++] = scene_list_get(i).name;
     if (imgui_choice("scene", names, count, &chosen))
-        viewer_drop(v, names[chosen]);
+        viewer_request_opening(v, names[chosen]);
     imgui_tooltip("or drop a glTF file, or a folder of maps, onto the window");
 }
 
@@ -52,7 +52,7 @@ static void set_environment(viewer *v) {
     lobe_environment_turn(environment, turned - v->turned);
     v->turned = turned;
     v->scene->environment_visible = visible;
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 static void choose_environment(viewer *v) {
@@ -66,7 +66,7 @@ static void choose_environment(viewer *v) {
         names[1] = names[2];
     const size_t count = environment && strcmp(environment->name, "sky") != 0 ? 3 : 2;
     if (imgui_choice("light", names, count, &chosen))
-        viewer_light(v, names[chosen]);
+        viewer_request_light(v, names[chosen]);
     imgui_tooltip("light from all around: drop an .hdr or .exr file onto the window");
     if (environment)
         set_environment(v);
@@ -78,7 +78,7 @@ static void choose_environment(viewer *v) {
 static bool choose_filter(viewer_side *side) {
     const char *names[MAXIMUM_CHOICES];
     size_t count = 0, chosen = 0;
-    for (; count < lobe_filter_count() && count < MAXIMUM_CHOICES; ++count) {
+    for (; count < lobe_filter_count() && count < MAXIMUM_CHOICES; count++) {
         names[count] = lobe_filter_name(lobe_filter_get(count));
         if (lobe_filter_get(count) == side->filter)
             chosen = count;
@@ -120,7 +120,7 @@ static bool set_knob(const lobe_knob *knob, double *value) {
 /// Those that tell in environments alone, or the others.
 static bool set_knobs(viewer_side *side, bool of_environments) {
     bool changed = false;
-    for (size_t i = 0; i < lobe_filter_knob_count(side->filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(side->filter); i++) {
         const lobe_knob *knob = lobe_filter_knob(side->filter, i);
         if (knob->environment != of_environments)
             continue;
@@ -149,9 +149,9 @@ static void choose_output(viewer *v) {
     static const char *const outputs[] = {"radiance", "normal", "depth"};
     size_t chosen = (size_t)v->sides[0].output;
     if (imgui_choice("show", outputs, 3, &chosen)) {
-        for (int i = 0; i < 2; ++i)
+        for (int i = 0; i < 2; i++)
             v->sides[i].output = (viewer_output)chosen;
-        viewer_changed(v);
+        viewer_redraw_scene(v);
     }
     imgui_tooltip("radiance: or what the filter's knob 'view' asks for");
     imgui_number("exposure", -VIEWER_MAXIMUM_EXPOSURE, VIEWER_MAXIMUM_EXPOSURE, &v->look.exposure);
@@ -160,7 +160,7 @@ static void choose_output(viewer *v) {
 
 static void show_samples(const viewer *v) {
     char text[64];
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         if (!viewer_side_supersamples(&v->sides[i]) ||
             (i == 1 && v->look.comparison == VIEWER_SINGLE))
             continue;
@@ -201,7 +201,7 @@ static void choose_comparison(viewer *v) {
 static void show_skipped(const viewer_side *side) {
     char text[1024] = "skipped:";
     size_t length = strlen(text);
-    for (size_t i = 0; i < side->pass_count && length < sizeof text; ++i)
+    for (size_t i = 0; i < side->pass_count && length < sizeof text; i++)
         if (side->passes[i].skipped > 0)
             length += (size_t)snprintf(text + length, sizeof text - length, "%s %s",
                                        text[length - 1] == ':' ? "" : ",", side->passes[i].name);
@@ -213,7 +213,7 @@ static void show_passes(const viewer_side *side) {
     char text[64];
     snprintf(text, sizeof text, "%.2f ms", side->milliseconds);
     imgui_line(lobe_filter_name(side->filter), text);
-    for (size_t i = 0; i < side->pass_count; ++i) {
+    for (size_t i = 0; i < side->pass_count; i++) {
         const viewer_pass *pass = &side->passes[i];
         if (pass->run == 0)
             continue;
@@ -303,7 +303,7 @@ static void show_help(const viewer *v) {
     const float margin = MARGIN * v->scale;
     const float size[2] = {0, (float)v->swapchain.height - 2 * margin};
     imgui_begin_panel("keys", (float[2]){left_of_room(v), margin}, size);
-    for (size_t i = 0; i < viewer_key_count; ++i)
+    for (size_t i = 0; i < viewer_key_count; i++)
         imgui_term(viewer_keys[i].name, viewer_keys[i].summary);
     imgui_end_panel();
 }

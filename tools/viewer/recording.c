@@ -27,7 +27,7 @@ static void stem_of(const char *name, char stem[NAME_MAX]) {
 static bool choose_path(const viewer *v, char path[PATH_MAX]) {
     char stem[NAME_MAX];
     stem_of(v->scene->name, stem);
-    for (unsigned number = 0; number < 1000000; ++number) {
+    for (unsigned number = 0; number < 1000000; number++) {
         const int length =
             snprintf(path, PATH_MAX, "%s/%s-%04u.exr", v->request->folder, stem, number);
         if (length < PATH_MAX && access(path, F_OK) != 0)
@@ -97,7 +97,7 @@ void viewer_record(viewer *v) {
                       v->request->folder);
     else if (record(v, &v->sides[0], path) == LOBE_OK) {
         snprintf(text, sizeof text, "recorded %s", path);
-        viewer_say(v, text);
+        viewer_show_message(v, text);
         return;
     }
     viewer_record_path(v, false);

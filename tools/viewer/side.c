@@ -60,7 +60,7 @@ bool viewer_side_has_work(const viewer_view *view, const viewer_side *side) {
 
 /// The line of that name; one is added where there is none.
 static viewer_pass *line_of(viewer_side *side, const char *name) {
-    for (size_t i = 0; i < side->pass_count; ++i)
+    for (size_t i = 0; i < side->pass_count; i++)
         if (strcmp(side->passes[i].name, name) == 0)
             return &side->passes[i];
     if (side->pass_count == VIEWER_MAXIMUM_PASSES)
@@ -84,7 +84,7 @@ static void add_pass(viewer_side *side, const lobe_pass_report *pass) {
 static void take_times(viewer_side *side) {
     const lobe_graph_report *report = lobe_graph_describe(lobe_renderer_graph(side->renderer));
     side->pass_count = 0;
-    for (size_t i = 0; i < report->pass_count; ++i)
+    for (size_t i = 0; i < report->pass_count; i++)
         add_pass(side, &report->passes[i]);
     side->milliseconds = report->milliseconds;
 }
@@ -129,7 +129,7 @@ static void add_samples(viewer_side *side, const lobe_image *radiance, uint32_t 
     const float *texels = radiance->texels;
     float *mean = side->mean_image.texels;
     side->samples += count;
-    for (size_t i = 0; i < (size_t)radiance->width * radiance->height * 4; ++i) {
+    for (size_t i = 0; i < (size_t)radiance->width * radiance->height * 4; i++) {
         side->sum[i] += (double)texels[i] * count;
         mean[i] = (float)(side->sum[i] / side->samples);
     }
@@ -233,7 +233,7 @@ static const lobe_filter *filter_to_draw(const viewer_side *side, lobe_settings 
 
 static float reach(const lobe_camera *camera) {
     float squared = 0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         squared += (camera->target[i] - camera->eye[i]) * (camera->target[i] - camera->eye[i]);
     return sqrtf(squared);
 }

@@ -18,7 +18,7 @@ static int choose_filter(const view_texts *texts, viewer_request *request, const
     if (lobe_filter_find(texts->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
-    for (size_t i = 0; i < texts->assignments.count; ++i)
+    for (size_t i = 0; i < texts->assignments.count; i++)
         if (lobe_settings_set(request->filter, &request->settings, texts->assignments.values[i],
                               host) != LOBE_OK)
             return 2;
@@ -49,7 +49,7 @@ static int run_request(const option_table *table, const view_texts *texts,
 /// The keys, from the table that the window's help is made of.
 static void describe_keys(FILE *stream) {
     roff_section(stream, "KEYS");
-    for (size_t i = 0; i < viewer_key_count; ++i)
+    for (size_t i = 0; i < viewer_key_count; i++)
         roff_item(stream, viewer_keys[i].name, NULL, viewer_keys[i].summary);
 }
 

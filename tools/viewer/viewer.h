@@ -41,6 +41,10 @@ typedef enum viewer_drag {
 
 #define VIEWER_MESSAGE_SIZE 512
 
+/// Frames drawn after an input: panels need one to see the mouse, one to act, one to show the
+/// result.
+#define VIEWER_REDRAWS 3
+
 /// The whole program, from open to close.
 typedef struct viewer {
     const viewer_request *request;
@@ -91,11 +95,11 @@ lobe_result viewer_run(const viewer_request *request, const lobe_host *console);
 // What keys and panels ask for
 
 /// The next frame draws the scene again: camera, knobs or light have changed.
-void viewer_changed(viewer *v);
+void viewer_redraw_scene(viewer *v);
 /// The next frames draw the panels again.
-void viewer_touched(viewer *v);
+void viewer_redraw_panels(viewer *v);
 /// Shows a line in the window.
-void viewer_say(viewer *v, const char *text);
+void viewer_show_message(viewer *v, const char *text);
 /// The scene's own camera.
 void viewer_reset_camera(viewer *v);
 /// Another filter on one side, with its default knobs but for those of the same name.
@@ -103,9 +107,9 @@ void viewer_set_filter(viewer_side *side, const lobe_filter *filter);
 void viewer_set_comparison(viewer *v, viewer_comparison comparison);
 /// Opens a scene (a name, a file or a folder), or an environment where the name ends so, before the
 /// next frame. Copied.
-void viewer_drop(viewer *v, const char *path);
+void viewer_request_opening(viewer *v, const char *path);
 /// Lights the scene by a file, "sky" or "none" before the next frame. Copied.
-void viewer_light(viewer *v, const char *environment);
+void viewer_request_light(viewer *v, const char *environment);
 /// Moves the camera to a frame of its path.
 void viewer_go_to(viewer *v, uint32_t path_frame);
 /// Starts or ends recording the camera's path.

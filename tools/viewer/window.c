@@ -20,7 +20,7 @@
 
 static viewer *viewer_of(GLFWwindow *window) {
     viewer *v = glfwGetWindowUserPointer(window);
-    viewer_touched(v);
+    viewer_redraw_panels(v);
     return v;
 }
 
@@ -58,7 +58,7 @@ static void drag(viewer *v, double right, double down) {
         viewer_camera_look(camera, TURN_OF_HEIGHT * right, -TURN_OF_HEIGHT * down);
     else
         viewer_camera_pan(camera, -right, down);
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 /// GLFW tells places in the window's own units, of which a pixel may be a part.
@@ -92,7 +92,7 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
     if (imgui_takes_mouse())
         return;
     viewer_camera_zoom(&v->view.camera, pow(ZOOM, y));
-    viewer_changed(v);
+    viewer_redraw_scene(v);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -109,8 +109,8 @@ static void on_key(GLFWwindow *window, int key, int code, int action, int modifi
 
 static void on_drop(GLFWwindow *window, int count, const char **paths) {
     viewer *v = viewer_of(window);
-    for (int i = 0; i < count; ++i)
-        viewer_drop(v, paths[i]);
+    for (int i = 0; i < count; i++)
+        viewer_request_opening(v, paths[i]);
 }
 
 static void on_resize(GLFWwindow *window, int width, int height) {

@@ -40,7 +40,7 @@ static void assert_choice(const trade_choice *choice, const sweep_row *picked,
 /// Five rows on a front and one behind it.
 static void make_front(void) {
     const double costs[][2] = {{1, 0.8}, {5, 0.4}, {9, 0.2}, {8, 0.5}, {12, 0.1}, {30, 0.05}};
-    for (size_t i = 0; i < COUNT_OF(costs); ++i)
+    for (size_t i = 0; i < COUNT_OF(costs); i++)
         rows[i] = row_of(costs[i][0], costs[i][1]);
 }
 
@@ -114,7 +114,7 @@ static void of_equal_times_the_more_exact_is_picked(void **state) {
 
 static void of_equal_rows_the_first_is_picked(void **state) {
     (void)state;
-    for (size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < 3; i++)
         rows[i] = row_of(4, 0.05);
     trade_choice choice = choose(&within_10_ms, 3);
     assert_choice(&choice, &rows[0], &rows[0], NULL);
@@ -131,7 +131,7 @@ static void rows_without_time_or_error_are_passed_over(void **state) {
     rows[4] = row_of(INFINITY, 0.01);
     rows[5] = row_of(1, -1);
     rows[6] = row_of(7, 0.09);
-    for (int kind = 0; kind < 2; ++kind) {
+    for (int kind = 0; kind < 2; kind++) {
         const trade_request *request = kind == 0 ? &within_10_ms : &errs_by_a_tenth;
         trade_choice choice = choose(request, 7);
         assert_choice(&choice, &rows[6], &rows[6], NULL);

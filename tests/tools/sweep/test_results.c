@@ -121,7 +121,7 @@ static void assert_refused(lobe_result expected, const char *words) {
 // Cases
 
 static void assert_errors_equal(const error_metrics *a, const error_metrics *b) {
-    for (int i = 0; i < ERROR_METRICS_COUNT; ++i) {
+    for (int i = 0; i < ERROR_METRICS_COUNT; i++) {
         double value = error_metrics_value(a, i), expected = error_metrics_value(b, i);
         assert_true(isfinite(expected) ? value == expected : isnan(value));
     }
@@ -137,7 +137,7 @@ static void assert_rows_equal(const sweep_row *a, const sweep_row *b) {
     assert_string_equal(a->scene, b->scene);
     assert_string_equal(a->filter, b->filter);
     assert_int_equal(a->setting_count, b->setting_count);
-    for (size_t i = 0; i < b->setting_count; ++i) {
+    for (size_t i = 0; i < b->setting_count; i++) {
         assert_string_equal(a->settings[i].name, b->settings[i].name);
         assert_string_equal(a->settings[i].value, b->settings[i].value);
     }
@@ -154,7 +154,7 @@ static void assert_rows_equal(const sweep_row *a, const sweep_row *b) {
 
 static void assert_passes_equal(const sweep_row *a, const sweep_row *b) {
     assert_int_equal(a->pass_count, b->pass_count);
-    for (size_t i = 0; i < b->pass_count; ++i) {
+    for (size_t i = 0; i < b->pass_count; i++) {
         const sweep_pass *pass = &a->passes[i], *expected = &b->passes[i];
         assert_string_equal(pass->name, expected->name);
         assert_true(pass->milliseconds == expected->milliseconds && pass->count == expected->count);
@@ -180,7 +180,7 @@ static void everything_comes_back(void **state) {
     assert_int_equal(read.frames, 20);
     assert_true(read.complete);
     assert_int_equal(read.scene_count, 2);
-    for (size_t i = 0; i < 2; ++i) {
+    for (size_t i = 0; i < 2; i++) {
         assert_string_equal(read.scenes[i].name, scenes[i].name);
         assert_texts_equal(read.scenes[i].scene, scenes[i].scene);
         assert_texts_equal(read.scenes[i].environment, scenes[i].environment);
@@ -191,7 +191,7 @@ static void everything_comes_back(void **state) {
         assert_texts_equal(read.scenes[i].skipped, scenes[i].skipped);
     }
     assert_int_equal(read.row_count, 2);
-    for (size_t i = 0; i < 2; ++i) {
+    for (size_t i = 0; i < 2; i++) {
         assert_rows_equal(&read.rows[i], &rows[i]);
         assert_passes_equal(&read.rows[i], &rows[i]);
     }
@@ -253,7 +253,7 @@ static void malformed_members_are_named(void **state) {
          "rows[1].settings[0].value: too long"},
         {"\"picture\":\tnull", "\"picture\":\t3", "rows[1].picture: not a text"},
     };
-    for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
         write_changed(faults[i].piece, faults[i].by);
         assert_refused(LOBE_ERROR_MALFORMED, faults[i].named);
     }
@@ -264,7 +264,7 @@ static void other_lists_and_objects_are_refused(void **state) {
     static const struct {
         const char *text, *named;
     } faults[] = {{"[]", "the whole: not an object"}, {"{}", "version: missing"}, {"", "not JSON"}};
-    for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
         const char *text = faults[i].text;
         assert_int_equal(lobe_file_write(results_file(), text, strlen(text), NULL), LOBE_OK);
         assert_refused(LOBE_ERROR_MALFORMED, faults[i].named);

@@ -139,7 +139,7 @@ static void draw_panels(viewer_display *display, const viewer_swapchain *swapcha
                      .wrap_u = LOBE_WRAP_CLAMP,
                      .wrap_v = LOBE_WRAP_CLAMP}},
     };
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         draw_batch(pass, &batches[i], bindings, swapchain);
 }
 

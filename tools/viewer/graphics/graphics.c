@@ -16,7 +16,7 @@ lobe_result viewer_graphics_open(viewer *v) {
         result = viewer_frame_open(&v->device, &v->frame);
     if (result == LOBE_OK)
         result = viewer_display_open(&v->device, &v->display);
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+    for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = viewer_side_open(&v->view, &v->sides[i]);
     v->view.width = v->view.height = 0; // images are made with the swapchain
     v->swapchain_is_stale = true;
@@ -27,7 +27,7 @@ void viewer_graphics_close(viewer *v) {
     if (v->device.vulkan.device)
         vkDeviceWaitIdle(v->device.vulkan.device);
     viewer_frame_close(&v->device, &v->frame);
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         viewer_side_close(&v->view, &v->sides[i]);
     viewer_display_close(&v->display);
     viewer_swapchain_destroy(&v->device, &v->swapchain);
@@ -48,7 +48,7 @@ static lobe_result resize_sides(viewer *v) {
         return LOBE_OK;
     v->view.width = v->swapchain.width;
     v->view.height = v->swapchain.height;
-    for (int i = 0; i < 2 && result == LOBE_OK; ++i)
+    for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = viewer_side_resize(&v->view, &v->sides[i]);
     return result;
 }
@@ -62,7 +62,7 @@ lobe_result viewer_graphics_resize(viewer *v) {
     const viewer_shown made = viewer_swapchain_renew(&v->device, (uint32_t)width, (uint32_t)height,
                                                      &v->swapchain, &result);
     if (made != VIEWER_SHOWN)
-        return viewer_graphics_judge(v, made, result);
+        return viewer_graphics_handle_result(v, made, result);
     if (v->swapchain.count == 0)
         return LOBE_OK;
     v->swapchain_is_stale = false;
@@ -87,12 +87,12 @@ static lobe_result renew_surface(viewer *v) {
     return result == LOBE_OK ? viewer_device_renew_surface(&v->device, v->window) : result;
 }
 
-lobe_result viewer_graphics_judge(viewer *v, viewer_shown shown, lobe_result result) {
+lobe_result viewer_graphics_handle_result(viewer *v, viewer_shown shown, lobe_result result) {
     if (shown == VIEWER_SHOWN)
         return LOBE_OK;
     if (shown == VIEWER_FAILED)
         return result;
-    viewer_touched(v); // what was not shown is drawn again
+    viewer_redraw_panels(v); // what was not shown is drawn again
     if (shown == VIEWER_BUSY)
         return LOBE_OK;
     v->swapchain_is_stale = true;

@@ -19,7 +19,7 @@ lobe_result viewer_graphics_rescale(struct viewer *v);
 
 /// What comes of showing: the swapchain, and the surface, may have to be made anew. `result` where
 /// that is not the way out.
-lobe_result viewer_graphics_judge(struct viewer *v, viewer_shown shown, lobe_result result);
+lobe_result viewer_graphics_handle_result(struct viewer *v, viewer_shown shown, lobe_result result);
 /// Opens a lost device again. LOBE_ERROR_DEVICE_LOST after a line where it is lost again and again.
 lobe_result viewer_graphics_recover(struct viewer *v);
 

@@ -49,7 +49,7 @@ static int add_filter(const option_table *table, bench_job *job, const char *nam
 static int choose_filters(const option_table *table, bench_request *request,
                           const lobe_host *host) {
     int status = 0;
-    for (size_t i = 0; !request->filters && status == 0 && i < lobe_filter_count(); ++i)
+    for (size_t i = 0; !request->filters && status == 0 && i < lobe_filter_count(); i++)
         status = add_filter(table, &request->job, lobe_filter_name(lobe_filter_get(i)), host);
     const char *rest = request->filters;
     while (rest && status == 0) {
@@ -64,7 +64,7 @@ static int choose_filters(const option_table *table, bench_request *request,
 
 static const lobe_knob *find_knob(const lobe_filter *filter, const char *assignment) {
     size_t length = strcspn(assignment, "=");
-    for (size_t i = 0; i < lobe_filter_knob_count(filter); ++i) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         const lobe_knob *knob = lobe_filter_knob(filter, i);
         if (strlen(knob->name) == length && memcmp(knob->name, assignment, length) == 0)
             return knob;
@@ -75,7 +75,7 @@ static const lobe_knob *find_knob(const lobe_filter *filter, const char *assignm
 /// A knob is set in every filter that has it; one at least must.
 static int set_knob(bench_job *job, const char *assignment, const lobe_host *host) {
     bool known = false;
-    for (size_t i = 0; i < job->filter_count; ++i) {
+    for (size_t i = 0; i < job->filter_count; i++) {
         bench_filter *filter = &job->filters[i];
         if (!find_knob(filter->filter, assignment))
             continue;
@@ -100,7 +100,7 @@ static int choose_truths(bench_request *request, const lobe_host *host) {
     if (lobe_filter_find("reference", host, &reference) != LOBE_OK)
         return 1;
     lobe_settings_default(reference, &job->truth);
-    for (size_t i = 0; i < request->assignments.count; ++i) {
+    for (size_t i = 0; i < request->assignments.count; i++) {
         const char *assignment = request->assignments.values[i];
         if (find_knob(reference, assignment) &&
             lobe_settings_set(reference, &job->truth, assignment, host) != LOBE_OK)
@@ -113,8 +113,8 @@ static int choose_truths(bench_request *request, const lobe_host *host) {
 
 /// What a sweep goes through it sets itself.
 static int check_set_beside_sweep(const option_table *table, const bench_request *request) {
-    for (size_t i = 0; request->sweep && i < request->assignments.count; ++i) {
-        for (size_t k = 0; k < lobe_filter_count(); ++k) {
+    for (size_t i = 0; request->sweep && i < request->assignments.count; i++) {
+        for (size_t k = 0; k < lobe_filter_count(); k++) {
             const lobe_knob *knob = find_knob(lobe_filter_get(k), request->assignments.values[i]);
             if (knob && knob->sweep && sweep_plan_lists(request->knobs, knob->name))
                 return options_usage_error(table, "--set %s: --sweep sets that knob itself",
@@ -144,7 +144,7 @@ static int check_sweep_usage(const option_table *table, const bench_request *req
 }
 
 static bool is_known_knob(const char *name) {
-    for (size_t i = 0; i < lobe_filter_count(); ++i) {
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
         if (find_knob(lobe_filter_get(i), name))
             return true;
     }
@@ -170,7 +170,7 @@ static int check_usage(const option_table *table, bench_request *request, const 
         status = check_knobs(table, request->knobs);
     if (status == 0)
         status = choose_filters(table, request, host);
-    for (size_t i = 0; status == 0 && i < request->assignments.count; ++i)
+    for (size_t i = 0; status == 0 && i < request->assignments.count; i++)
         status = set_knob(&request->job, request->assignments.values[i], host);
     return status == 0 ? choose_truths(request, host) : status;
 }
@@ -197,7 +197,7 @@ static lobe_result measure_scenes(const bench_request *request, bench_result *re
     const bench_job *job = &request->job;
     size_t measured = 0;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < request->scenes.count; ++i) {
+    for (size_t i = 0; result == LOBE_OK && i < request->scenes.count; i++) {
         bool left_out;
         result = measure_scene(request, request->scenes.values[i],
                                &results[measured * job->filter_count], &left_out);
@@ -239,7 +239,7 @@ static lobe_result measure_all(const bench_request *request, bench_result *resul
         result = write_json(request, results, count);
     if (result == LOBE_OK)
         bench_print(job, results, count);
-    for (size_t i = 0; i < request->scenes.count * job->filter_count; ++i)
+    for (size_t i = 0; i < request->scenes.count * job->filter_count; i++)
         bench_result_free(&results[i]);
     return result;
 }

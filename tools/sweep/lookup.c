@@ -1,0 +1,77 @@
+#include "tools/sweep/results.h"
+
+#include <math.h>
+#include <string.h>
+
+const sweep_scene *sweep_results_scene(const sweep_results *results, const char *name) {
+    for (size_t i = 0; i < results->scene_count; i++) {
+        if (strcmp(results->scenes[i].name, name) == 0)
+            return &results->scenes[i];
+    }
+    return NULL;
+}
+
+/// No text is as good as an empty one.
+static bool same_text(const char *a, const char *b) {
+    return strcmp(a ? a : "", b ? b : "") == 0;
+}
+
+bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *environment,
+                    const char *lighting) {
+    return strcmp(entry->scene ? entry->scene : entry->name, scene) == 0 &&
+           same_text(entry->environment, environment) && same_text(entry->lighting, lighting);
+}
+
+/// The reference is the mean of two of chances of their own. Of a picture's square distance from
+/// it, what the products of its distances from both leave is theirs (noise_of in sweep_measure.c).
+double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
+    const double error = row->error.relative_l2;
+    if (isnan(scene->noise) || isnan(error))
+        return error;
+    return error > scene->noise ? sqrt(error * error - scene->noise * scene->noise) : 0;
+}
+
+const char *sweep_row_value(const sweep_row *row, const char *knob) {
+    for (size_t i = 0; i < row->setting_count; i++) {
+        if (strcmp(row->settings[i].name, knob) == 0)
+            return row->settings[i].value;
+    }
+    return NULL;
+}
+
+static bool is_of(const sweep_row *row, const char *scene, const char *filter) {
+    return strcmp(row->scene, scene) == 0 && strcmp(row->filter, filter) == 0;
+}
+
+const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
+                                       const char *filter) {
+    for (size_t i = 0; i < results->row_count; i++) {
+        if (is_of(&results->rows[i], scene, filter) && results->rows[i].varied[0] == '\0')
+            return &results->rows[i];
+    }
+    return NULL;
+}
+
+static bool has_setting(const sweep_row *row, const sweep_setting *setting) {
+    const char *value = sweep_row_value(row, setting->name);
+    return value && strcmp(value, setting->value) == 0;
+}
+
+static bool has_settings(const sweep_row *row, const sweep_setting *settings, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        if (!has_setting(row, &settings[i]))
+            return false;
+    }
+    return row->setting_count == count;
+}
+
+const sweep_row *sweep_results_row(const sweep_results *results, const char *scene,
+                                   const char *filter, const sweep_setting *settings,
+                                   size_t setting_count) {
+    for (size_t i = 0; i < results->row_count; i++) {
+        const sweep_row *row = &results->rows[i];
+        if (is_of(row, scene, filter) && has_settings(row, settings, setting_count))
+            return row;
+    }
+    return NULL;
+}
