@@ -4,8 +4,8 @@
 #include <lobe/device.h>
 #include <lobe/environment_maps.h>
 
-#include "tools/environment/shaders/check.h"
 #include "tools/cli/progress.h"
+#include "tools/environment/shaders/check.h"
 
 /// Measures how far each method of lighting lobes by an environment is from the exact integral,
 /// and how long it takes.

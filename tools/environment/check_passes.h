@@ -27,16 +27,16 @@ typedef struct environment_check_request {
 /// first round, then of the second, ... The maps have radiance and von Mises-Fisher lobes, and with
 /// METHOD_BLENDED also LOBE_ENVIRONMENT_BETWEEN.
 lobe_resource environment_check_look_up(lobe_graph *graph, const environment_maps *maps,
-                                       const environment_check_request *request);
+                                        const environment_check_request *request);
 
 /// Adds the pass that sums the light of `texel_count` texels of the radiance, from `first_texel` on
 /// (both multiples of CHECK_GROUP_SIZE), for CHECK_LOBES lobes about each direction. Returns a
 /// buffer of float4: the first lobe's sum for each direction, then the second's, ... The sum over
 /// all texels times environment_check_peak() is the light.
 lobe_resource environment_check_exact(lobe_graph *graph, const environment_maps *maps,
-                                             const environment_check_request *request,
-                                             const double concentrations[CHECK_LOBES],
-                                             uint32_t first_texel, uint32_t texel_count);
+                                      const environment_check_request *request,
+                                      const double concentrations[CHECK_LOBES],
+                                      uint32_t first_texel, uint32_t texel_count);
 
 /// The value of a von Mises-Fisher lobe at its direction, per steradian.
 double environment_check_peak(double concentration);
