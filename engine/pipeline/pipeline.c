@@ -23,6 +23,7 @@ typedef struct pipeline_key {
 
 typedef struct cached_pipeline {
     struct cached_pipeline *next;
+    uint64_t used; ///< by the clock of the uses, when it was last found
     pipeline_key key;
     engine_pipeline pipeline;
 } cached_pipeline;
@@ -30,7 +31,9 @@ typedef struct cached_pipeline {
 struct engine_pipelines {
     engine_pipeline_cache cache;
     engine_sampler_cache samplers;
-    cached_pipeline *pipelines;
+    engine_pipeline_uses uses;
+    cached_pipeline *pipelines; ///< the last found first
+    uint32_t count;
     lobe_specialisation *wanted; ///< of the key that is looked for
     uint32_t wanted_capacity;
 };
@@ -96,10 +99,21 @@ static bool same_key(const pipeline_key *first, const pipeline_key *second) {
                    first->specialisation_count * sizeof *first->specialisation);
 }
 
-static const engine_pipeline *find(const engine_pipelines *pipelines, const pipeline_key *key) {
-    for (const cached_pipeline *known = pipelines->pipelines; known; known = known->next)
-        if (same_key(&known->key, key))
-            return &known->pipeline;
+static void put_first(engine_pipelines *pipelines, cached_pipeline *cached) {
+    cached->used = pipelines->uses.clock;
+    cached->next = pipelines->pipelines;
+    pipelines->pipelines = cached;
+}
+
+static const engine_pipeline *find(engine_pipelines *pipelines, const pipeline_key *key) {
+    for (cached_pipeline **link = &pipelines->pipelines; *link; link = &(*link)->next) {
+        cached_pipeline *known = *link;
+        if (!same_key(&known->key, key))
+            continue;
+        *link = known->next;
+        put_first(pipelines, known);
+        return &known->pipeline;
+    }
     return NULL;
 }
 
@@ -238,6 +252,24 @@ static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, p
     return kept->specialisation != NULL;
 }
 
+/// Makes room for one more, as far as frames in progress allow. They are in the order of their
+/// last use: what comes after the first that may go may go, too.
+static void evict(lobe_device *device) {
+    engine_pipelines *pipelines = device->pipelines;
+    if (pipelines->count < ENGINE_MAXIMUM_PIPELINES)
+        return;
+    const uint64_t oldest = engine_pipeline_uses_oldest(&pipelines->uses);
+    cached_pipeline **link = &pipelines->pipelines;
+    for (uint32_t n = 1; *link && (n < ENGINE_MAXIMUM_PIPELINES || (*link)->used >= oldest); n++)
+        link = &(*link)->next;
+    while (*link) {
+        cached_pipeline *gone = *link;
+        *link = gone->next;
+        destroy_pipeline(device, gone);
+        pipelines->count--;
+    }
+}
+
 /// Makes the pipeline of a key.
 static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
                        const pipeline_key *key, const engine_pipeline **pipeline) {
@@ -250,6 +282,7 @@ static lobe_result add(lobe_device *device, const engine_raster_parameters *rast
         return fail_memory(device, key);
     }
     cached->pipeline.name = name;
+    cached->pipeline.stamp = engine_device_stamp(device);
     cached->pipeline.bind_point =
         raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
     cached->pipeline.output_locations = key->shaders[1] ? key->shaders[1]->output_locations : 0;
@@ -258,8 +291,9 @@ static lobe_result add(lobe_device *device, const engine_raster_parameters *rast
         destroy_pipeline(device, cached);
         return result;
     }
-    cached->next = device->pipelines->pipelines;
-    device->pipelines->pipelines = cached;
+    evict(device);
+    put_first(device->pipelines, cached);
+    device->pipelines->count++;
     *pipeline = &cached->pipeline;
     return LOBE_OK;
 }
@@ -277,7 +311,9 @@ lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines) {
     *pipelines = lobe_allocate(device->host.allocator, 1, sizeof **pipelines);
     if (!*pipelines)
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipelines: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "out of memory for pipelines");
+    engine_pipeline_uses_create(&(*pipelines)->uses);
     return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
 }
 
@@ -290,9 +326,18 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
     }
     engine_sampler_cache_destroy(device, &(*pipelines)->samplers);
     engine_pipeline_cache_destroy(device, &(*pipelines)->cache);
+    engine_pipeline_uses_destroy(&(*pipelines)->uses);
     lobe_release((*pipelines)->wanted);
     lobe_release(*pipelines);
     *pipelines = NULL;
+}
+
+void engine_pipelines_begin_use(lobe_device *device, engine_pipeline_use *use) {
+    engine_pipeline_use_begin(&device->pipelines->uses, use);
+}
+
+void engine_pipelines_end_use(lobe_device *device, engine_pipeline_use *use) {
+    engine_pipeline_use_end(&device->pipelines->uses, use);
 }
 
 static lobe_result find_compute(lobe_device *device, const engine_compute_parameters *parameters,

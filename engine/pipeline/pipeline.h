@@ -10,9 +10,14 @@
 #include <lobe/device.h>
 #include <lobe/graph.h>
 
+#include "engine/pipeline/use.h"
 #include "engine/shader/shader.h"
 
 #define ENGINE_MAXIMUM_COLOUR_ATTACHMENTS 4
+
+/// Pipelines that a device keeps. Above it those go that no frame in progress uses, the one unused
+/// for longest first. Far more than one scene takes: it bounds hours of changed settings.
+#define ENGINE_MAXIMUM_PIPELINES 256
 
 /// A pipeline with all that is needed to bind resources to it. One descriptor set, set 0, shared
 /// by all stages.
@@ -22,6 +27,7 @@ typedef struct engine_pipeline {
     VkPipeline pipeline;
     VkPipelineLayout layout;
     VkDescriptorSetLayout set_layout; ///< also where there are no bindings
+    uint64_t stamp;                   ///< of this one, see engine_device_stamp: handles come again
     engine_shader_binding *bindings;  ///< of all stages, merged; ordered by binding
     size_t binding_count;
     VkShaderStageFlags push_constant_stages;
@@ -57,8 +63,13 @@ lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
 /// Writes the cache file, then frees all.
 void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines);
 
-/// Gives the pipeline for these parameters, made at the first call. It lives as long as the
-/// device; with hot reload another one is given once a shader's source has changed.
+/// A frame in progress: pipelines that are found until it ends live until then at least.
+void engine_pipelines_begin_use(lobe_device *device, engine_pipeline_use *use);
+void engine_pipelines_end_use(lobe_device *device, engine_pipeline_use *use);
+
+/// Gives the pipeline for these parameters, made at the first call, or again when it was evicted
+/// since (see ENGINE_MAXIMUM_PIPELINES). With hot reload another one is given once a shader's
+/// source has changed. Outside of a frame in progress it may be gone at the next call.
 /// LOBE_ERROR_SHADER: a shader is missing, is of another stage, two stages disagree about a
 /// binding.
 lobe_result engine_pipeline_compute(lobe_device *device,

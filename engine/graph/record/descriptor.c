@@ -53,7 +53,7 @@ static bool next_command(const lobe_graph *graph, command_walk *walk) {
 typedef struct set_needs {
     uint32_t counts[1 + TYPE_COUNT]; ///< sets, then descriptors by type
     uint32_t variables;
-    engine_stamp plan; ///< digest of the layouts of the sets
+    engine_stamp plan; ///< digest of the pipelines, whose layouts the sets have
 } set_needs;
 
 static set_needs count_needs(const lobe_graph *graph) {
@@ -64,7 +64,7 @@ static set_needs count_needs(const lobe_graph *graph) {
             continue;
         needs.counts[0]++;
         needs.variables += (uint32_t)pipeline->binding_count;
-        needs.plan = engine_stamp_mix(needs.plan, (uint64_t)pipeline->set_layout);
+        needs.plan = engine_stamp_mix(needs.plan, pipeline->stamp);
         for (size_t i = 0; i < pipeline->binding_count; i++)
             for (size_t type = 0; type < TYPE_COUNT; type++)
                 if (pipeline->bindings[i].type == types[type])

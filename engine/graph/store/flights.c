@@ -41,6 +41,8 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
     engine_graph_object imported = {.views = flight->views};
     engine_graph_free_views(graph->device, &imported);
     flight->views = NULL;
+    if (flight->busy)
+        engine_pipelines_end_use(graph->device, &flight->pipelines);
     flight->busy = false;
     flight->submission = 0;
 }
@@ -58,6 +60,7 @@ lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     if (result != LOBE_OK)
         return result;
     engine_graph_retire_flight(graph, graph->frame.flight);
+    engine_pipelines_begin_use(graph->device, &graph->frame.flight->pipelines);
     return create_commands(graph, graph->frame.flight);
 }
 
@@ -84,6 +87,7 @@ void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
 static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
     lobe_device *device = graph->device;
     engine_graph_retire_flight(graph, flight);
+    engine_pipelines_end_use(device, &flight->pipelines);
     engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
     engine_staging_destroy(device, &flight->read_back);
     device->api.vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);

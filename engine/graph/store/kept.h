@@ -71,9 +71,10 @@ typedef struct engine_graph_flight {
     uint32_t descriptor_capacity[5]; ///< sets, then descriptors by type
     VkDescriptorSet *sets;           ///< from the pool, in the order of the commands
     uint32_t set_capacity;
-    engine_stamp set_plan; ///< digest of their layouts; NONE: there are no sets
+    engine_stamp set_plan; ///< digest of their pipelines; NONE: there are no sets
     VkQueryPool timestamps;
     uint32_t timestamp_capacity;
+    engine_pipeline_use pipelines; ///< keeps them from the frame's begin to its end
 } engine_graph_flight;
 
 typedef struct engine_graph_kept {

@@ -3,6 +3,8 @@
 
 #include <stddef.h>
 
+#include <lobe/api.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -32,16 +34,17 @@ typedef struct lobe_allocator {
 /// lobe_image themselves and let lobe destroy it. `count` elements of `size` bytes, zeroed, aligned
 /// to 16 bytes. A valid pointer even for 0 bytes; NULL if out of memory. `allocator` NULL: the C
 /// library's.
-void *lobe_allocate(const lobe_allocator *allocator, size_t count, size_t size);
+LOBE_API void *lobe_allocate(const lobe_allocator *allocator, size_t count, size_t size);
 /// Resizes what lobe_allocate returned; the memory may move. Added bytes are not zeroed.
 /// `allocator` is only used if `memory` is NULL. Returns NULL if out of memory; the old memory is
 /// then unchanged.
-void *lobe_reallocate(const lobe_allocator *allocator, void *memory, size_t count, size_t size);
+LOBE_API void *lobe_reallocate(const lobe_allocator *allocator, void *memory, size_t count,
+                               size_t size);
 /// Copies a string. NULL if out of memory.
-char *lobe_copy_text(const lobe_allocator *allocator, const char *text);
+LOBE_API char *lobe_copy_text(const lobe_allocator *allocator, const char *text);
 /// Frees what the three functions above returned, and whatever else lobe leaves to the caller to
 /// release. The memory remembers its allocator. NULL is allowed.
-void lobe_release(void *memory);
+LOBE_API void lobe_release(void *memory);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/result.h>
@@ -16,12 +17,12 @@ extern "C" {
 
 /// The sRGB curve of IEC 61966-2-1: linear below 0.0031308, a power of 1/2.4 above. Maps [0, 1] to
 /// [0, 1]; values outside are clamped, NaN becomes 0.
-float lobe_srgb_encode(float linear);
+LOBE_API float lobe_srgb_encode(float linear);
 /// The inverse; maps [0, 1] to [0, 1] and clamps in the same way.
-float lobe_srgb_decode(float encoded);
+LOBE_API float lobe_srgb_decode(float encoded);
 
 /// Luminance of linear RGB, Rec. 709 (rounded to four digits): 0.2126 R + 0.7152 G + 0.0722 B.
-float lobe_luminance(const float rgb[3]);
+LOBE_API float lobe_luminance(const float rgb[3]);
 
 typedef enum lobe_tone_map {
     /// Keeps values up to half of the maximum and rolls off above, so that no highlight is clipped:
@@ -43,14 +44,15 @@ typedef struct lobe_display_parameters {
 /// With `keep_alpha`, the colour is premultiplied in `linear` and straight in `picture`, as in PNG.
 /// `parameters` may be NULL: the defaults. `picture` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format), LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
-                                const lobe_host *host, lobe_image *picture);
+LOBE_API lobe_result lobe_display_encode(const lobe_image *linear,
+                                         const lobe_display_parameters *parameters,
+                                         const lobe_host *host, lobe_image *picture);
 
 /// Colour of a value [0, 1] in heat maps (clamped; NaN is black), as sRGB-encoded bytes: from near
 /// black through violet, red and orange to pale yellow. Equal steps of the value look about equally
 /// large, and lightness increases with the value, so the map still works with colour blindness and
 /// in greyscale print.
-void lobe_heat_colour(float value, uint8_t srgb[3]);
+LOBE_API void lobe_heat_colour(float value, uint8_t srgb[3]);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/result.h>
@@ -27,7 +28,7 @@ typedef enum lobe_device_type {
 } lobe_device_type;
 
 /// "discrete GPU", "CPU" and so on. Never NULL.
-const char *lobe_device_type_name(lobe_device_type type);
+LOBE_API const char *lobe_device_type_name(lobe_device_type type);
 
 struct VkInstance_T;
 /// The type of Vulkan's vkGetInstanceProcAddr, without Vulkan's headers.
@@ -61,15 +62,16 @@ typedef struct lobe_device_parameters {
 /// Errors: LOBE_ERROR_NO_DEVICE (there is no Vulkan loader or no device, none matches `select`, or
 /// the selected one lacks a required feature, which the log names), LOBE_ERROR_UNSUPPORTED (no
 /// validation layer).
-lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_device **device);
+LOBE_API lobe_result lobe_device_create(const lobe_device_parameters *parameters,
+                                        lobe_device **device);
 
 /// Waits for the device, saves the pipeline cache, frees everything and clears the pointer.
 /// Textures, buffers and graphs of the device must have been destroyed before. NULL is allowed.
-void lobe_device_destroy(lobe_device **device);
+LOBE_API void lobe_device_destroy(lobe_device **device);
 
 /// The allocator of the host in the device's parameters, used for the device and everything created
 /// on it. NULL: the C library's.
-const lobe_allocator *lobe_device_allocator(const lobe_device *device);
+LOBE_API const lobe_allocator *lobe_device_allocator(const lobe_device *device);
 
 /// A Vulkan feature that lobe knows about.
 typedef struct lobe_device_feature {
@@ -93,14 +95,14 @@ typedef struct lobe_device_information {
 } lobe_device_information;
 
 /// Facts about the device; valid as long as the device.
-const lobe_device_information *lobe_device_describe(const lobe_device *device);
+LOBE_API const lobe_device_information *lobe_device_describe(const lobe_device *device);
 
 /// Lists every Vulkan device of this machine, suitable or not. Free the list with
 /// lobe_device_list_free. LOBE_ERROR_NO_DEVICE if there is none. Of `parameters`, which may be
 /// NULL, only `get_instance_proc_addr` and `host` are used.
-lobe_result lobe_device_list(const lobe_device_parameters *parameters,
-                             lobe_device_information **devices, size_t *count);
-void lobe_device_list_free(lobe_device_information **devices, size_t count);
+LOBE_API lobe_result lobe_device_list(const lobe_device_parameters *parameters,
+                                      lobe_device_information **devices, size_t *count);
+LOBE_API void lobe_device_list_free(lobe_device_information **devices, size_t count);
 
 typedef struct lobe_device_memory {
     uint64_t allocated_bytes; ///< currently allocated from Vulkan, in blocks
@@ -109,12 +111,12 @@ typedef struct lobe_device_memory {
     uint64_t budget_bytes;    ///< what this process may allocate, from the driver or the limit
 } lobe_device_memory;
 
-void lobe_device_memory_query(const lobe_device *device, lobe_device_memory *memory);
+LOBE_API void lobe_device_memory_query(const lobe_device *device, lobe_device_memory *memory);
 /// Sets the peak to what is currently used.
-void lobe_device_memory_reset_peak(lobe_device *device);
+LOBE_API void lobe_device_memory_reset_peak(lobe_device *device);
 
 /// Validation messages (warnings and errors) seen so far; 0 without validation.
-uint64_t lobe_device_validation_count(const lobe_device *device);
+LOBE_API uint64_t lobe_device_validation_count(const lobe_device *device);
 
 // ---------------------------------------------------------------------------------------------
 // Resources that outlive a frame
@@ -129,14 +131,15 @@ typedef struct lobe_texture_parameters {
 
 /// Errors: LOBE_ERROR_LIMIT (above the device's limits), LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
 /// LOBE_ERROR_UNSUPPORTED (the device cannot sample the format).
-lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
-                                lobe_texture **texture);
+LOBE_API lobe_result lobe_texture_create(lobe_device *device,
+                                         const lobe_texture_parameters *parameters,
+                                         lobe_texture **texture);
 /// Whether an image has the format and extent that lobe_texture_update requires.
-bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image);
+LOBE_API bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image);
 /// Replaces the content; same format and extent. Graph passes that read the texture run again.
-lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image);
+LOBE_API lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image);
 /// Waits until the device has finished with the texture. Clears the pointer; NULL is allowed.
-void lobe_texture_destroy(lobe_texture **texture);
+LOBE_API void lobe_texture_destroy(lobe_texture **texture);
 
 /// A linear range of device memory with content from the host: vertices, indices, or any storage or
 /// uniform data.
@@ -148,11 +151,12 @@ typedef struct lobe_buffer_parameters {
     const void *data; ///< `size` bytes, copied before the call returns; NULL: zeroes
 } lobe_buffer_parameters;
 
-lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters *parameters,
-                               lobe_buffer **buffer);
+LOBE_API lobe_result lobe_buffer_create(lobe_device *device,
+                                        const lobe_buffer_parameters *parameters,
+                                        lobe_buffer **buffer);
 /// Replaces the whole content. Graph passes that read the buffer run again.
-lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data);
-void lobe_buffer_destroy(lobe_buffer **buffer);
+LOBE_API lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data);
+LOBE_API void lobe_buffer_destroy(lobe_buffer **buffer);
 
 // ---------------------------------------------------------------------------------------------
 // Shaders
@@ -168,7 +172,7 @@ typedef struct lobe_shader {
 /// for passes that are declared from now on. Its bindings must be in set 0, see lobe_binding.
 /// Errors: LOBE_ERROR_SHADER (not SPIR-V, another stage, another set), LOBE_ERROR_INVALID_ARGUMENT
 /// (no name, no words, `size` not a multiple of 4); nothing is replaced then.
-lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader);
+LOBE_API lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/result.h>
@@ -72,8 +73,8 @@ typedef struct lobe_exr_parameters {
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no layer, differing extents, wrong number of levels,
 /// unsupported format, a duplicate or unnamed channel or attribute), LOBE_ERROR_WRITE,
 /// LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
-                           const lobe_host *host);
+LOBE_API lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
+                                    const lobe_host *host);
 
 /// Largest number of texels that lobe_exr_read accepts (4 GiB of memory).
 #define LOBE_EXR_MAXIMUM_TEXELS ((uint64_t)1 << 28)
@@ -93,8 +94,8 @@ lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *paramete
 /// LOBE_ERROR_MALFORMED (damaged or truncated), LOBE_ERROR_UNSUPPORTED (deep data, no suitable
 /// channels, subsampled colour), LOBE_ERROR_LIMIT (too large),
 /// LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
-                          lobe_image *image);
+LOBE_API lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
+                                   lobe_image *image);
 
 /// Everything lobe reads of one layer.
 typedef struct lobe_exr_contents {
@@ -109,21 +110,22 @@ typedef struct lobe_exr_contents {
 
 /// Like lobe_exr_read, but with every level and the header's attributes. `contents` is overwritten;
 /// free it with lobe_exr_contents_free. Same errors.
-lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_host *host,
-                                   lobe_exr_contents *contents);
+LOBE_API lobe_result lobe_exr_read_contents(const char *path, const char *layer,
+                                            const lobe_host *host, lobe_exr_contents *contents);
 
 /// The same for a file in memory: `data` is the whole file, and is needed only during the call.
 /// `name` is used in messages.
-lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
-                                     const char *layer, const lobe_host *host,
-                                     lobe_exr_contents *contents);
+LOBE_API lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
+                                              const char *layer, const lobe_host *host,
+                                              lobe_exr_contents *contents);
 
 /// NULL if there is none of this name and type.
-const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
-                                                  const char *name, lobe_exr_attribute_type type);
+LOBE_API const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
+                                                           const char *name,
+                                                           lobe_exr_attribute_type type);
 
 /// Frees everything and zeroes the structure. NULL is allowed.
-void lobe_exr_contents_free(lobe_exr_contents *contents);
+LOBE_API void lobe_exr_contents_free(lobe_exr_contents *contents);
 
 #ifdef __cplusplus
 }

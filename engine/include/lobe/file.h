@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/result.h>
 
@@ -23,8 +24,8 @@ extern "C" {
 /// `owner`: the file that refers to this one, also named in error messages; NULL: none.
 /// Errors: LOBE_ERROR_NOT_FOUND, LOBE_ERROR_READ (no permission, not a regular file),
 /// LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
-                           uint8_t **data, size_t *size);
+LOBE_API lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
+                                    uint8_t **data, size_t *size);
 
 /// Files of a host that are not in the file system but in memory or in an archive.
 typedef struct lobe_file_source {
@@ -40,7 +41,8 @@ typedef struct lobe_file_source {
 /// Writes a file under a temporary name in the same folder, then renames it, replacing an old file.
 /// Anything but a regular file (a device, a pipe) is written to directly.
 /// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; the temporary file is removed then.
-lobe_result lobe_file_write(const char *path, const void *data, size_t size, const lobe_host *host);
+LOBE_API lobe_result lobe_file_write(const char *path, const void *data, size_t size,
+                                     const lobe_host *host);
 
 #ifdef __cplusplus
 }

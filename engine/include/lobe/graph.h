@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/device.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
@@ -61,15 +62,15 @@ typedef struct lobe_sampler {
     float maximum_anisotropy; ///< [1, 16]; 0: off. Clamped to the device's limit.
 } lobe_sampler;
 
-lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph);
+LOBE_API lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph);
 /// Waits for the device to finish the last frame and frees everything. Clears the pointer; NULL is
 /// allowed.
-void lobe_graph_destroy(lobe_graph **graph);
+LOBE_API void lobe_graph_destroy(lobe_graph **graph);
 
 /// Starts a new frame: drops the passes of the last one, and waits for it if it is still running
 /// (see lobe_graph_set_frames_in_flight). Retained resources that the new frame does not declare
 /// again are freed when it is compiled.
-void lobe_graph_begin(lobe_graph *graph);
+LOBE_API void lobe_graph_begin(lobe_graph *graph);
 
 // ---------------------------------------------------------------------------------------------
 // Resources
@@ -96,28 +97,31 @@ typedef struct lobe_buffer_description {
 
 /// Declares an image or buffer that passes of this frame write. It has no content before that,
 /// unless it is retained and an earlier frame wrote it.
-lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description);
-lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description);
+LOBE_API lobe_resource lobe_graph_image(lobe_graph *graph,
+                                        const lobe_image_description *description);
+LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
+                                         const lobe_buffer_description *description);
 
 /// Imports a texture or buffer; passes may only read it. The object must live until the frame has
 /// executed. Importing the same object twice returns the same resource.
-lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
-lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
+LOBE_API lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
+LOBE_API lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
 
 /// Imports a Vulkan image of the host. Passes may draw into it, write it as far as its usage
 /// allows, and read it. At the end of the frame it is in the layout that the host asked for.
 /// `image` is copied. Passes that read the content run in every frame, as lobe cannot tell whether
 /// it has changed.
-lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
+LOBE_API lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
 /// Width and height of level 0 of any image of this frame, in texels; 0 for a buffer or an unknown
 /// handle.
-void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
-                       uint32_t *height);
+LOBE_API void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
+                                uint32_t *height);
 
 /// A small buffer with content for this frame (camera, lights): `size` bytes, at most 4 MiB,
 /// copied. A pass that reads it counts as unchanged while the bytes stay the same.
-lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data, size_t size);
+LOBE_API lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data,
+                                         size_t size);
 
 // ---------------------------------------------------------------------------------------------
 // Passes
@@ -128,7 +132,7 @@ typedef enum lobe_pass_kind {
     LOBE_PASS_TRANSFER
 } lobe_pass_kind;
 
-lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
+LOBE_API lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
 
 /// A resource bound to a variable of the pass's shaders, by the variable's (or block's) name.
 /// Reflection tells which kind it is: uniform or storage block, sampled or storage image.
@@ -141,12 +145,12 @@ typedef struct lobe_binding {
 
 /// Binds a resource for reading in all shaders of the pass. A name that none of them has is an
 /// error.
-void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding);
+LOBE_API void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding);
 /// Binds a resource for writing; returns the new version. The range loses its previous content;
 /// subresources outside the range keep theirs.
-lobe_resource lobe_pass_write(lobe_pass *pass, const lobe_binding *binding);
+LOBE_API lobe_resource lobe_pass_write(lobe_pass *pass, const lobe_binding *binding);
 /// Binds a resource for reading and writing; returns the new version.
-lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding);
+LOBE_API lobe_resource lobe_pass_modify(lobe_pass *pass, const lobe_binding *binding);
 
 /// A value for a specialisation constant, by its constant_id. `bits` holds the int, the uint, the
 /// bits of the float, or 0 or 1 for a bool. An id that the shader does not have is ignored.
@@ -169,7 +173,7 @@ typedef struct lobe_dispatch {
 } lobe_dispatch;
 
 /// Adds a dispatch. Dispatches of one pass must not depend on each other.
-void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch);
+LOBE_API void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch);
 
 typedef enum lobe_load {
     LOBE_LOAD_CLEAR,   ///< start from a constant
@@ -186,14 +190,14 @@ typedef struct lobe_attachment {
 
 /// Attaches a colour output: `location` of the fragment shader, [0, 3]. All attachments of a pass
 /// have the same extent and sample count. Returns the new version.
-lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
-                               const lobe_attachment *attachment);
+LOBE_API lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
+                                        const lobe_attachment *attachment);
 /// Resolves the multisampled colour output `location` (mean of the samples) to `target`. Returns
 /// the new version.
-lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target);
+LOBE_API lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target);
 /// Attaches depth, D32_FLOAT. lobe uses reversed depth: 1 at the near plane, 0 at infinity, the
 /// greater value is nearer; clear it to 0. Returns the new version.
-lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment);
+LOBE_API lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment);
 
 typedef enum lobe_cull { LOBE_CULL_NONE, LOBE_CULL_BACK, LOBE_CULL_FRONT } lobe_cull;
 typedef enum lobe_blend {
@@ -223,41 +227,42 @@ typedef struct lobe_draw {
 /// plane). A projection for a world with y up therefore negates y. Viewport and scissor are the
 /// attachments' extent. A triangle faces the front if its corners are counter-clockwise in the
 /// picture.
-void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
+LOBE_API void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
 
 /// Transfer passes: copies an image (same extent, texel size and number of levels and layers) or a
 /// buffer (same size). Returns the new version of `target`.
-lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range source_range,
-                             lobe_resource target, lobe_range target_range);
+LOBE_API lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source,
+                                      lobe_range source_range, lobe_resource target,
+                                      lobe_range target_range);
 /// Transfer passes: fills with a constant. Depth uses the first value; a buffer is filled with the
 /// bits of the first value. Returns the new version.
-lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
-                             const float value[4]);
+LOBE_API lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
+                                      const float value[4]);
 
 /// Keeps a pass (and everything it depends on) even if no output depends on it.
-void lobe_pass_keep(lobe_pass *pass);
+LOBE_API void lobe_pass_keep(lobe_pass *pass);
 
 /// Makes the frame fail as a mistake in its declaration does: for callers that find that they
 /// cannot declare a pass. Only a frame's first failure is logged and counts; returns its code.
-LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
-                                             const char *format, ...);
+LOBE_API LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
+                                                      const char *format, ...);
 
 // ---------------------------------------------------------------------------------------------
 // Outputs and execution
 
 /// Marks content as an output of the frame. Passes that no output depends on are culled.
-void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
+LOBE_API void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
 /// Marks content as an output that is copied to host memory, see lobe_graph_data.
-void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
+LOBE_API void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
 
 /// Validates, orders and culls the passes, places resources in memory and derives barriers, without
 /// running anything. lobe_graph_execute and lobe_graph_submit do this if it has not been done.
 /// Errors: LOBE_ERROR_GRAPH (the log names pass and resource),
 /// LOBE_ERROR_SHADER, LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY.
-lobe_result lobe_graph_compile(lobe_graph *graph);
+LOBE_API lobe_result lobe_graph_compile(lobe_graph *graph);
 
 /// Compiles if necessary, records, submits, and waits for the device to finish.
-lobe_result lobe_graph_execute(lobe_graph *graph);
+LOBE_API lobe_result lobe_graph_execute(lobe_graph *graph);
 
 /// Most frames that may be in flight.
 #define LOBE_MAXIMUM_FRAMES_IN_FLIGHT 4
@@ -266,7 +271,7 @@ lobe_result lobe_graph_execute(lobe_graph *graph);
 /// recorded: clamped to [1, LOBE_MAXIMUM_FRAMES_IN_FLIGHT]; 1 by default. Takes effect at the next
 /// lobe_graph_begin. The device executes the frames of a graph one after the other; the host works
 /// ahead of it.
-void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
+LOBE_API void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
 
 /// Compiles if necessary, records, and submits without waiting, or records into the host's command
 /// buffer, as `submission` says. lobe_graph_begin waits until fewer frames than allowed are in
@@ -277,24 +282,24 @@ void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count);
 /// not be submitted.
 /// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
 /// buffer, or too many).
-lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
+LOBE_API lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
 
 /// Waits until the device has finished the frame last submitted; then lobe_graph_data has its data
 /// and lobe_graph_describe its times. If the frame is in a command buffer of the host, the host
 /// must have waited for it already. Does nothing if no frame was submitted.
-lobe_result lobe_graph_wait(lobe_graph *graph);
+LOBE_API lobe_result lobe_graph_wait(lobe_graph *graph);
 
 /// The bytes read back from `resource` in the frame last executed or waited for: level by level,
 /// within a level layer by layer, rows from top to bottom, tightly packed. Valid until the next
 /// lobe_graph_begin. NULL if `resource` was not marked with lobe_graph_read_back. `size` may be
 /// NULL.
-const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
+LOBE_API const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
 /// Marks all retained content as out of date, so that the passes that write it run again. The
 /// memory stays.
-void lobe_graph_invalidate(lobe_graph *graph);
+LOBE_API void lobe_graph_invalidate(lobe_graph *graph);
 /// The same for all retained resources whose names do not begin with `prefix`.
-void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
+LOBE_API void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
 
 // ---------------------------------------------------------------------------------------------
 // What happened
@@ -330,12 +335,12 @@ typedef struct lobe_graph_report {
 } lobe_graph_report;
 
 /// Report on the frame last compiled or executed; valid until the next lobe_graph_begin.
-const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph);
+LOBE_API const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph);
 
 /// The compiled graph as text or as Graphviz: passes (run, culled, skipped), resources, barriers,
 /// memory with and without aliasing. The caller frees it with lobe_release; NULL if out of memory.
-char *lobe_graph_dump_text(const lobe_graph *graph);
-char *lobe_graph_dump_graphviz(const lobe_graph *graph);
+LOBE_API char *lobe_graph_dump_text(const lobe_graph *graph);
+LOBE_API char *lobe_graph_dump_graphviz(const lobe_graph *graph);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #define LOBE_HOST_H
 
 #include <lobe/allocator.h>
+#include <lobe/api.h>
 #include <lobe/result.h>
 
 #ifdef __cplusplus
@@ -28,7 +29,7 @@ typedef struct lobe_host {
 } lobe_host;
 
 /// The host's allocator; NULL (the C library's) if it or `host` is NULL.
-const lobe_allocator *lobe_host_allocator(const lobe_host *host);
+LOBE_API const lobe_allocator *lobe_host_allocator(const lobe_host *host);
 
 /// Lets compilers that support it check the arguments against the format.
 #if defined(__GNUC__)
@@ -39,13 +40,13 @@ const lobe_allocator *lobe_host_allocator(const lobe_host *host);
 
 /// Formats one line as printf does (cut at 1023 bytes) and logs it. Control characters, for example
 /// in names from files, are replaced by '?'. `host` may be NULL.
-LOBE_HOST_FORMAT void lobe_host_log(const lobe_host *host, lobe_log_level level, const char *format,
-                                    ...);
+LOBE_API LOBE_HOST_FORMAT void lobe_host_log(const lobe_host *host, lobe_log_level level,
+                                             const char *format, ...);
 
 /// Logs the line that explains a failure, at level LOBE_LOG_ERROR, and returns `result`:
 /// `return lobe_host_fail(host, LOBE_ERROR_LIMIT, "texture '%s': ...", name);`
-LOBE_HOST_FORMAT lobe_result lobe_host_fail(const lobe_host *host, lobe_result result,
-                                            const char *format, ...);
+LOBE_API LOBE_HOST_FORMAT lobe_result lobe_host_fail(const lobe_host *host, lobe_result result,
+                                                     const char *format, ...);
 
 #ifdef __cplusplus
 }

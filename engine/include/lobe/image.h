@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/result.h>
 
@@ -34,11 +35,11 @@ typedef enum lobe_format {
 } lobe_format;
 
 /// Bytes of one texel; 0 for LOBE_FORMAT_NONE.
-size_t lobe_format_size(lobe_format format);
+LOBE_API size_t lobe_format_size(lobe_format format);
 /// Channels of one texel [1, 4]; 0 for LOBE_FORMAT_NONE.
-uint32_t lobe_format_channels(lobe_format format);
+LOBE_API uint32_t lobe_format_channels(lobe_format format);
 /// For example "RGBA16_FLOAT". Never NULL.
-const char *lobe_format_name(lobe_format format);
+LOBE_API const char *lobe_format_name(lobe_format format);
 
 /// A two-dimensional image in host memory: rows from top to bottom, tightly packed. A host may fill
 /// one in itself; if lobe is to free it, the texels must come from lobe_allocate.
@@ -55,11 +56,11 @@ typedef struct lobe_image {
 /// Allocates zeroed texels. `image` is overwritten; free it with lobe_image_free.
 /// Errors: LOBE_ERROR_LIMIT for an extent of 0 or above LOBE_IMAGE_MAXIMUM_EXTENT,
 /// LOBE_ERROR_OUT_OF_MEMORY. `host` may be NULL.
-lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
-                                uint32_t height, const lobe_host *host);
+LOBE_API lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
+                                         uint32_t height, const lobe_host *host);
 
 /// Frees the texels and zeroes the structure. NULL and an already freed image are allowed.
-void lobe_image_free(lobe_image *image);
+LOBE_API void lobe_image_free(lobe_image *image);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/graph.h>
 #include <lobe/host.h>
 #include <lobe/result.h>
@@ -18,14 +19,14 @@ extern "C" {
 typedef struct lobe_profile lobe_profile;
 
 /// `host` is copied; NULL: silent. Errors: LOBE_ERROR_OUT_OF_MEMORY.
-lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile);
+LOBE_API lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile);
 /// Clears the pointer; NULL is allowed.
-void lobe_profile_destroy(lobe_profile **profile);
+LOBE_API void lobe_profile_destroy(lobe_profile **profile);
 
 /// Adds one frame: the report of lobe_graph_describe after lobe_graph_execute, which is copied.
 /// Passes with the same name count as one pass: their times are summed.
 /// Errors: LOBE_ERROR_OUT_OF_MEMORY; the frame is not counted then.
-lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report);
+LOBE_API lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report);
 
 /// Times of one pass over the frames in which it ran, or of whole frames.
 typedef struct lobe_profile_times {
@@ -46,7 +47,7 @@ typedef struct lobe_profile_summary {
 /// Statistics of all frames so far; all 0 if there are none. Pointers are valid until the next call
 /// with this profile. Errors: LOBE_ERROR_OUT_OF_MEMORY; the summary then has no passes and no
 /// frames.
-lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary);
+LOBE_API lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,8 @@
 #ifndef LOBE_RESULT_H
 #define LOBE_RESULT_H
 
+#include <lobe/api.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -26,10 +28,10 @@ typedef enum lobe_result {
 } lobe_result;
 
 /// The enumerator's name, for example "LOBE_ERROR_NOT_FOUND". Never NULL; static storage.
-const char *lobe_result_name(lobe_result result);
+LOBE_API const char *lobe_result_name(lobe_result result);
 
 /// A short phrase for people, for example "not found". Never NULL; static storage.
-const char *lobe_result_message(lobe_result result);
+LOBE_API const char *lobe_result_message(lobe_result result);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
 #include <vulkan/vulkan.h>
 
 #include <lobe/allocator.h>
+#include <lobe/api.h>
 #include <lobe/device.h>
 #include <lobe/graph.h>
 #include <lobe/host.h>
@@ -47,7 +48,7 @@ typedef struct lobe_vulkan_features {
 
 /// The features that lobe requires (`required`) or uses if present; `present` is always false here.
 /// Static storage.
-const lobe_device_feature *lobe_vulkan_feature_list(size_t *count);
+LOBE_API const lobe_device_feature *lobe_vulkan_feature_list(size_t *count);
 
 /// Of a lobe_vulkan_device, the functions below read only `get_instance_proc_addr`, `instance` and
 /// `physical_device`: the device need not exist yet.
@@ -56,7 +57,8 @@ const lobe_device_feature *lobe_vulkan_feature_list(size_t *count);
 /// VkDeviceCreateInfo.pNext (`features->core` is the first). A host may enable further features in
 /// them, and may append its own structures to `features->vulkan_1_3.pNext`. The structures point to
 /// each other and must not be moved.
-void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_features *features);
+LOBE_API void lobe_vulkan_features_fill(const lobe_vulkan_device *host,
+                                        lobe_vulkan_features *features);
 
 /// A device extension that lobe uses.
 typedef struct lobe_vulkan_extension {
@@ -66,28 +68,29 @@ typedef struct lobe_vulkan_extension {
 } lobe_vulkan_extension;
 
 /// Static storage. At present, all of them are optional.
-const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count);
+LOBE_API const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count);
 
 /// Largest number of names that lobe_vulkan_extensions_fill returns.
 #define LOBE_VULKAN_MAXIMUM_EXTENSIONS 4
 /// The names of those extensions that the device has, for
 /// VkDeviceCreateInfo.ppEnabledExtensionNames; returns their number. The names have static storage.
 /// Returns 0 if out of memory; `allocator` (NULL: the C library's) is used during the call only.
-uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
-                                     const lobe_allocator *allocator,
-                                     const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]);
+LOBE_API uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
+                                              const lobe_allocator *allocator,
+                                              const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]);
 
 /// The first queue family that lobe can use: one with both graphics and compute. UINT32_MAX if the
 /// device has none.
-uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host);
+LOBE_API uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host);
 
 /// Describes what lobe requires and a device lacks, one requirement per line: "feature
 /// synchronization2 (barriers of the render graph)". `enabled`: what the host enabled or is going
 /// to enable, as for lobe_vulkan_device; NULL: everything the device supports. Returns the number
 /// of missing requirements; 0: lobe can use the device. `text` is cut to `size` bytes including the
 /// terminating zero, and may be NULL if `size` is 0.
-size_t lobe_vulkan_missing(const lobe_vulkan_device *host, const VkPhysicalDeviceFeatures2 *enabled,
-                           char *text, size_t size);
+LOBE_API size_t lobe_vulkan_missing(const lobe_vulkan_device *host,
+                                    const VkPhysicalDeviceFeatures2 *enabled, char *text,
+                                    size_t size);
 
 // ---------------------------------------------------------------------------------------------
 // Devices
@@ -127,14 +130,14 @@ struct lobe_vulkan_device {
 /// Validation messages go to the host's messenger; lobe_device_validation_count stays 0.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (a handle or the features are missing, only one of the
 /// callbacks is set), LOBE_ERROR_NO_DEVICE (the log says what the device or its loader lacks).
-lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
-                                      const lobe_device_parameters *parameters,
-                                      lobe_device **device);
+LOBE_API lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
+                                               const lobe_device_parameters *parameters,
+                                               lobe_device **device);
 
 /// The handles of any lobe device, for a host that creates images on it or submits to its queue.
 /// `features` and `extensions` are empty; the host must call `lock_queue` and `unlock_queue` with
 /// `user` around its use of the queue. Everything belongs to the device and is valid as long as it.
-void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles);
+LOBE_API void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles);
 
 // ---------------------------------------------------------------------------------------------
 // Images
@@ -165,7 +168,7 @@ struct lobe_vulkan_image {
 };
 
 /// lobe's equivalent of a format; LOBE_FORMAT_NONE if there is none.
-lobe_format lobe_vulkan_format(VkFormat format);
+LOBE_API lobe_format lobe_vulkan_format(VkFormat format);
 
 // ---------------------------------------------------------------------------------------------
 // Submission

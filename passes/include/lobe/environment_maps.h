@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/device.h>
 #include <lobe/environment.h>
 #include <lobe/host.h>
@@ -66,16 +67,16 @@ typedef struct lobe_environment_maps_parameters {
 /// Makes the maps and waits for the device. On failure, or if stopped, `*maps` is NULL.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (size; an image whose shape does not fit its layout),
 /// LOBE_ERROR_LIMIT (an image larger than the device allows), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
-lobe_result lobe_environment_maps_create(lobe_device *device,
-                                         const lobe_environment_maps_parameters *parameters,
-                                         lobe_environment_maps **maps);
+LOBE_API lobe_result lobe_environment_maps_create(
+    lobe_device *device, const lobe_environment_maps_parameters *parameters,
+    lobe_environment_maps **maps);
 /// Clears the pointer; NULL is fine. The device is not destroyed.
-void lobe_environment_maps_destroy(lobe_environment_maps **maps);
+LOBE_API void lobe_environment_maps_destroy(lobe_environment_maps **maps);
 
 /// Replaces the environment by one of the same layout and extent (NULL: keeps it, for timing) and
 /// rebuilds all maps. After a failure the maps have no content.
-lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
-                                         const lobe_environment *environment);
+LOBE_API lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
+                                                  const lobe_environment *environment);
 
 typedef struct lobe_environment_maps_information {
     /// Texels along a face of level 0, and levels down to 1x1; 0 for a map that was not wanted.
@@ -91,20 +92,21 @@ typedef struct lobe_environment_maps_information {
 } lobe_environment_maps_information;
 
 /// Valid until the next update.
-const lobe_environment_maps_information *
+LOBE_API const lobe_environment_maps_information *
 lobe_environment_maps_describe(const lobe_environment_maps *maps);
 
 /// The concentration kappa of the lobe that a level of a filtered cube is filtered with, if level 0
 /// has `width` texels along a face; twice that for LOBE_ENVIRONMENT_BETWEEN. Lobes of other
 /// concentrations are interpolated between levels, or between the two cubes: see
 /// shaders/lib/light/environment_level.glsl.
-double lobe_environment_level_concentration(uint32_t width, uint32_t level);
+LOBE_API double lobe_environment_level_concentration(uint32_t width, uint32_t level);
 
 /// Copies one face of one level to host memory: RGBA32_FLOAT, rows from top to bottom as in
 /// Vulkan; free it with lobe_image_free. On failure `*image` is empty.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no such map, level or face), ...
-lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environment_map map,
-                                       uint32_t level, uint32_t face, lobe_image *image);
+LOBE_API lobe_result lobe_environment_maps_read(lobe_environment_maps *maps,
+                                                lobe_environment_map map, uint32_t level,
+                                                uint32_t face, lobe_image *image);
 
 #ifdef __cplusplus
 }

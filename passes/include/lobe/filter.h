@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/host.h>
 #include <lobe/result.h>
 
@@ -44,21 +45,22 @@ typedef struct lobe_knob {
 #define LOBE_MAXIMUM_KNOBS 24
 
 /// The filters there are, in a fixed order.
-size_t lobe_filter_count(void);
+LOBE_API size_t lobe_filter_count(void);
 /// NULL for an index out of range.
-const lobe_filter *lobe_filter_get(size_t index);
+LOBE_API const lobe_filter *lobe_filter_get(size_t index);
 /// LOBE_ERROR_NOT_FOUND with a line that lists the filters there are. `host` may be NULL.
-lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe_filter **filter);
+LOBE_API lobe_result lobe_filter_find(const char *name, const lobe_host *host,
+                                      const lobe_filter **filter);
 
-const char *lobe_filter_name(const lobe_filter *filter);
-const char *lobe_filter_summary(const lobe_filter *filter); ///< one line
-const char *lobe_filter_paper(const lobe_filter *filter);   ///< the source, or ""
+LOBE_API const char *lobe_filter_name(const lobe_filter *filter);
+LOBE_API const char *lobe_filter_summary(const lobe_filter *filter); ///< one line
+LOBE_API const char *lobe_filter_paper(const lobe_filter *filter);   ///< the source, or ""
 /// True for the reference: it takes the mean of many samples of the unfiltered maps.
-bool lobe_filter_supersamples(const lobe_filter *filter);
+LOBE_API bool lobe_filter_supersamples(const lobe_filter *filter);
 
 /// All knobs of a filter: its own, then those every filter shares.
-size_t lobe_filter_knob_count(const lobe_filter *filter);
-const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index);
+LOBE_API size_t lobe_filter_knob_count(const lobe_filter *filter);
+LOBE_API const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index);
 
 /// Values for the knobs of one filter, in their order.
 typedef struct lobe_settings {
@@ -66,18 +68,18 @@ typedef struct lobe_settings {
 } lobe_settings;
 
 /// Every knob at its default.
-void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings);
+LOBE_API void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings);
 /// Sets one knob from "NAME=VALUE". Errors: LOBE_ERROR_NOT_FOUND (no such knob; the line lists
 /// those there are), LOBE_ERROR_INVALID_ARGUMENT (no '=', not a number, out of range, not one of
 /// the choices; the line says what is allowed). `settings` is unchanged then.
-lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
-                              const char *assignment, const lobe_host *host);
+LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
+                                       const char *assignment, const lobe_host *host);
 /// The value of a knob by name; 0 for a name the filter lacks.
-double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
-                         const char *name);
+LOBE_API double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
+                                  const char *name);
 /// Writes a knob's value as the user would ("0.95", "camera") into `text`.
-void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings, size_t knob,
-                         char *text, size_t size);
+LOBE_API void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings,
+                                  size_t knob, char *text, size_t size);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 /// lobe/vulkan.h and lobe/environment_maps.h.
 
 #include <lobe/allocator.h>
+#include <lobe/api.h>
 #include <lobe/colour.h>
 #include <lobe/device.h>
 #include <lobe/environment.h>
@@ -25,7 +26,7 @@ extern "C" {
 #endif
 
 /// The version of the library, for example "0.1.0".
-const char *lobe_version(void);
+LOBE_API const char *lobe_version(void);
 
 #ifdef __cplusplus
 }

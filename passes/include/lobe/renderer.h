@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/device.h>
 #include <lobe/filter.h>
 #include <lobe/graph.h>
@@ -21,16 +22,16 @@ typedef struct lobe_renderer lobe_renderer;
 
 /// `host` is copied; NULL: silent. Memory comes from the device's allocator, see
 /// lobe_device_allocator.
-lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
-                                 lobe_renderer **renderer);
+LOBE_API lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
+                                          lobe_renderer **renderer);
 /// Clears the pointer; NULL is fine. The device is not destroyed.
-void lobe_renderer_destroy(lobe_renderer **renderer);
+LOBE_API void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene, in place of the current one. The scene must live as long as it is set; NULL
 /// only removes the current one. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
 /// LOBE_ERROR_MALFORMED (no triangles, an index out of range, a vertex or texel that is not
 /// finite).
-lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
+LOBE_API lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
 
 /// Which parts of a scene changed, by indices into its arrays. An array may be NULL where its count
 /// is 0, and may list elements that no instance uses.
@@ -55,7 +56,8 @@ typedef struct lobe_scene_changes {
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
 /// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, no scene is set.
-lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes);
+LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,
+                                                const lobe_scene_changes *changes);
 
 /// Largest number of samples per pixel of the reference.
 #define LOBE_MAXIMUM_SAMPLES 4096
@@ -189,18 +191,19 @@ typedef struct lobe_frame {
     uint64_t filtered_bytes, base_texels;
 } lobe_frame;
 
-void lobe_frame_free(lobe_frame *frame);
+LOBE_API void lobe_frame_free(lobe_frame *frame);
 
 /// Renders one image. On failure `*frame` is zero, and the host's command buffer must not be
 /// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value out of range, an extent that
 /// differs from the target's), LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions,
 /// with the host's passes, with a target's depth, or with a submission but no target),
 /// LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
-lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
-                                 lobe_frame *frame);
+LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
+                                          const lobe_render_parameters *parameters,
+                                          lobe_frame *frame);
 
 /// The graph of the last frame (of a reference: its last submission), for dumps and reports.
-lobe_graph *lobe_renderer_graph(lobe_renderer *renderer);
+LOBE_API lobe_graph *lobe_renderer_graph(lobe_renderer *renderer);
 
 #ifdef __cplusplus
 }

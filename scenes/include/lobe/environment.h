@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/file.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
@@ -44,8 +45,8 @@ typedef struct lobe_environment {
 /// The position on the image of a direction (in the environment's own space, of any length but 0),
 /// in texels from the top left corner. False if the image does not have the shape of the layout:
 /// whole square faces.
-bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
-                               double position[2]);
+LOBE_API bool lobe_environment_position(const lobe_environment *environment,
+                                        const double direction[3], double position[2]);
 
 /// Largest width or height in texels of an image that lobe_environment_open returns.
 #define LOBE_ENVIRONMENT_MAXIMUM_EXTENT 16384u
@@ -79,24 +80,25 @@ typedef struct lobe_environment_open_parameters {
 /// On failure `*environment` is NULL and the log has one message that names the file and the cause.
 /// Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED (another format, or no known
 /// shape), _LIMIT, _OUT_OF_MEMORY.
-lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
-                                       const lobe_host *host, lobe_environment **environment);
+LOBE_API lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
+                                                const lobe_host *host,
+                                                lobe_environment **environment);
 
 /// The same, from the file system.
-lobe_result lobe_environment_open(const char *file_or_sky, const lobe_host *host,
-                                  lobe_environment **environment);
+LOBE_API lobe_result lobe_environment_open(const char *file_or_sky, const lobe_host *host,
+                                           lobe_environment **environment);
 
 /// Halves the image, or each of its faces, until neither its width nor its height exceeds this
 /// limit, for devices with little memory: [8, 65535] texels. The light from each part of the sphere
 /// stays the same.
-void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent);
+LOBE_API void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent);
 
 /// Turns the environment about the world's +Y, counter-clockwise as seen from above, in addition to
 /// its current rotation.
-void lobe_environment_turn(lobe_environment *environment, double degrees);
+LOBE_API void lobe_environment_turn(lobe_environment *environment, double degrees);
 
 /// Frees everything and clears the pointer. NULL is allowed.
-void lobe_environment_destroy(lobe_environment **environment);
+LOBE_API void lobe_environment_destroy(lobe_environment **environment);
 
 #ifdef __cplusplus
 }

@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/api.h>
 #include <lobe/environment.h>
 #include <lobe/file.h>
 #include <lobe/host.h>
@@ -122,7 +123,7 @@ typedef struct lobe_material {
 } lobe_material;
 
 /// A white microfacet material: GGX, roughness 1, metallic 0, no maps.
-void lobe_material_default(lobe_material *material);
+LOBE_API void lobe_material_default(lobe_material *material);
 
 /// Shared with shaders/interface/vertex.h: the same 18 floats.
 typedef struct lobe_scene_vertex {
@@ -198,7 +199,7 @@ typedef struct lobe_scene {
 
 /// A perspective camera that sees all of a scene from the front, a little from the right and above,
 /// as large as fits into a picture of this aspect (width / height, above 0). Bounds must be set.
-void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera);
+LOBE_API void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera);
 
 /// A camera on the scene's path, on which measurements over time are taken. `part` [0, 1] says how
 /// far along (clamped; NaN is 0). The target stays where it is.
@@ -209,14 +210,14 @@ void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camer
 ///   constant speed, counter-clockwise as seen from above, and the up vector with it.
 /// The near plane's distance and an orthographic camera's height grow and shrink with the distance.
 /// The eye moves continuously. `scene->camera` must be set, with eye and target apart.
-void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera);
+LOBE_API void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera);
 
 /// Replaces the environment of a scene. The old one is freed; the scene owns the new one. NULL:
 /// none.
-void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment);
+LOBE_API void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment);
 
 /// Frees everything and clears the pointer. NULL is allowed.
-void lobe_scene_destroy(lobe_scene **scene);
+LOBE_API void lobe_scene_destroy(lobe_scene **scene);
 
 /// A scene made by code, from a fixed seed.
 typedef struct lobe_builtin_scene {
@@ -224,9 +225,9 @@ typedef struct lobe_builtin_scene {
     const char *summary; ///< one line
 } lobe_builtin_scene;
 
-size_t lobe_builtin_scene_count(void);
+LOBE_API size_t lobe_builtin_scene_count(void);
 /// NULL for an index out of range.
-const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
+LOBE_API const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
 /// What to open, and from where.
 typedef struct lobe_scene_open_parameters {
@@ -250,11 +251,11 @@ typedef struct lobe_scene_open_parameters {
 /// lobe_renderer_set_scene rejects it. On failure `*result` is NULL and the log has one message
 /// that names the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED,
 /// _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
-lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
-                                 const lobe_host *host, lobe_scene **result);
+LOBE_API lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
+                                          const lobe_host *host, lobe_scene **result);
 
 /// The same, with `scene` alone.
-lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result);
+LOBE_API lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result);
 
 typedef enum lobe_carrier {
     LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
@@ -268,8 +269,8 @@ typedef enum lobe_carrier {
 /// normal/nor, rough, metal, arm/orm, ao, disp/height, ...). At least one map besides that of
 /// heights must be found. Heights are scaled to be as steep as the normal map, where there is one
 /// of their extent that they agree with; else to 0.05. Errors as for lobe_scene_open.
-lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
-                                     const lobe_host *host, lobe_scene **result);
+LOBE_API lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
+                                              const lobe_host *host, lobe_scene **result);
 
 #ifdef __cplusplus
 }

@@ -317,6 +317,40 @@ static void each_call_fails_once_on_a_hosts_device(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Loaders
 
+static bool loader_is_missing;
+
+/// The linker puts it before the C library's.
+void *__real_dlopen(const char *file, int mode);
+void *__wrap_dlopen(const char *file, int mode);
+void *__wrap_dlopen(const char *file, int mode) {
+    return loader_is_missing ? NULL : __real_dlopen(file, mode);
+}
+
+static void a_missing_loader_is_named(void **state) {
+    (void)state;
+    log_recorder recorder;
+    log_recorder_start(&recorder);
+    const lobe_device_parameters parameters = {.host = &recorder.host};
+    const lobe_vulkan_device host = {0};
+    lobe_vulkan_features features;
+    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS];
+    char text[256];
+    lobe_device *device = NULL;
+    loader_is_missing = true;
+    assert_int_equal(lobe_device_create(&parameters, &device), LOBE_ERROR_NO_DEVICE);
+    assert_int_equal(lobe_vulkan_missing(&host, NULL, text, sizeof text), 1);
+    assert_int_equal(lobe_vulkan_queue_family(&host), UINT32_MAX);
+    assert_int_equal(lobe_vulkan_extensions_fill(&host, NULL, names), 0);
+    lobe_vulkan_features_fill(&host, &features);
+    loader_is_missing = false;
+    assert_null(device);
+    assert_int_equal(recorder.errors, 1);
+    assert_string_equal(recorder.last_error,
+                        "Vulkan loader libvulkan.so.1 not found: install libvulkan1");
+    assert_non_null(strstr(text, "libvulkan.so.1"));
+    assert_false(features.vulkan_1_3.synchronization2);
+}
+
 #define NAME(function) #function,
 
 /// What only the missing function could have destroyed is left.
@@ -397,6 +431,7 @@ int main(void) {
         IN_TEST_FOLDER(each_call_fails_once_with_validation),
         cmocka_unit_test(each_call_fails_once_on_a_hosts_device),
         cmocka_unit_test(each_function_failed),
+        cmocka_unit_test(a_missing_loader_is_named),
         cmocka_unit_test(a_function_that_the_loader_lacks_is_named),
         cmocka_unit_test(each_allocation_of_an_own_device_fails_once),
         cmocka_unit_test(each_allocation_fails_once_on_a_hosts_device),

@@ -117,13 +117,19 @@ OBJECT(ShaderModule)
             faults.alive++;                                                                        \
             faults.made++;                                                                         \
             faults.pipelines++;                                                                    \
+            faults.pipelines_alive++;                                                              \
         }                                                                                          \
         return result;                                                                             \
     }
 
 PIPELINES(Compute)
 PIPELINES(Graphics)
-DESTROYS(vkDestroyPipeline, VkPipeline)
+FUNCTION(void, vkDestroyPipeline,
+         (VkDevice device, VkPipeline gone, const VkAllocationCallbacks *callbacks), false) {
+    faults.alive -= gone != VK_NULL_HANDLE;
+    faults.pipelines_alive -= gone != VK_NULL_HANDLE;
+    vkDestroyPipeline(device, gone, callbacks);
+}
 MAKES(vkAllocateMemory,
       (VkDevice device, const VkMemoryAllocateInfo *allocate,
        const VkAllocationCallbacks *callbacks, VkDeviceMemory *made),

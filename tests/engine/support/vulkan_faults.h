@@ -17,7 +17,8 @@ typedef struct vulkan_faults {
     bool paused;        ///< nothing fails, and no call counts
     bool names;         ///< calls that name objects, of which there are many, can fail too
     // Counted in whatever thread.
-    _Atomic int alive;     ///< objects made and not destroyed
+    _Atomic int alive; ///< objects made and not destroyed
+    _Atomic int pipelines_alive;
     _Atomic int pipelines; ///< made so far; set to 0 to count anew
     _Atomic int made;      ///< so far, taken from pools included; set to 0 to count anew
 } vulkan_faults;
