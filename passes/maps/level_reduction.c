@@ -37,7 +37,7 @@ reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe
     return map;
 }
 
-/// A level to read: of the map itself, or of the one it is made from.
+/// The level that a step reads: of the map itself, or of the map it is made from.
 typedef struct source_level {
     lobe_resource resource;
     uint32_t level;
@@ -49,12 +49,12 @@ static void write_level(lobe_pass *pass, reduced_map *map, const char *binding, 
         pass, &(lobe_binding){binding, map->resource, .range = {level, 1, 0, map->layers}});
 }
 
-/// Three levels at once need sizes that halve three times without a rest.
+/// The pass that writes three levels at once needs sizes that are multiples of eight.
 static bool can_tile(const reduced_map *map, const source_level *source, uint32_t first) {
     return source->width % 8 == 0 && source->height % 8 == 0 && first + 3 <= map->levels;
 }
 
-/// Fills one or three levels from `first` on; returns how many.
+/// Fills one or three levels from `first` on; returns their number.
 static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_level *source,
                             uint32_t first) {
     bool tiled = can_tile(map, source, first);

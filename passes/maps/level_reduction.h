@@ -3,8 +3,8 @@
 
 #include <lobe/graph.h>
 
-/// An array of linear maps under reduction: every level is the mean of the level above, over each
-/// texel's own extent (shaders/lib/map/box_reduction.glsl), at any size.
+/// An array of linear maps whose levels are means of the level before, over each texel's own extent
+/// (shaders/lib/map/box_reduction.glsl), at any size.
 typedef struct reduced_map {
     lobe_resource resource;
     uint32_t width, height; ///< texels of level 0
@@ -18,12 +18,12 @@ uint32_t passes_half_extent(uint32_t size);
 /// Bytes of all levels and layers.
 uint64_t passes_reduced_map_bytes(const reduced_map *map, lobe_format format);
 
-/// Declares a retained map of full chain whose level 0 is half as large as `width` x `height`.
+/// Declares a retained map with all levels. Level 0 has half the size of `width` x `height`.
 reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
                                        uint32_t width, uint32_t height, uint32_t layers);
 
-/// Adds passes that fill level 0 and all others of `map` from level 0 of `source`, which is twice
-/// as large (`width` x `height`, of which `map` was declared).
+/// Adds passes that fill all levels of `map` from level 0 of `source`, whose size is the `width` x
+/// `height` that `map` was declared for.
 void passes_level_reduction_from(lobe_graph *graph, reduced_map *map, lobe_resource source,
                                  uint32_t width, uint32_t height);
 /// Adds passes that fill levels 1 and up of `map` from its level 0.

@@ -4,7 +4,7 @@
 
 #include "passes/renderer/camera.h"
 
-/// Least distance along the view of the instance's bounds.
+/// The least depth of the instance's bounds along the view axis.
 static float nearest_depth(const filter_context *context, size_t index) {
     const lobe_instance *instance = &context->scene->scene->instances[index];
     const lobe_mesh *mesh = &context->scene->scene->meshes[instance->mesh];
@@ -25,7 +25,7 @@ static float nearest_depth(const filter_context *context, size_t index) {
     return fmaxf(nearest, context->view.camera->near_plane);
 }
 
-/// Least length of a pixel's side at a depth, as the root of the area that it sees straight on.
+/// The least side of a pixel at a depth: the root of the area it covers of a surface facing it.
 static float pixel_size(const filter_context *context, float depth) {
     const lobe_camera *camera = context->view.camera;
     float height = (float)context->view.height;
@@ -33,12 +33,12 @@ static float pixel_size(const filter_context *context, float depth) {
         return camera->orthographic_height / height;
     float tangent = tanf(0.5f * camera->vertical_field_of_view);
     float aspect = (float)context->view.width / height;
-    // Towards the corner, at an angle t to the axis, the area shrinks with cos t.
+    // Towards the corner of the picture, at angle t to the axis, the area shrinks by cos t.
     float cosine = 1 / sqrtf(1 + tangent * tangent * (1 + aspect * aspect));
     return 2 * tangent * depth / height * sqrtf(cosine);
 }
 
-/// Most that the transform stretches a length; exact where it keeps angles.
+/// An upper bound of how much the transform stretches a length; exact if it preserves angles.
 static float stretch(const filter_context *context, size_t instance) {
     const float *transform = context->scene->scene->instances[instance].transform;
     float sum = 0;

@@ -54,7 +54,7 @@ void passes_material_patch_draw(const material_patch *patch, uint32_t index, dou
     float position[2];
     passes_sample_position(index, MATERIAL_PATCH_DIRECTIONS, position);
     double angle = 2 * M_PI * position[1];
-    // Of a narrow lobe, the inverse of its distribution in 1 - cos.
+    // The inverse of a narrow lobe's distribution in 1 - cos.
     double versine = fmin(-log1p(-0.999 * position[0]) / fmax(lobe->concentration, 1), 2);
     double sine = sqrt(versine * (2 - versine));
     double local[3] = {sine * cos(angle), sine * sin(angle), 1 - versine};

@@ -3,9 +3,9 @@
 
 #include "passes/upload/material_lobes.h"
 
-/// The lobes of a small square of a material's maps: what a pixel's footprint may hold, where lobes
-/// need telling apart. Filters try themselves on some of them to choose how fine they must be; more
-/// patches or directions than these do not change a choice.
+/// The lobes of a small square of a material's maps, as a pixel's footprint may contain them.
+/// Filters try several precisions on a few patches and choose from the errors. More patches or
+/// directions than these do not change a choice.
 enum { MATERIAL_PATCHES = 12, MATERIAL_PATCH_EXTENT = 24, MATERIAL_PATCH_DIRECTIONS = 48 };
 
 typedef struct material_patch {
@@ -14,13 +14,13 @@ typedef struct material_patch {
     size_t count;
 } material_patch;
 
-/// Patch `index` of MATERIAL_PATCHES. False where a map has a format that hosts do not read.
+/// Patch `index` of MATERIAL_PATCHES. False where a map has a format that the host does not read.
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch);
 
 /// The sum of all lobes at a unit direction.
 double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]);
-/// The sum of some.
+/// The same for some of its lobes.
 double passes_material_lobes_evaluate(const material_lobe *lobes, size_t count,
                                       const double direction[3]);
 

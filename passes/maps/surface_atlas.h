@@ -10,9 +10,9 @@ typedef struct surface_atlas {
     lobe_resource position; ///< RGBA32_FLOAT: position
 } surface_atlas;
 
-/// Adds the raster pass that draws the atlas with `width` x `height` texels; retained, so that it
-/// runs when the mesh changes. Texture coordinates are those of the material's normal map, or of
-/// its width map (see device_instance.is_atlas).
+/// Adds the raster pass that draws the atlas with `width` x `height` texels. The images are
+/// retained, so that it runs only when the mesh changes. Texture coordinates are those of the
+/// material's lobe_grid (see device_instance.is_atlas).
 surface_atlas passes_surface_atlas_draw(const filter_context *context, size_t instance,
                                         uint32_t width, uint32_t height);
 

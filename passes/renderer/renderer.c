@@ -1,5 +1,7 @@
 #include "passes/renderer/renderer.h"
 
+#include "passes/upload/scene_upload.h"
+
 lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
                                  lobe_renderer **renderer) {
     const lobe_allocator *allocator = lobe_device_allocator(device);

@@ -2,20 +2,9 @@
 
 #include <string.h>
 
+#include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
-
-static float luminance(const float colour[3]) {
-    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
-}
-
-float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
-    float sum = 0;
-    for (uint32_t i = 0; i < material->lobe_count; i++)
-        sum += luminance(material->lobes[i].colour);
-    return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
-                   : 1.0f / (float)material->lobe_count;
-}
 
 static void fill_lobes(const lobe_material *material, struct material_constants *constants) {
     for (uint32_t i = 0; i < material->lobe_count; i++) {

@@ -60,18 +60,4 @@ typedef struct device_scene {
     device_instance *instances;
 } device_scene;
 
-/// Uploads. `scene` must live as long as the copy. Errors: as lobe_renderer_set_scene.
-lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
-                                       const lobe_host *host, device_scene **result);
-/// Uploads what changed in the scene. Errors: as lobe_renderer_update_scene.
-/// LOBE_ERROR_MALFORMED and _INVALID_ARGUMENT leave the copy as it was; after any other error it
-/// can only be destroyed.
-lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
-                                       const lobe_scene_changes *changes, const lobe_host *host);
-/// Clears the pointer; NULL is fine.
-void passes_device_scene_destroy(device_scene **scene);
-
-/// The share of one lobe in a half-vector material's reflectance, by luminance [0, 1].
-float passes_material_lobe_share(const lobe_material *material, uint32_t lobe);
-
 #endif

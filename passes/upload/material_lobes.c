@@ -5,8 +5,20 @@
 #include "passes/upload/material_maps.h"
 
 double passes_mean_resultant_length(double kappa) {
-    // Where the difference cancels, the first term of its series.
+    // For small kappa the difference cancels; the first term of its series does not.
     return kappa < 1e-3 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
+}
+
+static float luminance(const float colour[3]) {
+    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
+float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
+    float sum = 0;
+    for (uint32_t i = 0; i < material->lobe_count; i++)
+        sum += luminance(material->lobes[i].colour);
+    return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
+                   : 1.0f / (float)material->lobe_count;
 }
 
 static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/// Bits of the exponent of one channel, all set in infinities and NaN; 0 where the format has no
-/// exponent.
+/// The bits of a channel's exponent, which are all set in infinities and NaN; 0 for formats without
+/// an exponent.
 static uint32_t exponent_bits(lobe_format format) {
     switch (format) {
     case LOBE_FORMAT_R16_FLOAT:
@@ -114,7 +114,7 @@ lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
     return LOBE_ERROR_MALFORMED;
 }
 
-/// NULL where all is well, else what is wrong.
+/// What is wrong with the environment; NULL: nothing.
 static const char *fault_of_environment(const lobe_environment *environment) {
     const lobe_image *image = &environment->image;
     if (!image->texels || image->format != LOBE_FORMAT_RGBA32_FLOAT)

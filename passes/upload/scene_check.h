@@ -3,8 +3,8 @@
 
 #include <lobe/scene.h>
 
-/// Checks of what a host or a file put into a scene, before it goes to the device, which would
-/// show nonsense or worse. One line and LOBE_ERROR_MALFORMED for the first fault.
+/// Checks of a scene from a host or a file before it is uploaded: the device itself checks nothing.
+/// The first fault is logged in one line, and LOBE_ERROR_MALFORMED returned.
 
 /// Texels are finite.
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host);
@@ -13,7 +13,7 @@ lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const
 /// Counts and indices are in range.
 lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
                                         const lobe_host *host);
-/// Where there is one: texels are RGBA32_FLOAT, finite and not negative; its rotation is one.
+/// If there is one: texels are RGBA32_FLOAT, finite and not negative, and its matrix is a rotation.
 lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_host *host);
 
 #endif

@@ -36,7 +36,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
     glm_mat4_pick3(object_to_world, linear);
     passes_camera_rotation(context->view.camera, world_to_camera);
     glm_mat3_mul(world_to_camera, linear, rotation);
-    // Of a rotation and a uniform scale: rows of equal length.
+    // A rotation times a uniform scale has rows of equal length.
     float scale = glm_vec3_norm(linear[0]);
     for (int row = 0; row < 3; row++) {
         for (int column = 0; column < 3; column++)
@@ -45,7 +45,7 @@ static void camera_constants(const filter_context *context, size_t instance, boo
     vec4 eye, object_eye;
     passes_camera_eye(context->view.camera, eye);
     glm_mat4_mulv(world_to_object, eye, object_eye);
-    // Of a surface with two sides nothing faces away.
+    // Nothing faces away on a double-sided surface.
     if (double_sided)
         object_eye[3] = -1;
     memcpy(constants->eye, object_eye, sizeof object_eye);

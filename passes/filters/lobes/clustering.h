@@ -4,7 +4,7 @@
 #include "passes/filters/filter.h"
 #include "passes/maps/level_reduction.h"
 
-/// A map of lobe mixtures: how its layers are laid out is in shaders/interface/mixture.h.
+/// A map of lobe mixtures. Its layers are described in shaders/interface/mixture.h.
 typedef struct mixture_map {
     reduced_map map;
     lobe_format format;
@@ -15,7 +15,8 @@ typedef struct mixture_map {
 
 /// Declares a mixture map for an instance's material and adds the passes that fill level 0:
 /// characteristic vectors (Xu et al. 2017, Eqs. 8-14) and clustering by direction (section 3.2).
-/// `subdivision` and `mean` say what shading will read. The material has a normal or width map.
+/// `subdivision` and `mean` say which layers shading will read. The material has a normal or width
+/// map.
 mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
                                    lobe_map_space space, uint32_t subdivision, bool mean);
 

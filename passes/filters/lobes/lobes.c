@@ -5,6 +5,7 @@
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
@@ -71,8 +72,8 @@ static const lobe_knob *const knobs[] = {
     NULL,
 };
 
-/// The space asked for by the user, or else by the material; tangent where the mesh's texture
-/// coordinates are no atlas, or where the instance stretches the mesh.
+/// The space that the user asks for, or else the material. Always tangent where the mesh's texture
+/// coordinates are not an atlas, or where the instance stretches the mesh.
 static lobe_map_space space_of(const filter_context *context, size_t instance) {
     const device_instance *drawn = &context->scene->instances[instance];
     lobe_map_space space = (lobe_map_space)passes_filter_setting(context, "space");
@@ -133,8 +134,8 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
     return LOBE_OK;
 }
 
-/// What the user asks for, or else what the material's maps need. Clusters of an atlas are about
-/// another pole than the maps', which says nothing about them then.
+/// What the user asks for, or else what the material's maps need. In an atlas, clusters have
+/// another pole than in the maps, so the choice made for these does not apply.
 static uint32_t subdivision_of(const filter_context *context, const device_material *material,
                                lobe_map_space space, const prepared_lobes *prepared) {
     if (space == LOBE_SPACE_TANGENT && has_one_direction(material))
@@ -155,7 +156,7 @@ static bool widths_differ(const lobe_material *material) {
     return false;
 }
 
-/// Whether shading needs the mean normal or the mean length of the base lobes, and cannot have it
+/// Whether shading needs the mean normal or the mean length of the base lobes, and cannot derive it
 /// from the mixture because their widths or directions vary.
 static bool needs_mean(const filter_context *context, const device_material *material) {
     const lobe_material *source = material->material;
@@ -171,8 +172,8 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     return wanted && !derivable;
 }
 
-/// The coarsest subdivision that can ever suffice: 1 where the base lobes of every texel point so
-/// far apart that |r| of them all stays below epsilon0. It need not be fetched then.
+/// The coarsest subdivision that can suffice: 1 where the base lobes of every texel point so far
+/// apart that |r| of all of them stays below epsilon0. The single lobe is never fetched then.
 static uint32_t coarsest_of(const filter_context *context, const device_material *material,
                             const mixture_map *mixture) {
     const lobe_material *source = material->material;
@@ -254,7 +255,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_filtered_maps_build(context, material, appearance);
 }
 
-/// One mixture serves all lobes of a material: its colour is that of their sum.
+/// One mixture represents all lobes of a material, in the colour of their sum.
 static const char *ignores(const lobe_material *material) {
     if (has_one_hue(material))
         return NULL;

@@ -6,8 +6,8 @@
 #include "passes/maps/material_patch.h"
 #include "shaders/interface/cluster.h"
 
-// A subdivision is good enough when its error is at most this many times the least, or this much:
-// each finer one more than doubles what a pixel costs.
+// A subdivision is good enough if its error is at most `tolerance` times the least error, or at
+// most `negligible`: each finer one more than doubles the cost of a pixel.
 static const double tolerance = 1.5, negligible = 0.03;
 
 /// The inverse of mean_resultant_length: Xu et al. 2017, Eq. 8, and Newton's method.
@@ -29,7 +29,7 @@ static uint32_t cluster_of(const double axis[3]) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Mixtures of them, and how far those are off
+// Mixtures and their errors
 
 static size_t make_mixture(const material_patch *source, uint32_t subdivision,
                            material_lobe mixture[8]) {

@@ -12,9 +12,9 @@ typedef struct moment_map {
     lobe_resource range; ///< uniform block of struct moment_binning_constants
 } moment_map;
 
-/// Adds the pass that shares a material's lobes out to bins, and the reduction of what it writes.
-/// The material has a normal or width map. `colour`: bins keep their mean specular colour, of
-/// which none is above `largest_colour`.
+/// Adds the pass that distributes a material's lobes over bins, and the reduction of what it
+/// writes. The material has a normal or width map. `colour`: bins also hold their mean specular
+/// colour, at most `largest_colour`.
 moment_map passes_moment_binning(const filter_context *context, uint32_t material,
                                  const moment_partition *partition, lobe_format format, bool colour,
                                  float largest_colour);

@@ -4,6 +4,7 @@
 #include "passes/filters/moments/binning.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
@@ -74,8 +75,8 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
                          passes_lobe_grid_shares_coordinates(&grid, own->use));
 }
 
-/// Whether bins have their own specular colour: if the user wants it, or else where colour and
-/// width surely go together.
+/// Whether bins have their own specular colour: as the user says, or else where a map makes parts
+/// of the material metal, so that colour and width vary together.
 static bool has_bin_colour(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN };
     int wanted = (int)passes_filter_setting(context, "colour");
@@ -97,7 +98,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
     return largest;
 }
 
-/// What no colour of the material's exceeds, neither a bin's nor the diffuse one.
+/// An upper bound of the material's colours, both of bins and the diffuse one.
 static float largest_colour(const lobe_scene *scene, const device_material *material) {
     const lobe_material *source = material->material;
     float base = 1, specular = 1;

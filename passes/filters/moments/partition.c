@@ -7,19 +7,19 @@
 #include "passes/renderer/sample_pattern.h"
 #include "passes/upload/material_maps.h"
 
-// More samples or rounds change no picture.
+// More samples or rounds do not change a picture.
 enum { SAMPLES = 512, ROUNDS = 30, STARTS = 4 };
 
-// A lobe counts as this many points drawn from it: the more, the harder bins divide lobes. What
-// differs in width is better divided hard, what differs in direction softly, lest there be valleys
-// between bins. Which serves a material best is tried. Relative L2 over patches with 1.5, 3 and 10
-// points: bumps, five bins, 0.21, 0.23, 0.24; tablecloth, four bins, 0.07, 0.09, 0.10; rusted
-// metal, three bins, 0.23, 0.13, 0.07.
+// A lobe counts as this many points drawn from it: the more points, the harder the borders between
+// bins. Lobes that differ in width are better separated by hard borders, lobes that differ in
+// direction by soft ones, which leave no valleys between bins. The best number for a material is
+// found by trying all. Relative L2 over patches with 1.5, 3 and 10 points: bumps, five bins, 0.21,
+// 0.23, 0.24; tablecloth, four bins, 0.07, 0.09, 0.10; rusted metal, three bins, 0.23, 0.13, 0.07.
 static const double points[] = {1.5, 3, 10};
 enum { POINT_NUMBERS = sizeof points / sizeof *points };
 
-// A number of bins is good enough when its error is at most this many times the least, or this
-// much.
+// A number of bins is good enough if its error is at most `tolerance` times the least error, or at
+// most `negligible`.
 static const double tolerance = 1.1, negligible = 0.1;
 
 /// A lobe in the Lambert plane.
@@ -96,7 +96,8 @@ static double logarithm_of_chance(const component *c, double lobe_points, const 
     return c->offset - 0.5 * lobe_points * (square + trace);
 }
 
-/// Fills the members' parts [0, 1]; returns the logarithm of the sum of chances.
+/// Gives the share [0, 1] of each component in a sample; returns the logarithm of the sum of
+/// chances.
 static double share(const mixture *m, const sample *s, double members[MOMENT_MAXIMUM_BINS]) {
     double most = -INFINITY, sum = 0;
     for (uint32_t i = 0; i < m->count; i++) {
@@ -162,14 +163,14 @@ static double distance(const sample *a, const sample *b, double spread) {
     return (x * x + y * y) / (spread + sqrt(a->variance * b->variance)) + ratio * ratio;
 }
 
-/// Numbers in [0, 1) that are the same on every machine (Knuth's MMIX generator).
+/// Pseudorandom numbers in [0, 1), the same on every machine (Knuth's MMIX generator).
 static double next_number(uint64_t *state) {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double)(*state >> 11) / 9007199254740992.0;
 }
 
-/// A sample, the likelier the farther from all that were chosen before (Arthur, Vassilvitskii,
-/// 2007, k-means++).
+/// Draws a sample with a probability that grows with its distance from all those chosen before
+/// (Arthur, Vassilvitskii, 2007, k-means++).
 static const sample *choose_far(sample *samples, uint32_t count, const sample *last, double spread,
                                 uint64_t *state) {
     double sum = 0;
@@ -222,16 +223,16 @@ static void fit(sample *samples, uint32_t count, uint32_t bins, double lobe_poin
 // ---------------------------------------------------------------------------------------------
 // Ranges
 
-/// Texels that are looked at in each direction; what lies between them may go beyond the range by
-/// a little, and is clipped to it where storage has no more.
+/// Texels scanned in each direction. Those between them may lie slightly outside the range, and are
+/// clipped to it where the storage format demands it.
 enum { SCAN = 256 };
 
 typedef struct extremes {
     double low[2], high[2], sharpest, heaviest;
 } extremes;
 
-/// The masses that plane_mass in shaders/lib/lobe/plane_lobe.glsl may give this lobe, whichever the
-/// base is taken for.
+/// The largest mass that plane_mass in shaders/lib/lobe/plane_lobe.glsl may give this lobe, for
+/// either setting of the knob "base".
 static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double square = fmin(2 / kappa, 0.9), clamped = fmax(kappa, 1e-6);
@@ -251,7 +252,7 @@ static void extend(extremes *range, const material_lobe *lobe) {
     range->sharpest = fmax(range->sharpest, 1 / sqrt(variance_of(lobe->concentration)));
 }
 
-/// Where the host reads nothing: whatever a material may have.
+/// For maps that the host cannot read: the range of any material.
 static const extremes everything = {{-2, -2}, {2, 2}, 1e3, 10};
 
 static extremes scan(const lobe_scene *scene, const device_material *material) {
@@ -278,7 +279,7 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
 
 static void set_range(const extremes *found, moment_range *range) {
     range->place[2] = 1e-3f; // of maps without any slope: not 0, which would be divided by
-    // As much again for what the scan passed over.
+    // A margin for texels that the scan skipped.
     const double margin = 1.05;
     for (int i = 0; i < 2; i++) {
         range->place[i] = (float)(0.5 * (found->low[i] + found->high[i]));
@@ -306,8 +307,8 @@ static void set_fitted(const mixture *m, moment_partition *partition) {
     }
 }
 
-/// Hats as wide as two standard deviations of the lobes' places; rough is what lies above the
-/// geometric mean of the extremes of the variance, where these are apart at all.
+/// Hats are two standard deviations of the lobes' places wide. Lobes count as rough if their
+/// variance is above the geometric mean of the least and the greatest, if those differ at all.
 static void set_hats(const sample *samples, uint32_t count, moment_partition *partition) {
     component_sums sums = {0};
     double least = INFINITY, most = 0;
@@ -328,7 +329,7 @@ static void set_hats(const sample *samples, uint32_t count, moment_partition *pa
 // ---------------------------------------------------------------------------------------------
 // The choice of a number
 
-/// The bins of a patch, as they come to be under a pixel.
+/// The bins of a patch, as a pixel whose footprint it is would see them.
 static uint32_t collect(const material_patch *patch, const mixture *m,
                         component bins[MOMENT_MAXIMUM_BINS]) {
     component_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
@@ -361,8 +362,8 @@ static double evaluate_bins(const component *bins, uint32_t count, const double 
     return sum;
 }
 
-/// Adds to the integrals of the squared error and of the squared truth: directions are drawn as the
-/// truth is spread, so that each counts by its inverse.
+/// Adds to the integrals of the squared error and of the squared truth. Directions are drawn with a
+/// density proportional to the truth, so each is weighted by its inverse.
 static void add_error(const material_patch *patch, const mixture *m, double integrals[2]) {
     component bins[MOMENT_MAXIMUM_BINS];
     uint32_t count = collect(patch, m, bins);
@@ -376,7 +377,7 @@ static void add_error(const material_patch *patch, const mixture *m, double inte
     }
 }
 
-/// Finer than this each bin costs a pixel more than it brings.
+/// Most bins chosen automatically: more cost a pixel more than they improve it.
 enum { MOST = 3 };
 
 /// Relative L2 over all patches.
@@ -403,8 +404,8 @@ static double fit_best(const material_patch *patches, sample *samples, uint32_t 
     return least;
 }
 
-/// As many bins as are asked for; 0: the least number that serves the patches about as well as the
-/// best number does.
+/// `bins`: their number; 0 for the least number that serves the patches about as well as the best
+/// number does.
 static void choose(const material_patch *patches, sample *samples, uint32_t count, uint32_t bins,
                    mixture *chosen) {
     if (bins > 0) {
@@ -423,7 +424,7 @@ static void choose(const material_patch *patches, sample *samples, uint32_t coun
     *chosen = candidates[number];
 }
 
-/// One bin for all, where the patches cannot be read. False: out of memory.
+/// Takes one bin for all lobes where the patches cannot be read. False: out of memory.
 static bool choose_for_material(const lobe_allocator *allocator, const lobe_scene *scene,
                                 const device_material *material, sample *samples, uint32_t count,
                                 uint32_t bins, mixture *chosen) {

@@ -14,7 +14,8 @@ enum { WIDTH = 32, HEIGHT = 24 };
 
 static const char *const distribution_names[] = {"GGX", "Beckmann", "Blinn-Phong", "vMF"};
 
-/// A square seen near and far at once; maps of 8x8 equal texels lie on it as often as told.
+/// A square seen near and far at once; maps of 8x8 equal texels are repeated on it a given number
+/// of times.
 static lobe_scene *constant_scene(lobe_material material, const float normal[3], double tiles) {
     lobe_scene *scene = scene_begin();
     material.normal_map =

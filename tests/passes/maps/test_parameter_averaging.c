@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "passes/maps/parameter_averaging.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"

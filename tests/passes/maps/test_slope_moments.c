@@ -9,6 +9,7 @@
 #include "engine/image/half.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/slope_moments.h"
+#include "passes/upload/scene_upload.h"
 #include "shaders/interface/slope_moments.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/picture.h"

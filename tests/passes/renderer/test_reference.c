@@ -10,6 +10,7 @@
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/sample_pattern.h"
 #include "passes/renderer/shading.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 

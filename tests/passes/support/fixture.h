@@ -34,7 +34,7 @@ lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters);
 
 void fixture_forget_messages(fixture *f);
 
-/// Asserts a failure with exactly this code, told in exactly one line that contains `words`.
+/// Asserts a failure with exactly this code, logged in exactly one line that contains `words`.
 void assert_failure(const fixture *f, lobe_result result, lobe_result expected, const char *words);
 
 /// Passes of the last frame of a graph with a name (NULL: any) and state.

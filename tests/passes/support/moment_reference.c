@@ -190,7 +190,7 @@ static void reflecting_normal(const bin *b, const double d[2], double normal[3])
     reference_direction_from_plane(place, normal);
 }
 
-/// What all bins come to.
+/// The sum over all bins.
 typedef struct bin_total {
     double distribution;
     double normal[3], sharpness, colour[3]; ///< weighted by what each bin reflects

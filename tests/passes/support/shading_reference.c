@@ -107,14 +107,14 @@ void shade_base_material(const lobe_material *material, const double normal[3],
 // ---------------------------------------------------------------------------------------------
 // Mixtures
 
-/// Lighter clusters are not told apart, and lighter lobes not counted.
+/// Clusters below this weight are not separated, and lobes below it not counted.
 static const double least_weight = 1e-5;
 
 static double resultant_complement(const double moment[4]) {
     return fmin(fmax(1 - reference_length(moment) / moment[3], 0), 1);
 }
 
-/// How far a cluster is to be told apart, [0, 1].
+/// How far a cluster is to be separated, [0, 1].
 static double refinement(const double moment[4], double base_complement, double epsilon,
                          const refinement_knobs *knobs) {
     if (moment[3] < least_weight)

@@ -10,6 +10,7 @@
 
 #include "engine/image/half.h"
 #include "passes/filters/lobes/clustering.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/lobe/von_mises_fisher.h"

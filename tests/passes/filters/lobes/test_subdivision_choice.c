@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "passes/filters/lobes/subdivision_choice.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/scene_builder.h"
 
 /// Uploads a scene of one square and gives what is chosen for its material.
@@ -71,7 +72,7 @@ static void base_lobes_count_as_well(void **state) {
     assert_int_equal(choose(*state, scene, &material), 1);
 }
 
-/// Maps of any size and format are looked at, or else eight clusters are taken.
+/// Maps of any size give a choice; for formats that the host cannot read it is eight clusters.
 static void any_map_has_an_answer(void **state) {
     static const double one_side[][2] = {{2, 5}, {35, 5}};
     static const uint32_t sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {2, 2}, {25, 23}, {671, 3}};

@@ -8,6 +8,7 @@
 
 #include "engine/image/half.h"
 #include "passes/filters/moments/binning.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/picture.h"

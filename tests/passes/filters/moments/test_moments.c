@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "passes/filters/moments/partition.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -80,7 +81,7 @@ static void draw_pixel(fixture *f, const ground *g, const char *const settings[6
 // ---------------------------------------------------------------------------------------------
 // Against double precision
 
-/// How lobes are shared out, for the filter and for its twin.
+/// How lobes are distributed over bins, for the filter and for its reference.
 typedef struct sharing {
     const char *what;
     const char *settings[6];
@@ -494,7 +495,7 @@ static void knobs_at_their_ends_together(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
-/// What is passed over is little of the footprint, however broad and heavy other texels' lobes are.
+/// Skipped bins are a small part of the footprint, however broad and heavy other texels' lobes are.
 static void small_shares_alone_are_passed_over(void **state) {
     static const char *const all[6] = {"bins=3", "colour=mean", "least_share=0"};
     static const char *const most[6] = {"bins=3", "colour=mean", "least_share=0.1"};

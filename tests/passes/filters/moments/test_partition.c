@@ -1,5 +1,5 @@
-// How a material's lobes are shared out to bins: what is told apart, how many bins that takes, and
-// that nothing lies beyond the ranges.
+// How a material's lobes are distributed over bins: which lobes are separated, how many bins that
+// takes, and that nothing lies beyond the ranges.
 
 #include "tests/passes/support/fixture.h"
 
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "passes/filters/moments/partition.h"
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"

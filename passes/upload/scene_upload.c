@@ -1,5 +1,6 @@
-#include "passes/upload/device_scene_parts.h"
+#include "passes/upload/scene_upload.h"
 
+#include "passes/upload/device_scene_parts.h"
 #include "passes/upload/scene_check.h"
 
 static lobe_result upload_white(lobe_device *device, device_scene *result) {
