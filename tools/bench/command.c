@@ -16,7 +16,7 @@
 
 typedef struct bench_request {
     option_list scenes;
-    const char *filters;     ///< "a,b,c"; NULL: all there are
+    const char *filters;     ///< "a,b,c"; NULL: all
     option_list assignments; ///< "KNOB=VALUE"
     option_list environments;
     const char *json;
@@ -29,7 +29,7 @@ typedef struct bench_request {
     bool has_path_samples, has_stations;
 } bench_request;
 
-/// Ctrl-C asks a sweep to stop; a second one stops it.
+/// Ctrl-C asks a sweep to stop; a second one ends the program.
 static volatile sig_atomic_t interrupted;
 
 // ---------------------------------------------------------------------------------------------
@@ -72,7 +72,7 @@ static const lobe_knob *find_knob(const lobe_filter *filter, const char *assignm
     return NULL;
 }
 
-/// A knob is set in every filter that has it; one at least must.
+/// Sets a knob in every filter that has it; at least one must have it.
 static int set_knob(bench_job *job, const char *assignment, const lobe_host *host) {
     bool known = false;
     for (size_t i = 0; i < job->filter_count; i++) {
@@ -93,7 +93,7 @@ static int set_knob(bench_job *job, const char *assignment, const lobe_host *hos
     return 2;
 }
 
-/// The truth shares the user's knobs, but how it takes base lobes is what the two truths differ in.
+/// The references share the user's knobs, but differ in how they take base lobes.
 static int choose_truths(bench_request *request, const lobe_host *host) {
     const lobe_filter *reference;
     bench_job *job = &request->job;
@@ -111,7 +111,7 @@ static int choose_truths(bench_request *request, const lobe_host *host) {
                                                                                              : 1;
 }
 
-/// What a sweep goes through it sets itself.
+/// A sweep sets the knobs that it varies itself.
 static int check_set_beside_sweep(const option_table *table, const bench_request *request) {
     for (size_t i = 0; request->sweep && i < request->assignments.count; i++) {
         for (size_t k = 0; k < lobe_filter_count(); k++) {
@@ -137,9 +137,9 @@ static int check_sweep_usage(const option_table *table, const bench_request *req
                         : request->has_stations     ? "--stations"
                                                     : NULL;
     if (!request->sweep && alone)
-        return options_usage_error(table, "%s goes with --sweep", alone);
+        return options_usage_error(table, "%s needs --sweep", alone);
     if (!request->sweep && request->environments.count > 1)
-        return options_usage_error(table, "--environment: more than one go with --sweep");
+        return options_usage_error(table, "--environment: more than one needs --sweep");
     return 0;
 }
 
@@ -178,7 +178,7 @@ static int check_usage(const option_table *table, bench_request *request, const 
 // ---------------------------------------------------------------------------------------------
 // Work
 
-/// A scene whose assets are missing is left out: the log has said why.
+/// A scene whose assets are missing is left out; the log says why.
 static lobe_result measure_scene(const bench_request *request, const char *name,
                                  bench_result *results, bool *left_out) {
     lobe_scene *scene;
@@ -191,7 +191,7 @@ static lobe_result measure_scene(const bench_request *request, const char *name,
     return *left_out ? LOBE_OK : result;
 }
 
-/// `*count` receives how many results there are.
+/// `*count` receives the number of results.
 static lobe_result measure_scenes(const bench_request *request, bench_result *results,
                                   size_t *count) {
     const bench_job *job = &request->job;
@@ -316,7 +316,7 @@ static int run(int argc, char **argv) {
         {.name = "frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "frames timed of each filter, after a warm-up; at most 2 of the filter "
+         .summary = "frames timed per filter, after a warm-up; at most 2 for the filter "
                     "reference",
          .target = &request.job.frames,
          .fallback = "20",
@@ -325,13 +325,13 @@ static int run(int argc, char **argv) {
         {.name = "size",
          .kind = OPTION_SIZE,
          .argument = "WxH",
-         .summary = "pixels; the device sets the limit",
+         .summary = "picture size in pixels; the device sets the limit",
          .target = request.job.size,
          .fallback = "1280x720"},
         {.name = "samples",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "samples a pixel of the reference that errors are measured against",
+         .summary = "samples per pixel of the reference that errors are measured against",
          .target = &request.job.samples,
          .fallback = "256",
          .minimum = 1,
@@ -339,41 +339,42 @@ static int run(int argc, char **argv) {
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
-         .summary = "sets a knob in every filter that has it; with --sweep, one that it does not "
-                    "go through",
+         .summary =
+             "set a knob in every filter that has it; with --sweep, only knobs that it does not "
+             "vary",
          .target = &request.assignments,
          .values = OPTION_VALUES_KNOB},
         {.name = "json",
          .kind = OPTION_TEXT,
          .argument = "FILE",
-         .summary = "writes all results as JSON",
+         .summary = "write all results as JSON",
          .target = &request.json},
         {.name = "sweep",
          .kind = OPTION_FLAG,
-         .summary = "measures each filter over the values of its knobs too, one varied at a time; "
-                    "splits times into building and shading, and measures flicker along the "
+         .summary = "also measure each filter over the values of its knobs, varied one at a time; "
+                    "split times into building and shading, and measure flicker along the "
                     "scene's path; Ctrl-C stops it after writing the scenes that are done",
          .target = &request.sweep},
         {.name = "knobs",
          .kind = OPTION_TEXT,
          .argument = "A,B,C",
-         .summary = "with --sweep: knobs to go through, or 'none' (default: all that have values "
+         .summary = "with --sweep: knobs to vary, or 'none' (default: all that have values "
                     "worth comparing)",
          .target = &request.knobs},
         {.name = "resume",
          .kind = OPTION_FLAG,
-         .summary = "with --sweep: goes on from FILE, where it exists, with the scenes it lacks",
+         .summary = "with --sweep: if the JSON file exists, only measure scenes missing from it",
          .target = &request.resume},
         {.name = "pictures",
          .kind = OPTION_TEXT,
          .argument = "DIR",
-         .summary = "with --sweep: where pictures of the filters at their defaults and of the "
-                    "reference go (default: FILE with .pictures for .json)",
+         .summary = "with --sweep: folder for pictures of the filters at their defaults and of the "
+                    "reference (default: the JSON file's name with .pictures instead of .json)",
          .target = &request.pictures},
         {.name = "path-samples",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "with --sweep: samples a pixel of each of the two references along the path",
+         .summary = "with --sweep: samples per pixel of each of the two references along the path",
          .target = &request.path_samples,
          .fallback = "64",
          .minimum = 1,
@@ -392,8 +393,8 @@ static int run(int argc, char **argv) {
         {.name = "environment",
          .kind = OPTION_LIST,
          .argument = "FILE",
-         .summary = "light from all around, instead of the scene's own: an .exr or .hdr file, "
-                    "'sky' or 'none'; given more than once, with --sweep: every scene is measured "
+         .summary = "environment light instead of the scene's own: an .exr or .hdr file, "
+                    "'sky' or 'none'; if given more than once, with --sweep: measure every scene "
                     "in each",
          .target = &request.environments},
         scene_option_rotation(&request.opening),
@@ -408,12 +409,12 @@ static int run(int argc, char **argv) {
         .operands = "SCENE...",
         .summary =
             "Measures filters in scenes: milliseconds of each pass, of frames in which every map\n"
-            "is built again and of frames that find their maps ready; CPU time of the host to\n"
-            "compile and record a frame; memory; and the error against a reference of many\n"
-            "samples, once as the scene is, and once with its base lobes turned into von\n"
-            "Mises-Fisher lobes, which leaves the error of filtering alone.\n"
-            "Frames of the filters take turns. Where the filter reference is measured itself, it\n"
-            "takes 64 samples a pixel. Scenes whose assets are missing are left out.",
+            "is rebuilt and of frames in which the maps are retained; CPU time of the host to\n"
+            "compile and record a frame; memory; and the error against a reference with many\n"
+            "samples, once of the scene as it is, and once with its base lobes converted to von\n"
+            "Mises-Fisher lobes, which leaves only the error of filtering.\n"
+            "Frames of the filters alternate. If the filter reference is itself measured, it\n"
+            "takes 64 samples per pixel. Scenes whose assets are missing are left out.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

@@ -4,11 +4,11 @@
 
 #include "tools/bench/timing.h"
 
-/// A supersampled frame costs as much as dozens of others, and varies less.
+/// A supersampled frame costs as much as dozens of others, and its time varies less.
 #define SUPERSAMPLED_FRAMES 2
 
-/// What is kept for one scene. Each filter has a renderer of its own: they take turns, and maps
-/// must be retained from turn to turn.
+/// The state for one scene. Each filter has its own renderer: they alternate, and maps must be
+/// retained from turn to turn.
 typedef struct bench_run {
     const bench_job *job;
     const lobe_scene *scene;
@@ -53,7 +53,7 @@ static lobe_result render_truth(const bench_run *run, lobe_renderer *renderer,
     lobe_result result = lobe_filter_find("reference", run->job->host, &reference.filter);
     if (result != LOBE_OK)
         return result;
-    progress_step(run->job->progress, "%s: %s, samples a pixel: %u", run->name, kind,
+    progress_step(run->job->progress, "%s: %s, samples per pixel: %u", run->name, kind,
                   run->job->samples);
     lobe_render_parameters parameters = parameters_of(run->job, &reference);
     parameters.reference.samples = run->job->samples;
@@ -87,7 +87,7 @@ static lobe_result measure_memory(bench_run *run, size_t index, bench_result *re
     lobe_result status = open_renderer(run, &run->renderers[index]);
     lobe_render_parameters parameters = parameters_of(run->job, result->filter);
     parameters.discard = true;
-    parameters.reference.samples = 1; // the memory does not depend on them
+    parameters.reference.samples = 1; // memory does not depend on samples
     lobe_frame frame = {0};
     if (status == LOBE_OK)
         status = lobe_renderer_render(run->renderers[index], &parameters, &frame);
@@ -141,8 +141,8 @@ static lobe_result time_frame(const bench_run *run, size_t index, const bench_fi
     return result;
 }
 
-/// One frame of each filter with maps built again, then one with maps as they are. The first
-/// round (`keep` false) only warms up; supersampling filters need none.
+/// One frame of each filter with maps rebuilt, then one with maps retained. The first round (`keep`
+/// false) only warms up; supersampling filters need none.
 static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
                               bench_result *results) {
     lobe_result status = LOBE_OK;

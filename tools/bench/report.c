@@ -49,8 +49,8 @@ void bench_print(const bench_job *job, const bench_result *results, size_t count
     printf("lobe %s on %s, %s (%s%s)\n", lobe_version(), device->name, device->driver,
            lobe_device_type_name(device->type),
            device->type == LOBE_DEVICE_CPU ? ": times are those of a software renderer" : "");
-    printf("Errors are against %u samples a pixel; the filter reference takes %u.\n", job->samples,
-           BENCH_TIMED_SAMPLES);
+    printf("Errors are against %u samples per pixel; the filter reference takes %u.\n",
+           job->samples, BENCH_TIMED_SAMPLES);
     for (size_t i = 0; i < count; i += job->filter_count)
         print_scene(job, &results[i]);
 }
@@ -58,7 +58,7 @@ void bench_print(const bench_job *job, const bench_result *results, size_t count
 // ---------------------------------------------------------------------------------------------
 // For programs
 
-/// Six digits are more than any measurement here has.
+/// Six digits exceed the precision of any measurement here.
 static void add_number(cJSON *object, const char *name, double value) {
     char digits[32];
     snprintf(digits, sizeof digits, "%.6g", value);

@@ -6,8 +6,8 @@
 #include <lobe/profile.h>
 #include <lobe/renderer.h>
 
-/// Adds a rendered frame, of however many submissions, as one frame of the profile.
-/// Errors: LOBE_ERROR_OUT_OF_MEMORY, logged.
+/// Adds a rendered frame, with all its submissions, as one frame of the profile. Errors:
+/// LOBE_ERROR_OUT_OF_MEMORY, logged.
 lobe_result timing_add(lobe_profile *profile, const lobe_frame *frame, const lobe_host *host);
 
 /// The median of `count` values, at least one, which it sorts; for an even count, the mean of the

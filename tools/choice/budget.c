@@ -44,7 +44,7 @@ static lobe_result check_scene(const char *path, const char *name, const lobe_ho
     char scenes[512];
     list_scenes(figures, scenes, sizeof scenes);
     return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
-                          "%s: holds measurements of %s, not of scene '%s'", path, scenes, name);
+                          "%s: contains measurements of %s, not of scene '%s'", path, scenes, name);
 }
 
 lobe_result budget_read(const budget_options *options, const char *scene, const lobe_host *host,
@@ -69,10 +69,11 @@ static lobe_result find_entry(const char *path, const budget_picture *picture,
     }
     char scenes[512];
     list_scenes(figures, scenes, sizeof scenes);
-    return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
-                          "%s: holds measurements of %s, not of scene '%s' in environment %s (%s)",
-                          path, scenes, picture->name, name ? name : "none",
-                          picture->lighting[0] ? picture->lighting : "light unchanged");
+    return lobe_host_fail(
+        host, LOBE_ERROR_INVALID_ARGUMENT,
+        "%s: contains measurements of %s, not of scene '%s' in environment %s (%s)", path, scenes,
+        picture->name, name ? name : "none",
+        picture->lighting[0] ? picture->lighting : "light unchanged");
 }
 
 static lobe_result check_device(const char *path, const budget_picture *picture,
@@ -118,7 +119,7 @@ static lobe_result find_figures(const budget_options *options, const budget_pict
 // ---------------------------------------------------------------------------------------------
 // Rows to choose among
 
-/// False for a row that lobe cannot render, another version's, and for the yardstick.
+/// False for the reference, and for a row of another version that lobe cannot render.
 static bool read_row(const sweep_row *row, const lobe_filter **filter, lobe_settings *settings) {
     if (lobe_filter_find(row->filter, NULL, filter) != LOBE_OK || lobe_filter_supersamples(*filter))
         return false;
@@ -133,7 +134,7 @@ static bool read_row(const sweep_row *row, const lobe_filter **filter, lobe_sett
     return true;
 }
 
-/// The rows of a scene, all where `scene` is NULL. Returns their number.
+/// The rows of a scene, or all if `scene` is NULL. Returns their number.
 static size_t list_rows(const sweep_results *figures, const sweep_scene *scene,
                         const sweep_row **rows) {
     size_t count = 0;
@@ -147,7 +148,7 @@ static size_t list_rows(const sweep_results *figures, const sweep_scene *scene,
     return count;
 }
 
-/// What the truth's noise adds to errors is no filter's fault.
+/// Noise of the reference does not count as an error of the filter.
 static void leave_out_noise(const sweep_scene *scene, sweep_results *figures) {
     for (size_t i = 0; scene && i < figures->row_count; i++) {
         sweep_row *row = &figures->rows[i];
@@ -174,7 +175,7 @@ typedef struct text {
     char characters[512];
 } text;
 
-/// "lobes with epsilon0=0.85, probes=2", as far as knobs differ from their defaults.
+/// "lobes with epsilon0=0.85, probes=2": the knobs that differ from their defaults.
 static text name_row(const sweep_row *row) {
     const lobe_filter *filter;
     lobe_settings settings, defaults;
@@ -213,7 +214,7 @@ static text describe_source(const budget_options *options, const budget_picture 
     text source;
     const uint32_t *from = figures->size, *to = picture->size;
     int used = snprintf(source.characters, sizeof source.characters,
-                        "%.256s, %u frame%s, errors against %u samples a pixel",
+                        "%.256s, %u frame%s, errors against %u samples per pixel",
                         options->sweep ? options->sweep : "calibrated", figures->frames,
                         figures->frames == 1 ? "" : "s", figures->reference_samples);
     if (from[0] != to[0] || from[1] != to[1])

@@ -11,11 +11,11 @@
 /// `lobe render --budget` and `--error`: filter and knobs for one picture.
 ///
 ///     trade_choice.c  which row of a sweep
-///     calibration.c   a short sweep, where there is no stored one
+///     calibration.c   a short sweep if there is no stored one
 
 /// What is to be rendered.
 typedef struct budget_picture {
-    const char *name;        ///< of the scene, as the user gave it
+    const char *name;        ///< of the scene, as given by the user
     const lobe_scene *scene; ///< with its environment
     const char *lighting;    ///< see scene_options_describe
     bool own_view;           ///< camera and lights are the scene's own
@@ -23,18 +23,17 @@ typedef struct budget_picture {
     uint32_t size[2];
 } budget_picture;
 
-/// Reads the stored sweep, where the options name one, and looks for the scene in it, whatever
-/// lights it; else `*figures` is zero. Free with sweep_results_free.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (the sweep has not measured the scene), those of
-/// sweep_results_read.
+/// Reads the stored sweep, if the options name one, and finds the scene in it, in whatever light;
+/// otherwise `*figures` is zero. Free with sweep_results_free. Errors: LOBE_ERROR_INVALID_ARGUMENT
+/// (the sweep has not measured the scene), those of sweep_results_read.
 lobe_result budget_read(const budget_options *options, const char *scene, const lobe_host *host,
                         sweep_results *figures);
 
-/// Picks, and says on standard output what and why. Calibrates first where the options name no
-/// sweep. The filter is never one that supersamples.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (the sweep is of another device, or has not measured the
-/// scene in its environment), LOBE_ERROR_UNSUPPORTED
-/// (nothing is within the limit; the line says what comes nearest), those of calibrate.
+/// Picks filter and knobs, and prints the choice and the reason on standard output. Calibrates
+/// first if the options name no sweep. The filter never supersamples. Errors:
+/// LOBE_ERROR_INVALID_ARGUMENT (the sweep was made on another device, or has not measured the scene
+/// in its environment), LOBE_ERROR_UNSUPPORTED (nothing is within the limit; the message says what
+/// comes nearest), those of calibrate.
 lobe_result budget_pick(const budget_options *options, const budget_picture *picture,
                         const lobe_host *host, sweep_results *figures, const lobe_filter **filter,
                         lobe_settings *settings);

@@ -7,8 +7,9 @@ option budget_option_milliseconds(budget_options *options) {
         .name = "budget",
         .kind = OPTION_NUMBER,
         .argument = "MS",
-        .summary = "instead of --filter: picks filter and knobs that err least of those whose "
-                   "frame takes at most so many milliseconds",
+        .summary =
+            "instead of --filter: pick the filter and knobs with the least error among those whose "
+            "frame takes at most this many milliseconds",
         .target = &options->milliseconds,
         .given = &options->has_milliseconds,
         .minimum = 0.001,
@@ -21,8 +22,8 @@ option budget_option_error(budget_options *options) {
         .name = "error",
         .kind = OPTION_NUMBER,
         .argument = "E",
-        .summary = "instead of --filter: picks filter and knobs that are fastest of those whose "
-                   "relative L2 error is at most so much",
+        .summary = "instead of --filter: pick the fastest filter and knobs among those whose "
+                   "relative L2 error is at most this",
         .target = &options->error,
         .given = &options->has_error,
         .minimum = 0.000001,
@@ -35,7 +36,7 @@ option budget_option_sweep(budget_options *options) {
         .name = "sweep",
         .kind = OPTION_TEXT,
         .argument = "FILE",
-        .summary = "with --budget or --error: picks by what 'lobe bench --sweep' measured of this "
+        .summary = "with --budget or --error: use what 'lobe bench --sweep' measured for this "
                    "scene on this device (default: a short calibration)",
         .target = &options->sweep,
     };
@@ -46,8 +47,8 @@ option budget_option_maps(budget_options *options) {
         .name = "maps",
         .kind = OPTION_CHOICE,
         .argument = "STATE",
-        .summary = "with --budget or --error: counts frames in which all maps are built anew, as "
-                   "where materials change, or frames that find them ready",
+        .summary = "with --budget or --error: time of frames in which all maps are rebuilt, as "
+                   "when materials change, or of frames in which they are retained",
         .target = &options->maps,
         .fallback = "rebuilt",
         .choices = states_of_maps,
@@ -69,6 +70,6 @@ int budget_options_check(const option_table *table, const budget_options *option
                                    limit, fixed, limit);
     const char *alone = options->sweep ? "--sweep" : options->has_maps ? "--maps" : NULL;
     if (!limit && alone)
-        return options_usage_error(table, "%s goes with --budget or --error", alone);
+        return options_usage_error(table, "%s needs --budget or --error", alone);
     return 0;
 }

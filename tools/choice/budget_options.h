@@ -6,7 +6,7 @@
 
 #include "tools/cli/options.h"
 
-/// The options that leave the choice of filter and knobs to what was measured.
+/// The options that choose filter and knobs by measurements.
 typedef struct budget_options {
     double milliseconds, error;
     const char *sweep; ///< NULL: calibrate
@@ -20,11 +20,12 @@ option budget_option_error(budget_options *options);
 option budget_option_sweep(budget_options *options);
 option budget_option_maps(budget_options *options);
 
-/// Whether the choice is left to measurements: "--budget" or "--error", NULL where it is not.
+/// The option that asks for a choice by measurements, "--budget" or "--error"; NULL if neither is
+/// given.
 const char *budget_options_limit(const budget_options *options);
 
-/// Looks for options that do not go together. `fixed` is an option by which the user chose filter
-/// or knobs, "--set"; NULL where there is none. Returns 0, or the exit status after a line on
+/// Checks for options that exclude each other. `fixed` is an option by which the user chose filter
+/// or knobs, like "--set"; NULL if there is none. Returns 0, or the exit status after a message on
 /// standard error.
 int budget_options_check(const option_table *table, const budget_options *options,
                          const char *fixed);

@@ -4,7 +4,7 @@
 
 #include "tools/sweep/sweep.h"
 
-/// One frame that is disturbed does not move the median of three.
+/// One disturbed frame does not change the median of three.
 #define CALIBRATION_FRAMES  3
 #define CALIBRATION_SAMPLES 64
 
@@ -27,7 +27,8 @@ static lobe_result make_plan(sweep_job *job) {
         return result;
     lobe_settings_default(reference, &bench->truth);
     add_filters(bench);
-    // Knobs of environments stay as they are: their maps take long to make, a calibration is short.
+    // Knobs of environments keep their values: preparing their maps takes too long for a
+    // calibration.
     const sweep_plan_request request = {bench->filters, bench->filter_count, false, NULL};
     return sweep_plan_make(&request, bench->host, &job->plan);
 }
@@ -41,7 +42,7 @@ static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_
     results->row_count = job->plan.count;
     lobe_host_log(bench->host, LOBE_LOG_NOTICE,
                   "calibrating: %zu choices of filter and knobs at %ux%u, %u frames each, errors "
-                  "against %u samples a pixel",
+                  "against %u samples per pixel",
                   job->plan.count, bench->size[0], bench->size[1], bench->frames, bench->samples);
     progress_expect(bench->progress, sweep_scene_work(job));
     lobe_result result = sweep_measure(job, scene, &entry, results->rows);

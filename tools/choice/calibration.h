@@ -16,12 +16,13 @@ typedef struct calibration {
     uint32_t size[2];
 } calibration;
 
-/// A short sweep of one scene: every filter over the values of its knobs, but none that
-/// supersamples; a few frames each. Says that it calibrates, and on a terminal how far it is.
+/// A short sweep of one scene: every filter except supersampling ones, over the values of its
+/// knobs, with a few frames each. Logs that it calibrates, and shows its progress on a terminal.
 ///
 /// `*results` gets the size, samples and frames, and the rows with scene, filter, settings, times
-/// and `error`, its relative L2 without the truth's noise; all else is empty. Free with
-/// sweep_results_free, after a failure too. Errors: LOBE_ERROR_OUT_OF_MEMORY, those of rendering.
+/// and `error`, the relative L2 without the noise of the reference; everything else is empty. Free
+/// with sweep_results_free, also after a failure. Errors: LOBE_ERROR_OUT_OF_MEMORY, those of
+/// rendering.
 lobe_result calibrate(const calibration *calibration, sweep_results *results);
 
 #endif

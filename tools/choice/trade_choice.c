@@ -21,14 +21,14 @@ static trade_cost cost_of(const trade_request *request, const sweep_row *row) {
                                                      : (trade_cost){error, milliseconds};
 }
 
-/// Devices without timestamps leave times at 0; what could not be measured is NAN.
+/// Devices without timestamps leave times at 0; values that could not be measured are NAN.
 static bool is_candidate(const trade_request *request, const sweep_row *row) {
     const double milliseconds = trade_milliseconds(request, row);
     const double error = row->error.relative_l2;
     return isfinite(milliseconds) && milliseconds > 0 && isfinite(error) && error >= 0;
 }
 
-/// By what is limited first, then by what is wanted.
+/// By the limited cost first, then by the wanted one.
 static bool costs_less(trade_cost a, trade_cost b) {
     return a.limited != b.limited ? a.limited < b.limited : a.wanted < b.wanted;
 }

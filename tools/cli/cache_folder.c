@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/// Existing folders make mkdir fail, which is fine; any other failure shows.
+/// mkdir fails if the folder exists, which is fine; other failures become apparent later.
 static bool make(const char *path) {
     struct stat status;
     mkdir(path, 0700);

@@ -7,7 +7,7 @@ option cache_option_folder(cache_options *options) {
         .name = "cache",
         .kind = OPTION_TEXT,
         .argument = "DIR",
-        .summary = "the folder where an environment's filtered cubes are kept for the next time "
+        .summary = "cache folder for the filtered cubes of environments "
                    "(default: lobe/environments in the user's cache folder)",
         .target = &options->folder,
     };
@@ -17,7 +17,7 @@ option cache_option_off(cache_options *options) {
     return (option){
         .name = "no-cache",
         .kind = OPTION_FLAG,
-        .summary = "neither looks for a cube that was kept nor keeps one",
+        .summary = "neither load nor save filtered cubes",
         .target = &options->off,
     };
 }

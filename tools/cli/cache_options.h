@@ -4,7 +4,7 @@
 #include "tools/cli/cache_folder.h"
 #include "tools/cli/options.h"
 
-/// The options of every subcommand that keeps the filtered cubes of environments for the next time.
+/// The options of every subcommand that caches the filtered cubes of environments.
 typedef struct cache_options {
     const char *folder; ///< NULL: in the user's cache folder
     bool off;
@@ -14,11 +14,11 @@ typedef struct cache_options {
 option cache_option_folder(cache_options *options);
 option cache_option_off(cache_options *options);
 
-/// 0, or the status of a usage error that was told.
+/// 0, or the exit status of a usage error, which has been printed.
 int cache_options_check(const option_table *table, const cache_options *options);
 
-/// The folder; NULL where none is wanted, or there is no place for one. `path`, of
-/// CACHE_FOLDER_SIZE bytes, holds it where it is the user's.
+/// The folder; NULL if caching is off or there is no place for it. `path`, of CACHE_FOLDER_SIZE
+/// bytes, holds it if it is the default one.
 const char *cache_options_find(const cache_options *options, char *path);
 
 #endif

@@ -5,8 +5,8 @@
 
 #include <lobe/host.h>
 
-/// The log of a program at a terminal: errors, warnings and notices go to standard error, one
-/// line each ("lobe: error: ..."); debug lines only where `verbose`.
+/// The log of a program at a terminal: errors, warnings and notices go to standard error, one line
+/// each ("lobe: error: ..."); debug messages only if `verbose`.
 lobe_host console_host(bool verbose);
 
 #endif

@@ -11,8 +11,8 @@ option device_option_select(device_options *options) {
         .name = "device",
         .kind = OPTION_TEXT,
         .argument = "NAME",
-        .summary = "the device: a part of its name or its number in 'lobe info' (default: "
-                   "environment variable LOBE_DEVICE, or else the best suited)",
+        .summary = "the device: part of its name, or its number in 'lobe info' (default: "
+                   "environment variable LOBE_DEVICE, or else the most suitable)",
         .target = &options->select,
     };
 }
@@ -21,8 +21,9 @@ option device_option_validation(device_options *options) {
     return (option){
         .name = "validation",
         .kind = OPTION_FLAG,
-        .summary = "turn on Vulkan's validation layer, synchronisation validation too; fail where "
-                   "it finds fault",
+        .summary =
+            "turn on Vulkan's validation layer, including synchronisation validation; fail if "
+            "it reports errors",
         .target = &options->validation,
     };
 }
@@ -56,6 +57,6 @@ lobe_result device_options_check(const lobe_device *device, const lobe_host *hos
     uint64_t count = lobe_device_validation_count(device);
     if (count == 0)
         return LOBE_OK;
-    lobe_host_log(host, LOBE_LOG_ERROR, "the validation layer found %" PRIu64 " faults", count);
+    lobe_host_log(host, LOBE_LOG_ERROR, "the validation layer reported %" PRIu64 " errors", count);
     return LOBE_ERROR_UNSUPPORTED;
 }

@@ -9,7 +9,7 @@
 
 /// The options of every subcommand that needs a device.
 typedef struct device_options {
-    const char *select; ///< NULL: the environment variable LOBE_DEVICE, or else the best suited
+    const char *select; ///< NULL: the environment variable LOBE_DEVICE, or else the most suitable
     bool validation;
 } device_options;
 
@@ -17,18 +17,18 @@ typedef struct device_options {
 option device_option_select(device_options *options);
 option device_option_validation(device_options *options);
 
-/// What lobe_device_parameters.select is to be; NULL: the best suited.
+/// The value for lobe_device_parameters.select; NULL: the most suitable.
 const char *device_options_selection(const device_options *options);
-/// The file that keeps compiled pipelines, written to `path` of CACHE_FOLDER_SIZE bytes (see
-/// tools/cli/cache_folder.h); NULL where there is no place for it.
+/// Path of the cache file for compiled pipelines, written to `path` of CACHE_FOLDER_SIZE bytes (see
+/// tools/cli/cache_folder.h); NULL if there is no place for it.
 const char *device_options_pipeline_cache(char *path);
 
 /// Opens the device, with a pipeline cache in the user's cache folder ($XDG_CACHE_HOME/lobe or
-/// ~/.cache/lobe) where there is one.
+/// ~/.cache/lobe) if there is one.
 lobe_result device_options_open(const device_options *options, const lobe_host *host,
                                 lobe_device **device);
 
-/// LOBE_ERROR_UNSUPPORTED with a line where the validation layer found fault, else LOBE_OK.
+/// LOBE_ERROR_UNSUPPORTED, with a message, if the validation layer reported errors, else LOBE_OK.
 lobe_result device_options_check(const lobe_device *device, const lobe_host *host);
 
 #endif

@@ -15,7 +15,7 @@ static void print_help(FILE *stream) {
           stream);
     for (size_t i = 0; subcommands[i]; i++)
         fprintf(stream, "  %-11s %s\n", subcommands[i]->name, subcommands[i]->summary);
-    fputs("\n'lobe help SUBCOMMAND' or 'lobe SUBCOMMAND --help' tells more.\n"
+    fputs("\n'lobe help SUBCOMMAND' or 'lobe SUBCOMMAND --help' explains one.\n"
           "'lobe --version' prints the version.\n"
           "Exit status: 0 done, 1 failed, 2 wrong usage.\n",
           stream);
@@ -61,7 +61,7 @@ static int run(int argc, char **argv) {
 int main(int argc, char **argv) {
     options_set_form_finder(option_form_find);
     int status = run(argc, argv);
-    // What was printed may still be lost, on a full disk for example.
+    // Output may still be lost, for example on a full disk.
     bool failed = fflush(stdout) != 0 || ferror(stdout);
     if (failed && status == 0) {
         fprintf(stderr, "lobe: error: standard output: %s\n", strerror(errno));

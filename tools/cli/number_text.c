@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Digits behind the point; rounding may still add one in front of it: 0.9996 is 1.000.
+/// Digits after the point; rounding may still add one before it: 0.9996 is 1.000.
 static int decimals(double value, int significant) {
     char scientific[32];
     int exponent;

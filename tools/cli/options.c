@@ -11,7 +11,7 @@
 bool option_parse_numbers(const char *text, size_t count, double *values) {
     for (size_t index = 0; index < count; index++) {
         char *end;
-        // strtod also takes white space before the number, hexadecimal digits and names.
+        // strtod also accepts leading white space, hexadecimal digits and names.
         size_t length = strspn(text, "0123456789+-.eE");
         values[index] = strtod(text, &end);
         char expected = index + 1 < count ? ',' : '\0';
@@ -26,7 +26,7 @@ bool option_parse_number(const char *text, double *value) {
     return option_parse_numbers(text, 1, value);
 }
 
-/// Digits only, so that neither signs nor hexadecimal slip through. `*text` moves behind them.
+/// Digits only, so that signs and hexadecimal are rejected. Moves `*text` past them.
 static bool parse_digits(const char **text, uint32_t *value) {
     uint64_t sum = 0;
     const char *digit = *text;
@@ -238,7 +238,7 @@ static const option *find_by_letter(const option_table *table, char letter) {
     return NULL;
 }
 
-/// `value` is what stood in the same argument; NULL: the next argument is the value.
+/// `value` is the value in the same argument; NULL: it is the next argument.
 static int take_value(parser *parser, const option *option, const char *value) {
     parser->seen[option - parser->table->options] = true;
     if (option->kind == OPTION_FLAG) {
@@ -307,7 +307,7 @@ static int parse_arguments(parser *parser) {
     return status;
 }
 
-/// Tells who was given, and fills the others from their fallbacks.
+/// Sets the `given` flags, and fills the options not given from their fallbacks.
 static int complete(parser *parser) {
     int status = 0;
     for (size_t index = 0; status == 0 && index < parser->table->option_count; index++) {
@@ -360,7 +360,7 @@ void options_free(const option_table *table, option_list *operands) {
 
 enum { HELP_INDENT = 28, HELP_WIDTH = 88 };
 
-/// Prints words from column `column` on, broken before HELP_WIDTH, later lines indented.
+/// Prints words from column `column` on, wrapped before HELP_WIDTH, with later lines indented.
 static void print_wrapped(FILE *stream, const char *text, size_t column) {
     while (*text != '\0') {
         size_t length = strcspn(text, " ");

@@ -22,10 +22,10 @@ typedef enum option_kind {
     OPTION_LIST,    ///< may be repeated; option_list of texts
 } option_kind;
 
-/// What may stand as a value or an operand: shells offer it to who types.
+/// The kind of values of an option or operand, for completion by shells.
 typedef enum option_values {
-    /// What the rest of the entry says: the choices; files where `argument` begins with FILE,
-    /// folders where it begins with DIR; else nothing.
+    /// Follows from the rest of the entry: the choices; files if `argument` begins with FILE,
+    /// folders if it begins with DIR; otherwise nothing.
     OPTION_VALUES_PLAIN,
     OPTION_VALUES_NONE,
     OPTION_VALUES_CHOICE,
@@ -48,37 +48,37 @@ typedef struct option {
     const char *name; ///< without the dashes; the table adds "help" itself
     char letter;      ///< short form; 0: none
     option_kind kind;
-    const char *argument; ///< how help calls the value, "FILE"; NULL for a flag
+    const char *argument; ///< name of the value in the help, "FILE"; NULL for a flag
     const char *summary;  ///< one phrase; help adds range, choices and default
     void *target;         ///< see option_kind
-    /// Read as if it had been given, when it was not; shown by help. NULL: the target is left as
-    /// it is. For a list: a single value.
+    /// Used as if it had been given if the option is not; shown by help. NULL: the target is
+    /// unchanged. For a list: a single value.
     const char *fallback;
-    double minimum, maximum;    ///< both included; no limit where they are equal
+    double minimum, maximum;    ///< inclusive; no limit if they are equal
     const char *const *choices; ///< ends with NULL
     option_values values;
-    bool *given; ///< told whether the command line had it; NULL: nobody asks
+    bool *given; ///< set to whether it was on the command line; may be NULL
 } option;
 
 typedef struct option_table {
-    const char *program;  ///< "lobe compare"
-    const char *operands; ///< how help calls the operands, "TEST REFERENCE"; NULL: there are none
-    const char *summary;  ///< what the subcommand does; may have several lines
+    const char *program; ///< "lobe compare"
+    const char
+        *operands; ///< names of the operands in the help, "TEST REFERENCE"; NULL: there are none
+    const char *summary; ///< what the subcommand does; may have several lines
     const option *options;
     size_t option_count;
     size_t minimum_operands, maximum_operands;
     option_values operand_values;
-    /// Writes what the manual page has beyond this table, in roff (tools/manual/roff.h). NULL:
+    /// Writes what the manual page contains beyond this table, in roff (tools/manual/roff.h). NULL:
     /// nothing.
     void (*manual)(FILE *stream);
 } option_table;
 
-/// Reads argv[1] to argv[argc - 1] into the targets. `operands` may be NULL where the table allows
-/// none. Returns true to go on. Returns false when the subcommand is to return `*status` at once:
-/// 0 after `--help` (printed on standard output), 2 after a mistake (one line on
-/// standard error), 1 when out of memory. Call options_free in all cases. `--help=FORM` prints the
-/// table in another form (tools/manual/option_form.h); the subcommands `manual` and `completion`
-/// use it.
+/// Reads argv[1] to argv[argc - 1] into the targets. `operands` may be NULL if the table allows
+/// none. Returns true to continue. Returns false if the subcommand must return `*status` at once: 0
+/// after `--help` (printed on standard output), 2 after a mistake (one line on standard error), 1
+/// if memory runs out. Always call options_free. `--help=FORM` prints the table in another form
+/// (tools/manual/option_form.h), for the subcommands `manual` and `completion`.
 bool options_parse(const option_table *table, int argc, char **argv, option_list *operands,
                    int *status);
 
@@ -89,7 +89,7 @@ typedef void option_form(const option_table *table, FILE *stream);
 /// Without it there are none.
 void options_set_form_finder(option_form *(*find)(const char *name));
 
-/// Frees the lists the table's options point to, and the operands (may be NULL).
+/// Frees the lists that the table's options point to, and the operands (may be NULL).
 void options_free(const option_table *table, option_list *operands);
 
 /// Writes what `--help` shows.
@@ -98,11 +98,11 @@ void options_print_help(const option_table *table, FILE *stream);
 /// The option that every table has without listing it.
 extern const option option_help;
 
-/// Range, choices, repetition and default, as they stand behind an option's summary: " [1, 9]
-/// (default 3)", or "". Cut where `size` is too small.
+/// Range, choices, repetition and default, as printed after an option's summary: " [1, 9] (default
+/// 3)", or "". Truncated to `size`.
 void option_print_limits(const option *option, char *text, size_t size);
 
-/// For mistakes that only the subcommand can see: prints "PROGRAM: MESSAGE (see ...)" on
+/// For mistakes that only the subcommand can detect: prints "PROGRAM: MESSAGE (see ...)" on
 /// standard error, returns 2.
 int options_usage_error(const option_table *table, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -110,9 +110,9 @@ int options_usage_error(const option_table *table, const char *format, ...)
 /// Frees the list (not the texts) and zeroes it.
 void option_list_free(option_list *list);
 
-/// A finite decimal number that takes up the whole text.
+/// A finite decimal number that is the whole text.
 bool option_parse_number(const char *text, double *value);
-/// `count` numbers with one comma between each.
+/// `count` numbers separated by single commas.
 bool option_parse_numbers(const char *text, size_t count, double *values);
 
 #endif

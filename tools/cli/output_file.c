@@ -20,7 +20,7 @@ static lobe_result cannot_write(const char *path, int error, const lobe_host *ho
     return LOBE_ERROR_WRITE;
 }
 
-/// Access rights alone do not tell: the file system may be full or read-only, the name too long.
+/// Access rights alone are not enough: the file system may be full or read-only, the name too long.
 static lobe_result try_to_create(const char *path, const lobe_host *host) {
     char *temporary = malloc(strlen(path) + sizeof ".XXXXXX");
     if (!temporary)

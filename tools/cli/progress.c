@@ -8,7 +8,7 @@ progress progress_begin(bool lines) {
     return (progress){.terminal = isatty(STDERR_FILENO), .lines = lines};
 }
 
-/// Too little work says nothing about the rest.
+/// Less work than this does not allow an estimate.
 #define TELLING_PART 0.01
 
 static double seconds_since(const struct timespec *start) {
@@ -33,7 +33,7 @@ static void describe_time_left(const progress *progress, double part, char *text
         snprintf(text, size, ", about %.1f h left", seconds / 3600);
 }
 
-// The cursor stays at the start of the line: whatever is written next replaces it.
+// The cursor stays at the start of the line: the next output replaces it.
 static void show(const progress *progress, double part) {
     char left[64];
     describe_time_left(progress, part, left, sizeof left);

@@ -11,7 +11,7 @@ option scene_option_assets(scene_options *options) {
         .name = "assets",
         .kind = OPTION_TEXT,
         .argument = "DIR",
-        .summary = "the folder that holds models/, which some built-in scenes need (default: "
+        .summary = "the folder that contains models/, which some scenes need (default: "
                    "environment variable LOBE_ASSETS)",
         .target = &options->assets,
     };
@@ -22,7 +22,7 @@ option scene_option_environment(scene_options *options) {
         .name = "environment",
         .kind = OPTION_TEXT,
         .argument = "FILE",
-        .summary = "light from all around, instead of the scene's own: an .exr or .hdr file, 'sky' "
+        .summary = "environment light instead of the scene's own: an .exr or .hdr file, 'sky' "
                    "or 'none'",
         .target = &options->environment,
     };
@@ -33,7 +33,7 @@ option scene_option_rotation(scene_options *options) {
         .name = "environment-rotation",
         .kind = OPTION_NUMBER,
         .argument = "DEGREES",
-        .summary = "turns the environment about +Y, counter-clockwise as seen from above",
+        .summary = "turn the environment about +Y, counter-clockwise as seen from above",
         .target = &options->rotation,
         .fallback = "0",
         .minimum = -36000,
@@ -47,7 +47,7 @@ option scene_option_intensity(scene_options *options) {
         .name = "environment-intensity",
         .kind = OPTION_NUMBER,
         .argument = "FACTOR",
-        .summary = "multiplies the environment's radiance",
+        .summary = "multiply the environment's radiance",
         .target = &options->intensity,
         .fallback = "1",
         .minimum = 0,
@@ -60,7 +60,7 @@ option scene_option_background(scene_options *options) {
     return (option){
         .name = "background",
         .kind = OPTION_FLAG,
-        .summary = "shows the environment behind the scene",
+        .summary = "show the environment behind the scene",
         .target = &options->background,
     };
 }
@@ -69,7 +69,7 @@ option scene_option_no_lights(scene_options *options) {
     return (option){
         .name = "no-lights",
         .kind = OPTION_FLAG,
-        .summary = "leaves out the scene's lights: what is left is its environment",
+        .summary = "remove the scene's lights and keep its environment",
         .target = &options->no_lights,
     };
 }

@@ -11,8 +11,8 @@ typedef struct scene_options {
     const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
     double rotation;         ///< of the environment, degrees about +Y
     double intensity;        ///< factor
-    bool background;         ///< the environment is seen behind the scene
-    bool no_lights;          ///< the scene's lights are left out, the environment stays
+    bool background;         ///< show the environment behind the scene
+    bool no_lights;          ///< remove the scene's lights, keep the environment
     bool has_rotation, has_intensity;
 } scene_options;
 
@@ -24,24 +24,24 @@ option scene_option_intensity(scene_options *options);
 option scene_option_background(scene_options *options);
 option scene_option_no_lights(scene_options *options);
 
-/// Longest text that scene_options_describe writes, with its end.
+/// Size of the longest text that scene_options_describe writes, including the terminator.
 #define SCENE_OPTIONS_DESCRIPTION 128
 
-/// How the options change a scene's light beside choosing its environment: "no lights, turned by
-/// 30, intensity 2, background"; "" where they do not.
+/// How the options change a scene's light apart from choosing its environment: "no lights, turned
+/// by 30, intensity 2, background"; "" if they do not.
 void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]);
 
-/// Lights an opened scene as the options ask.
+/// Applies the options to the light of an opened scene.
 lobe_result scene_options_light(const scene_options *options, const lobe_host *host,
                                 lobe_scene *scene);
 
-/// Opens a scene and lights it, with the camera that fits a picture of this size where it brings
-/// none.
+/// Opens a scene and applies the options. A scene without a camera gets one that frames it in a
+/// picture of this size.
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result);
 
-/// Whether `result`, of opening `scene`, only says that there are no assets for it: then others can
-/// still be measured.
+/// Whether `result`, from opening `scene`, only means that its assets are missing, so that other
+/// scenes can still be measured.
 bool scene_options_lack_assets(const char *scene, lobe_result result);
 
 #endif

@@ -5,8 +5,8 @@
 typedef struct subcommand {
     const char *name;
     const char *summary; ///< one line for `lobe --help`
-    /// argv[0] is the name, the rest its options and operands. Returns the exit status: 0 done,
-    /// 1 failed (one line on standard error said why), 2 wrong usage.
+    /// argv[0] is the name, the rest its options and operands. Returns the exit status: 0 done, 1
+    /// failed (with one line on standard error), 2 wrong usage.
     int (*run)(int argc, char **argv);
 } subcommand;
 
@@ -22,11 +22,11 @@ extern const subcommand info_subcommand;
 extern const subcommand manual_subcommand;
 extern const subcommand completion_subcommand;
 
-/// All of them in the order of `lobe --help`, ended by NULL.
+/// All subcommands in the order of `lobe --help`; the last is NULL.
 extern const subcommand *const subcommands[];
-/// NULL where there is none of that name.
+/// NULL if there is none of that name.
 const subcommand *subcommand_find(const char *name);
-/// Has a subcommand print its option table in another form (option_form_find) on standard output.
+/// Makes a subcommand print its option table in another form (option_form_find) on standard output.
 /// Returns the exit status.
 int subcommand_print(const subcommand *subcommand, const char *form);
 

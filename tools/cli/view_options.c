@@ -8,7 +8,7 @@ option view_option_eye(view_options *options) {
     return (option){.name = "eye",
                     .kind = OPTION_VECTOR,
                     .argument = "X,Y,Z",
-                    .summary = "where the camera is, metres (default: the scene's)",
+                    .summary = "position of the camera, metres (default: the scene's)",
                     .target = options->eye,
                     .given = &options->has_eye};
 }
@@ -17,7 +17,7 @@ option view_option_target(view_options *options) {
     return (option){.name = "target",
                     .kind = OPTION_VECTOR,
                     .argument = "X,Y,Z",
-                    .summary = "what the camera looks at, metres (default: the scene's)",
+                    .summary = "point that the camera looks at, metres (default: the scene's)",
                     .target = options->target,
                     .given = &options->has_target};
 }
@@ -34,25 +34,27 @@ option view_option_field_of_view(view_options *options) {
 }
 
 option view_option_path(view_options *options) {
-    return (option){.name = "path",
-                    .kind = OPTION_NUMBER,
-                    .argument = "PART",
-                    .summary = "how far the camera has gone along its path: from 0 to 1/2 it zooms "
-                               "out by 64, then it comes back to 8 and turns once around",
-                    .target = &options->path,
-                    .fallback = "0",
-                    .minimum = 0,
-                    .maximum = 1};
+    return (option){
+        .name = "path",
+        .kind = OPTION_NUMBER,
+        .argument = "PART",
+        .summary = "position of the camera on its path: from 0 to 1/2 it zooms "
+                   "out to 64 times the distance, then it returns to 8 times and turns once around",
+        .target = &options->path,
+        .fallback = "0",
+        .minimum = 0,
+        .maximum = 1};
 }
 
 option view_option_light(view_options *options) {
-    return (option){.name = "light",
-                    .kind = OPTION_LIST,
-                    .argument = "LIGHT",
-                    .summary = "replaces the scene's lights: directional:DX,DY,DZ:R,G,B travels "
-                               "that way with so many lux; point:X,Y,Z:R,G,B shines from there "
-                               "with so many candela",
-                    .target = &options->lights};
+    return (option){
+        .name = "light",
+        .kind = OPTION_LIST,
+        .argument = "LIGHT",
+        .summary = "replace the scene's lights: directional:DX,DY,DZ:R,G,B travels in "
+                   "that direction with an illuminance in lux; point:X,Y,Z:R,G,B shines from there "
+                   "with an intensity in candela",
+        .target = &options->lights};
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -84,7 +86,7 @@ static double length(const double vector[3]) {
     return sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
 }
 
-/// NULL where all is well, else what is wrong.
+/// NULL if the text is right, else what is wrong.
 static const char *parse_light(const char *text, lobe_light *light) {
     static const char directional[] = "directional:", point[] = "point:";
     double place[3], intensity[3];
@@ -146,7 +148,7 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     double reach = distance(camera.eye, camera.target);
     if (!(reach > 0))
         return false;
-    // What one looks at closely must not be cut away by a plane meant for another distance.
+    // Otherwise a near plane meant for another distance would cut away close objects.
     if (options->has_eye || options->has_target)
         camera.near_plane = fminf(camera.near_plane, (float)(1e-3 * reach));
     scene->camera = camera;

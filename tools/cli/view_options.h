@@ -23,13 +23,13 @@ option view_option_field_of_view(view_options *options);
 option view_option_path(view_options *options);
 option view_option_light(view_options *options);
 
-/// Reads the lights' texts. On success `*lights` (NULL where there are none) is to lobe_release by
-/// the caller. Returns 0, or the exit status after a line on standard error.
+/// Parses the lights. On success the caller must lobe_release `*lights` (NULL if there are none).
+/// Returns 0, or the exit status after a message on standard error.
 int view_options_parse_lights(const option_table *table, const view_options *options,
                               lobe_light **lights);
 
-/// Changes the scene's camera, and takes over the lights where there are any. False, the scene
-/// as it was, where eye and target are the same point.
+/// Changes the scene's camera, and takes over the lights if there are any. False, with the scene
+/// unchanged, if eye and target are the same point.
 bool view_options_apply(const view_options *options, lobe_light *lights, lobe_scene *scene);
 
 #endif

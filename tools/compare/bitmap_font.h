@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-/// Capitals, digits and some signs, as dots. Small letters look like capitals; what the font
-/// lacks is blank.
+/// Capitals, digits and some signs, as dots. Small letters look like capitals; characters that the
+/// font lacks are blank.
 #define BITMAP_FONT_WIDTH  5
 #define BITMAP_FONT_HEIGHT 7
 

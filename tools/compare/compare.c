@@ -99,7 +99,7 @@ static lobe_result print_json(const compare_job *job) {
     char *text = cJSON_Print(root);
     cJSON_Delete(root);
     if (text == NULL) {
-        lobe_host_log(&job->host, LOBE_LOG_ERROR, "no memory to print JSON");
+        lobe_host_log(&job->host, LOBE_LOG_ERROR, "out of memory printing JSON");
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     puts(text);
@@ -179,17 +179,17 @@ static int run(int argc, char **argv) {
         {.name = "side-by-side",
          .kind = OPTION_TEXT,
          .argument = "FILE.png",
-         .summary = "write all images beside each other, with their FLIP errors below",
+         .summary = "write all images side by side, with their FLIP errors below",
          .target = &job.side_by_side_path},
         {.name = "crop",
          .kind = OPTION_TEXT,
          .argument = "X,Y,W,H",
-         .summary = "show only this part side by side",
+         .summary = "with --side-by-side: show only this part",
          .target = &job.crop_text},
         {.name = "zoom",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "enlarge pixels side by side",
+         .summary = "with --side-by-side: enlarge pixels",
          .target = &job.zoom,
          .fallback = "1",
          .minimum = 1,
@@ -197,7 +197,7 @@ static int run(int argc, char **argv) {
         {.name = "exposure",
          .kind = OPTION_NUMBER,
          .argument = "STOPS",
-         .summary = "brighten side by side",
+         .summary = "with --side-by-side: brighten the images",
          .target = &job.exposure,
          .fallback = "0",
          .minimum = -40,
@@ -213,7 +213,7 @@ static int run(int argc, char **argv) {
         {.name = "pixels-per-degree",
          .kind = OPTION_NUMBER,
          .argument = "N",
-         .summary = "how FLIP assumes the images are seen",
+         .summary = "viewing condition assumed by FLIP",
          .target = &job.pixels_per_degree,
          .fallback = "67.0206",
          .minimum = FLIP_PIXELS_PER_DEGREE_MINIMUM,

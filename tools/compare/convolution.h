@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
-/// Separable filtering of planes (one float a texel, rows packed). Beyond its border a plane goes
-/// on with the value at the border.
+/// Separable filtering of planes (one float per texel, rows packed). Beyond its border a plane
+/// continues with the value at the border.
 
 #define CONVOLUTION_MAXIMUM_RADIUS 80
 
@@ -14,7 +14,7 @@ typedef struct convolution_kernel {
     float weights[2 * CONVOLUTION_MAXIMUM_RADIUS + 1];
 } convolution_kernel;
 
-/// exp(-i^2 / (2 deviation^2)), scaled to the sum 1; deviation in texels, above 0.
+/// exp(-i^2 / (2 deviation^2)), normalised to the sum 1; deviation in texels, above 0.
 void convolution_gaussian(convolution_kernel *kernel, double deviation, int radius);
 
 /// First (`order` 1) or second (`order` 2) derivative of that Gaussian, scaled such that its
@@ -27,7 +27,7 @@ void convolution_gaussian_derivative(convolution_kernel *kernel, double deviatio
 void convolution_row(const float *row, size_t width, const convolution_kernel *kernel,
                      float *padded, float *result);
 
-/// Filters along the columns, for row `y` alone; `result` has `width` floats.
+/// Filters along the columns, for row `y` only; `result` has `width` floats.
 void convolution_columns(const float *plane, size_t width, size_t height, size_t y,
                          const convolution_kernel *kernel, float *result);
 

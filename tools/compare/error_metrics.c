@@ -82,7 +82,7 @@ static error_sums sum_errors(const lobe_image *test, const lobe_image *reference
     return sums;
 }
 
-/// 0 / 0, black against black, is no error at all.
+/// 0 / 0, black compared with black, is no error.
 static double ratio(double error, double reference) {
     return error == 0.0 ? 0.0 : error / reference;
 }

@@ -7,7 +7,7 @@
 #include <lobe/image.h>
 #include <lobe/result.h>
 
-/// How far an image is from a reference.
+/// The error of an image relative to a reference.
 
 /// Sums run over the texels' R, G and B (alpha is ignored): a the test's, b the reference's
 /// values, linear radiance for high dynamic range, sRGB-encoded [0, 1] otherwise.
@@ -28,9 +28,9 @@ typedef struct error_metrics_parameters {
 } error_metrics_parameters;
 
 /// Compares linear RGBA32_FLOAT images. `flip_errors` (R32_FLOAT, each texel's FLIP error) may be
-/// NULL; else it is overwritten; free it with lobe_image_free.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (another format, differing extents, values that are not
-/// finite: the line names image, count and first place), LOBE_ERROR_OUT_OF_MEMORY.
+/// NULL; otherwise it is overwritten and must be freed with lobe_image_free. Errors:
+/// LOBE_ERROR_INVALID_ARGUMENT (another format, differing extents, values that are not finite: the
+/// message names image, count and first position), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *reference,
                                   const error_metrics_parameters *parameters, const lobe_host *host,
                                   error_metrics *metrics, lobe_image *flip_errors);

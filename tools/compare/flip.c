@@ -15,7 +15,7 @@
 #define ERROR_SHARE      0.95f // pt: the error there
 #define FEATURE_WIDTH    0.082 // w: degrees from peak to trough of the edge detector
 
-/// What an image becomes on the way to its differences: planes of one float a texel.
+/// Intermediate results of an image: planes with one float per texel.
 typedef struct flip_view {
     float *opponent[3]; ///< filtered as the eye does
     float *edges, *points;
@@ -216,7 +216,7 @@ static lobe_result allocate(flip_job *job, const lobe_host *host) {
     size_t padded = job->width + 2 * CONVOLUTION_MAXIMUM_RADIUS;
     job->memory = malloc((PLANES * plane + ROWS * job->width + padded) * sizeof *job->memory);
     if (job->memory == NULL) {
-        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: no memory for images of %zux%zu", job->width,
+        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: out of memory for images of %zux%zu", job->width,
                       job->height);
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
@@ -250,7 +250,7 @@ static lobe_result begin(flip_job *job, const lobe_image *reference, double pixe
                                host);
 }
 
-/// Raises each error to that of this exposure, where that is larger.
+/// Raises each error to that of this exposure if that is larger.
 static void accumulate(flip_job *job, const lobe_image *test, const lobe_image *reference,
                        flip_curve curve, float gain, lobe_image *errors) {
     view_image(job, test, curve, gain, &job->views[0]);

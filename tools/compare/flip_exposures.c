@@ -29,8 +29,8 @@ static int compare_floats(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// Median of `count` sorted values, from the first above 0 on where the median of all is 0: else
-/// an image that is mostly black would ask for infinite exposure.
+/// Median of `count` sorted values; if that is 0, the median of those above 0. Otherwise an image
+/// that is mostly black would need infinite exposure.
 static double bright_median(const float *sorted, size_t count) {
     size_t first = 0;
     if (sorted[(count - 1) / 2] + sorted[count / 2] <= 0.0f) {
@@ -58,8 +58,8 @@ lobe_result flip_choose_exposures(const lobe_image *reference, const lobe_host *
     const float *texels = reference->texels;
     float *sorted = malloc(count * sizeof *sorted);
     if (sorted == NULL) {
-        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: no memory for images of %ux%u", reference->width,
-                      reference->height);
+        lobe_host_log(host, LOBE_LOG_ERROR, "FLIP: out of memory for images of %ux%u",
+                      reference->width, reference->height);
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     for (size_t index = 0; index < count; index++)

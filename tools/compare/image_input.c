@@ -8,7 +8,7 @@
 #include <lobe/exr.h>
 #include <lobe/png.h>
 
-/// False also where the file cannot be read: then reading it as OpenEXR says why.
+/// Also false if the file cannot be read: then reading it as OpenEXR reports why.
 static bool is_png(const char *path) {
     static const uint8_t signature[4] = {0x89, 'P', 'N', 'G'};
     uint8_t start[4] = {0};

@@ -131,7 +131,7 @@ static void draw_errors(lobe_image *picture, size_t left, size_t top,
     }
 }
 
-/// What the colours of the heat maps mean, where a panel has no errors of its own.
+/// The meaning of the heat maps' colours, in a panel without errors.
 static void draw_scale(lobe_image *picture, size_t left, size_t top,
                        const side_by_side_layout *layout) {
     char caption[64];

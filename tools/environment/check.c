@@ -9,13 +9,13 @@
 #include "tools/environment/check_passes.h"
 
 #define MOST_ROUNDS 16
-/// Updates whose median is taken: each is long.
+/// Updates of which the median is taken: each takes long.
 #define UPDATES 3
 /// Samples of the method `sampled`.
 #define SAMPLES 32
-/// Terms of the exact sum that one submission adds: no device is kept from its other work for long.
+/// Terms of the exact sum per submission, so that other work on the device need not wait long.
 #define TERMS_A_SUBMISSION (1u << 24)
-/// Texels that one submission adds at most: lavapipe ends loops after 65535 rounds, without a word.
+/// Texels per submission at most: lavapipe silently ends loops after 65535 iterations.
 #define MOST_TEXELS (1u << 15)
 
 typedef struct measurement {
@@ -79,7 +79,7 @@ static lobe_result add_texels(measurement *m, uint32_t first, uint32_t count) {
     return LOBE_OK;
 }
 
-/// Sums of few texels in float32, the sum of those in double.
+/// Sums few texels in float32, and those sums in double.
 static lobe_result find_exact_light(measurement *m) {
     uint32_t total = 6 * m->findings->face * m->findings->face;
     uint32_t step = TERMS_A_SUBMISSION / m->job->directions / CHECK_GROUP_SIZE * CHECK_GROUP_SIZE;
@@ -112,7 +112,7 @@ static double relative_l2(const measurement *m, uint32_t lobe, const float *ligh
     return total > 0 ? sqrt(difference / total) : 0;
 }
 
-/// Looks the light of a lobe up once; the time goes to `milliseconds`.
+/// Looks up the light of a lobe once; `milliseconds` receives the time.
 static lobe_result look_up(measurement *m, uint32_t lobe, environment_method method,
                            uint32_t samples, environment_error *error, double *milliseconds) {
     static const uint32_t methods[ENVIRONMENT_METHOD_COUNT] = {
@@ -135,7 +135,7 @@ static lobe_result look_up(measurement *m, uint32_t lobe, environment_method met
     return LOBE_OK;
 }
 
-/// Measures methods of a lobe in turns, so that what slows the machine down slows them all.
+/// Measures the methods of a lobe alternately, so that temporary slowdowns affect them all.
 static lobe_result measure(measurement *m, uint32_t lobe, const environment_method *methods,
                            const uint32_t *samples, uint32_t count, environment_error *errors) {
     double times[ENVIRONMENT_METHOD_COUNT][MOST_ROUNDS];
@@ -149,8 +149,8 @@ static lobe_result measure(measurement *m, uint32_t lobe, const environment_meth
     return result;
 }
 
-/// The time of samples is taken to grow evenly, and to be as long as that of `prefiltered` at most:
-/// where the guess took longer, with fewer.
+/// Assumes that the time grows linearly with the samples, and chooses as many as take the time of
+/// `prefiltered`; fewer if that guess took longer.
 static lobe_result measure_equal_time(measurement *m, uint32_t lobe) {
     const environment_method methods[2] = {ENVIRONMENT_PREFILTERED, ENVIRONMENT_SAMPLED_EQUAL_TIME};
     environment_error *errors = m->findings->errors[lobe], pair[2];
@@ -246,7 +246,7 @@ static lobe_result time_updates(measurement *m) {
 
 // ---------------------------------------------------------------------------------------------
 
-/// A graphics card is done with a few thousand directions before its clock has ticked often.
+/// A graphics card finishes a few thousand directions in too few ticks of its clock.
 static uint32_t choose_repeats(const lobe_device *device) {
     return lobe_device_describe(device)->type == LOBE_DEVICE_CPU ? 1 : 64;
 }

@@ -12,7 +12,7 @@
 #include "tools/environment/check_passes.h"
 #include "tools/environment/output.h"
 
-/// Faces that are checked where none are asked for.
+/// Face sizes that are checked by default.
 static const uint32_t checked_faces[] = {128, 256};
 #define CHECKED_FACES 2
 
@@ -39,11 +39,11 @@ static int check_usage(const option_table *table, const environment_request *req
     if ((request->face & (request->face - 1)) != 0)
         return options_usage_error(table, "--face: %u is not a power of two", request->face);
     if (request->json && !request->check)
-        return options_usage_error(table, "--json: there is nothing to write without --check");
+        return options_usage_error(table, "--json needs --check");
     if (request->has_directions && !request->check)
-        return options_usage_error(table, "--directions: nothing is measured without --check");
+        return options_usage_error(table, "--directions needs --check");
     if (request->has_kappa && !request->check)
-        return options_usage_error(table, "--kappa: nothing is measured without --check");
+        return options_usage_error(table, "--kappa needs --check");
     if (request->output && !output_file_has_ending(request->output, ".exr"))
         return options_usage_error(table, "-o: '%s' does not end in .exr", request->output);
     return cache_options_check(table, &request->cache);
@@ -155,13 +155,13 @@ static int run(int argc, char **argv) {
          .letter = 'o',
          .kind = OPTION_TEXT,
          .argument = "FILE.exr",
-         .summary = "writes the filtered cube: a file of MIP levels, faces below one another",
+         .summary = "write the filtered cube: a file of MIP levels, with the faces in a column",
          .target = &request.output,
          .values = OPTION_VALUES_FILE},
         {.name = "face",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "texels along a face of the cube, a power of two; --check without it measures "
+         .summary = "texels per side of a cube face, a power of two; --check without it measures "
                     "128 and 256",
          .target = &request.face,
          .fallback = "256",
@@ -171,24 +171,25 @@ static int run(int argc, char **argv) {
         {.name = "kernel",
          .kind = OPTION_CHOICE,
          .argument = "LOBE",
-         .summary = "what the cube is filtered with: von Mises-Fisher or GGX lobes",
+         .summary = "lobes to filter the cube with: von Mises-Fisher or GGX",
          .target = &request.kernel,
          .fallback = "vmf",
          .choices = kernels},
         {.name = "check",
          .kind = OPTION_FLAG,
-         .summary = "measures how far each method of lighting von Mises-Fisher lobes is from the "
-                    "exact integral over all texels, and how long it takes",
+         .summary =
+             "measure the error of each method of lighting von Mises-Fisher lobes against the "
+             "exact integral over all texels, and its time",
          .target = &request.check},
         {.name = "json",
          .kind = OPTION_TEXT,
          .argument = "FILE",
-         .summary = "with --check: writes what was found as JSON",
+         .summary = "with --check: write the results as JSON",
          .target = &request.json},
         {.name = "directions",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "with --check: lobes are about so many directions, spread over the sphere",
+         .summary = "with --check: number of lobe directions, spread over the sphere",
          .target = &request.directions,
          .fallback = "4096",
          .minimum = 1,

@@ -8,7 +8,7 @@
 
 #include "passes/environment/cache/cube_file.h"
 
-/// Levels of the widest cube there is.
+/// Levels of the largest possible cube.
 #define MOST_LEVELS 12
 
 static const char *kernel_name(lobe_environment_map map) {

@@ -3,7 +3,7 @@
 
 #include <lobe/environment_maps.h>
 
-/// What is made of an environment, for people and for other programs.
+/// Results of preparing an environment, for people and for other programs.
 typedef struct environment_output {
     const lobe_environment *environment;
     lobe_environment_maps *maps;
@@ -12,10 +12,11 @@ typedef struct environment_output {
     const lobe_host *host;
 } environment_output;
 
-/// A table of the map's levels, and the times of the passes that made all maps, on standard output.
+/// Prints a table of the map's levels, and the times of the passes that made all maps, on standard
+/// output.
 void environment_output_print(const environment_output *output);
 
-/// Writes the map as an OpenEXR file of levels, with attributes that say what each one stands for.
+/// Writes the map as an OpenEXR file of levels, with attributes that describe each of them.
 lobe_result environment_output_write(const environment_output *output, const char *path);
 
 #endif

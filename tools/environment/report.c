@@ -49,7 +49,7 @@ void environment_check_print(const environment_findings *findings) {
 // ---------------------------------------------------------------------------------------------
 // For programs
 
-/// Six digits are more than any measurement here has.
+/// Six digits exceed the precision of any measurement here.
 static void add_number(cJSON *object, const char *name, double value) {
     char digits[32];
     snprintf(digits, sizeof digits, "%.6g", value);

@@ -37,7 +37,7 @@ static void print_device(const lobe_device *device) {
     printf("  driver               %s\n", information->driver);
     printf("  Vulkan               %" PRIu32 ".%" PRIu32 ".%" PRIu32 "\n",
            information->vulkan_major, information->vulkan_minor, information->vulkan_patch);
-    printf("  memory               %" PRIu64 " MiB, of which %" PRIu64 " MiB may be taken now\n",
+    printf("  memory               %" PRIu64 " MiB, of which %" PRIu64 " MiB are available now\n",
            information->memory_bytes >> 20, memory.budget_bytes >> 20);
     printf("  largest image        %" PRIu32 " texels across\n", information->maximum_image_extent);
     printf("  pass timings         %s\n", information->timestamp_period > 0 ? "yes" : "no");
@@ -70,8 +70,8 @@ static int run(int argc, char **argv) {
     const option_table table = {
         .program = "lobe info",
         .summary =
-            "Lists the Vulkan devices, and describes the one in use: driver, memory, and the\n"
-            "features that lobe knows about with what it does with them.",
+            "Lists the Vulkan devices, and describes the one in use: driver, memory, and which\n"
+            "of the features that lobe can use it has, and what lobe uses them for.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
     };

@@ -17,9 +17,10 @@ static int run(int argc, char **argv) {
     const option_table table = {
         .program = "lobe scenes",
         .summary =
-            "Lists the built-in scenes. Wherever a scene is asked for, the path of a .gltf or\n"
-            ".glb file will do as well, or a folder of PBR maps, which are put on a cloth. Assets\n"
-            "are found in the folder that --assets DIR or LOBE_ASSETS says.",
+            "Lists the scenes known by name. Wherever a scene is expected, it may also be the "
+            "path\n"
+            "of a .gltf or .glb file, or a folder of PBR maps, which are put on a cloth. Assets\n"
+            "are read from the folder given by --assets DIR or LOBE_ASSETS.",
         .manual = print_manual,
     };
     int status;
@@ -32,4 +33,4 @@ static int run(int argc, char **argv) {
     return 0;
 }
 
-const subcommand scenes_subcommand = {"scenes", "list the built-in scenes", run};
+const subcommand scenes_subcommand = {"scenes", "list the scenes known by name", run};

@@ -29,7 +29,7 @@ static bool was_visited(size_t filter, const char *knob) {
 
 enum { MAXIMUM_CHOICES = 64 };
 
-/// Adds those that are not there yet; the list stays ended by NULL.
+/// Adds choices that are not in the list yet; the list still ends with NULL.
 static void add_choices(const char *list[MAXIMUM_CHOICES], const char *const *choices) {
     for (; choices && *choices; choices++) {
         size_t place = 0;
@@ -40,7 +40,7 @@ static void add_choices(const char *list[MAXIMUM_CHOICES], const char *const *ch
     }
 }
 
-/// Filters may know different choices of a knob.
+/// Filters may have different choices for a knob.
 static void visit_merged(void (*visit)(FILE *stream, const lobe_knob *knob), FILE *stream,
                          const lobe_knob *first) {
     const char *choices[MAXIMUM_CHOICES] = {NULL};
@@ -91,7 +91,7 @@ static int print_by_name(const option_table *table, const char *name) {
         if (strcmp(shells[index]->name, name) == 0)
             return print(shells[index]);
     }
-    return options_usage_error(table, "unknown shell '%s': there are %s", name, table->operands);
+    return options_usage_error(table, "unknown shell '%s', known are %s", name, table->operands);
 }
 
 static int run(int argc, char **argv) {
@@ -99,8 +99,8 @@ static int run(int argc, char **argv) {
         .program = "lobe completion",
         .operands = "bash|zsh|fish",
         .summary =
-            "Prints a script by which the shell completes subcommands, options, filters, knobs\n"
-            "and scenes. 'meson install' puts the three in place; without it:\n\n"
+            "Prints a script with which the shell completes subcommands, options, filters, knobs\n"
+            "and scenes. 'meson install' installs all three; without it:\n\n"
             "  source <(lobe completion bash)",
         .minimum_operands = 1,
         .maximum_operands = 1,

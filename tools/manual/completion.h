@@ -5,8 +5,8 @@
 
 #include <lobe/filter.h>
 
-/// A shell's script is a beginning with the names there are, one part a subcommand (the form of
-/// that shell, tools/manual/option_form.h), and an end.
+/// A shell's script is a beginning with all names, one part per subcommand (the form of that shell,
+/// tools/manual/option_form.h), and an end.
 typedef struct completion_shell {
     const char *name; ///< of the form, too
     void (*begin)(FILE *stream);
@@ -17,12 +17,12 @@ extern const completion_shell completion_bash;
 extern const completion_shell completion_zsh;
 extern const completion_shell completion_fish;
 
-/// Calls `visit` for the knobs of all filters, once for each name, with the choices that any filter
-/// has of it.
+/// Calls `visit` for the knobs of all filters, once per name, with the choices of all filters
+/// together.
 void completion_visit_knobs(void (*visit)(FILE *stream, const lobe_knob *knob), FILE *stream);
 
-/// Text that stands between single quotes, as bash and zsh have them. Each of the characters
-/// `special`, and the backslash, gets a backslash before it.
+/// Text between single quotes for bash and zsh. Escapes backslashes and each of the characters
+/// `special` by a backslash.
 void completion_quote(FILE *stream, const char *text, const char *special);
 
 #endif

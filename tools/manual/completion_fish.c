@@ -54,7 +54,7 @@ static void begin(FILE *stream) {
           stream);
 }
 
-/// How fish is told of a kind of values.
+/// The arguments of fish's `complete` for a kind of values.
 static const char *action(option_values values) {
     static const char *const words[] = {
         [OPTION_VALUES_PLAIN] = "-f",

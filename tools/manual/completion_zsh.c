@@ -77,7 +77,7 @@ static void begin(FILE *stream) {
           stream);
 }
 
-/// The function that offers a kind of values; "" where nothing is known.
+/// The function that offers a kind of values; "" if there is none.
 static const char *action(option_values values) {
     static const char *const names[] = {
         [OPTION_VALUES_PLAIN] = "",

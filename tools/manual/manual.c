@@ -33,7 +33,7 @@ static void print_program(void) {
     roff_section(stdout, "DESCRIPTION");
     roff_paragraphs(stdout, "Renders scenes with Vulkan. Normal and BRDF maps are filtered into\n"
                             "mixtures of lobes, so that a surface looks right at every distance;\n"
-                            "other ways of filtering are there to compare with.");
+                            "other ways of filtering are included for comparison.");
     print_subcommands();
     print_environment();
     roff_section(stdout, "EXIT STATUS");

@@ -3,7 +3,7 @@
 
 #include "tools/cli/options.h"
 
-/// The form that `--help=NAME` asks for: "man" is the manual page; "bash", "zsh" and "fish" are the
+/// The form of `--help=NAME`: "man" is the manual page; "bash", "zsh" and "fish" are the
 /// subcommand's part of that shell's completion. NULL for any other name.
 option_form *option_form_find(const char *name);
 
@@ -12,9 +12,9 @@ option_form completion_bash_print;
 option_form completion_zsh_print;
 option_form completion_fish_print;
 
-/// What an option takes as value; never OPTION_VALUES_PLAIN.
+/// The kind of an option's values; never OPTION_VALUES_PLAIN.
 option_values option_form_values(const option *option);
-/// The last word of the program's name in usage: "render" of "lobe render".
+/// The last word of the program's name in the usage: "render" of "lobe render".
 const char *option_form_subcommand(const option_table *table);
 
 #endif

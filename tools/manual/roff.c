@@ -10,7 +10,7 @@ void roff_title(FILE *stream, const char *name) {
     fputs(".TH ", stream);
     for (; *name != '\0'; name++)
         fputc(toupper((unsigned char)*name), stream);
-    // No date: the same source gives the same page, whenever it is built.
+    // No date: the same source gives the same page.
     fprintf(stream, " 1 \"\" \"lobe %s\" \"User Commands\"\n", lobe_version());
 }
 
@@ -27,10 +27,10 @@ static void print_text(FILE *stream, const char *text, size_t length) {
         case '\\':
             fputs("\\e", stream);
             break;
-        case '-': // a hyphen else, which cannot be copied to a terminal
+        case '-': // otherwise a hyphen, which does not work when copied to a terminal
             fputs("\\-", stream);
             break;
-        case '\'': // a curly apostrophe else
+        case '\'': // otherwise a curly apostrophe
             fputs("\\(aq", stream);
             break;
         case '^':

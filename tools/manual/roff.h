@@ -5,16 +5,16 @@
 
 /// Manual pages in roff with the macros of man(7), UTF-8.
 
-/// The line every page begins with: "lobe-render", in section 1.
+/// The first line of a page: "lobe-render", in section 1.
 void roff_title(FILE *stream, const char *name);
 
 void roff_section(FILE *stream, const char *title);
 
-/// Text on one line, without line end: what roff would take for its own is escaped.
+/// Text on one line, without line end; characters special to roff are escaped.
 void roff_text(FILE *stream, const char *text);
 
-/// Lines of text, paragraphs parted by empty lines. Lines that begin with two blanks stay as they
-/// are laid out.
+/// Lines of text; empty lines separate paragraphs. Lines that begin with two blanks keep their
+/// layout.
 void roff_paragraphs(FILE *stream, const char *text);
 
 /// A tagged paragraph: the tag in bold, then `argument` in italics (may be NULL), then the text.

@@ -7,7 +7,7 @@
 #include <lobe/profile.h>
 #include <lobe/renderer.h>
 
-/// A rendered frame with all there is to know about it.
+/// A rendered frame with all its metadata.
 typedef struct capture {
     const lobe_frame *frame;
     const char *scene;
@@ -21,12 +21,12 @@ typedef struct capture {
     double exposure;      ///< stops, PNG only
 } capture;
 
-/// Writes linear radiance as OpenEXR: layers for what else the frame has (normal, depth, lobes,
-/// level), all else as attributes of the header.
+/// Writes linear radiance as OpenEXR: layers for the frame's other outputs (normal, depth, lobes,
+/// level), everything else as attributes of the header.
 lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_host *host);
 
-/// Writes a picture for looking at: tone-mapped, or as a heat map where the knob "view" asks for
-/// something other than radiance.
+/// Writes a picture for viewing: tone-mapped, or as a heat map if the knob "view" shows something
+/// other than radiance.
 lobe_result capture_write_png(const char *path, const capture *capture, const lobe_host *host);
 
 #endif

@@ -15,7 +15,7 @@
 #include "tools/cli/view_options.h"
 #include "tools/render/capture.h"
 
-/// What the command line asks for.
+/// The command line.
 typedef struct render_request {
     const char *scene;   ///< NULL where a material folder is given
     option_list outputs; ///< names that end in .exr or .png
@@ -41,11 +41,11 @@ typedef struct render_request {
     lobe_settings settings;
 } render_request;
 
-/// What is made on the way.
+/// State of the rendering.
 typedef struct render_state {
     lobe_host host;
     lobe_scene *scene;
-    sweep_results figures; ///< that filter and knobs are picked by
+    sweep_results figures; ///< by which filter and knobs are picked
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_frame frame;
@@ -63,7 +63,7 @@ static bool is_png(const char *path) {
     return output_file_has_ending(path, ".png");
 }
 
-/// Whether an output is a picture (`png`), or holds radiance.
+/// Whether an output is a picture (`png`), or contains radiance.
 static bool writes(const render_request *request, bool png) {
     for (size_t i = 0; i < request->outputs.count; i++) {
         if (is_png(request->outputs.values[i]) == png)
@@ -100,7 +100,7 @@ static int check_usage(const option_table *table, const render_request *request)
         return options_usage_error(table, "SCENE '%s' and --material exclude each other",
                                    request->scene);
     if (request->has_carrier && !request->material)
-        return options_usage_error(table, "--carrier goes with --material");
+        return options_usage_error(table, "--carrier needs --material");
     if (request->size[0] == 0 || request->size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
                                    request->size[1]);
@@ -112,7 +112,7 @@ static int check_usage(const option_table *table, const render_request *request)
 
 static int choose_filter(render_request *request, const lobe_host *host) {
     if (budget_options_limit(&request->budget))
-        return 0; // it is picked when scene and device are known
+        return 0; // picked once scene and device are known
     if (lobe_filter_find(request->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
@@ -208,7 +208,7 @@ static lobe_result render_frame(const render_request *request, render_state *sta
     return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->host) : result;
 }
 
-/// The first frame builds the maps, later ones find them ready.
+/// The first frame builds the maps, later ones retain them.
 static lobe_result render_frames(const render_request *request, render_state *state) {
     lobe_result result = lobe_profile_create(&state->host, &state->profile);
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames; i++) {
@@ -262,7 +262,7 @@ static lobe_result write_images(const render_request *request, render_state *sta
 static void print_times(const render_request *request, const render_state *state) {
     const lobe_device_information *device = lobe_device_describe(state->device);
     const lobe_profile_summary *times = &state->times;
-    printf("%s, filter %s, %ux%u, %u sample%s a pixel, on %s%s\n", state->scene->name,
+    printf("%s, filter %s, %ux%u, %u sample%s per pixel, on %s%s\n", state->scene->name,
            lobe_filter_name(request->filter), request->size[0], request->size[1],
            samples_of(request), samples_of(request) == 1 ? "" : "s", device->name,
            device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
@@ -275,7 +275,7 @@ static void print_times(const render_request *request, const render_state *state
            times->frame.median_milliseconds);
 }
 
-/// Nobody should wait minutes to learn of a misspelt folder.
+/// Checks early, so that nobody waits minutes because of a misspelt folder.
 static lobe_result check_files(const render_request *request, const lobe_host *host) {
     lobe_result result = output_file_check(request->graph, host);
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++)
@@ -292,8 +292,7 @@ static lobe_result render(render_request *request, render_state *state) {
     if (result != LOBE_OK)
         return result;
     if (!view_options_apply(&request->view, request->lights, state->scene)) {
-        lobe_host_log(&state->host, LOBE_LOG_ERROR,
-                      "camera: eye and target are the same point, it looks nowhere");
+        lobe_host_log(&state->host, LOBE_LOG_ERROR, "camera: eye and target are the same point");
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
     request->lights = NULL; // the scene's now
@@ -348,13 +347,13 @@ static int run(int argc, char **argv) {
          .letter = 'o',
          .kind = OPTION_LIST,
          .argument = "FILE",
-         .summary = "what to write: FILE.exr holds linear radiance and all there is to know about "
-                    "the rendering, FILE.png is tone-mapped for looking at",
+         .summary = "output: FILE.exr has linear radiance and all details of "
+                    "the rendering, FILE.png is tone-mapped for viewing",
          .target = &request.outputs},
         {.name = "filter",
          .kind = OPTION_TEXT,
          .argument = "NAME",
-         .summary = "how appearance is filtered, see 'lobe filters'",
+         .summary = "the appearance filter, see 'lobe filters'",
          .target = &request.filter_name,
          .fallback = "lobes",
          .values = OPTION_VALUES_FILTER,
@@ -362,7 +361,7 @@ static int run(int argc, char **argv) {
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
-         .summary = "sets a knob of the filter, see 'lobe filters'",
+         .summary = "set a knob of the filter, see 'lobe filters'",
          .target = &request.assignments,
          .values = OPTION_VALUES_KNOB},
         budget_option_milliseconds(&request.budget),
@@ -372,13 +371,13 @@ static int run(int argc, char **argv) {
         {.name = "size",
          .kind = OPTION_SIZE,
          .argument = "WxH",
-         .summary = "pixels; the device sets the limit",
+         .summary = "picture size in pixels; the device sets the limit",
          .target = request.size,
          .fallback = "1280x720"},
         {.name = "samples",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "samples a pixel, of the filter reference alone",
+         .summary = "samples per pixel, for the filter reference only",
          .target = &request.samples,
          .fallback = "64",
          .minimum = 1,
@@ -392,8 +391,8 @@ static int run(int argc, char **argv) {
         {.name = "frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "renders the still scene so many times and writes the last: the first frame "
-                    "builds the maps, later ones find them ready",
+         .summary = "render the still scene this many times and write the last frame: the first "
+                    "builds the maps, later ones retain them",
          .target = &request.frames,
          .fallback = "1",
          .minimum = 1,
@@ -422,19 +421,19 @@ static int run(int argc, char **argv) {
         {.name = "depth",
          .kind = OPTION_CHOICE,
          .argument = "DEPTH",
-         .summary = "numbers in which the .exr keeps radiance",
+         .summary = "number format of radiance in the .exr",
          .target = &request.depth,
          .fallback = "half",
          .choices = depths,
          .given = &request.has_depth},
         {.name = "aov",
          .kind = OPTION_FLAG,
-         .summary = "adds layers to the .exr: normal, depth, lobes (their count), level; in float",
+         .summary = "add layers to the .exr: normal, depth, lobes (their count), level; in float",
          .target = &request.layers},
         {.name = "exposure",
          .kind = OPTION_NUMBER,
          .argument = "STOPS",
-         .summary = "brightens the .png",
+         .summary = "brighten the .png",
          .target = &request.exposure,
          .fallback = "0",
          .minimum = -100,
@@ -443,7 +442,7 @@ static int run(int argc, char **argv) {
         {.name = "graph",
          .kind = OPTION_TEXT,
          .argument = "FILE",
-         .summary = "writes the compiled render graph of the last frame: as text where the name "
+         .summary = "write the compiled render graph of the last frame: as text if the name "
                     "ends in .txt, else as Graphviz",
          .target = &request.graph},
         device_option_select(&request.device),

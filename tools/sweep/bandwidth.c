@@ -16,16 +16,16 @@ struct sweep_copies {
     size_t count;
 };
 
-/// Devices need not have larger buffers than 128 MiB. What is larger is copied as fast as this.
+/// Devices may limit buffers to 128 MiB. Larger ones are copied at the speed of this size.
 static const uint64_t largest_copy = 64 << 20;
 
-/// What is copied for a pass that reads and writes so many bytes together: half, by whole words.
+/// The bytes to copy for a pass that reads and writes this many together: half, in whole words.
 static uint64_t copied_bytes(double bytes) {
     uint64_t half = ((uint64_t)bytes / 2 + 3) & ~(uint64_t)3;
     return half < 4 ? 4 : half < largest_copy ? half : largest_copy;
 }
 
-/// The name of the pass that copies so many bytes, by which its times are found again.
+/// The name of the pass that copies this many bytes, by which its times are found again.
 static void name_copy(uint64_t bytes, char name[64]) {
     snprintf(name, 64, "copy of %" PRIu64 " bytes", bytes);
 }
@@ -101,7 +101,7 @@ static lobe_result copy(lobe_graph *graph, uint64_t bytes) {
 lobe_result sweep_copies_time(sweep_copies *copies) {
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < copies->count; i++) {
-        // The first touches new memory, the second finds it ready.
+        // The first copy touches new memory, the second finds it ready.
         result = copy(copies->graph, copies->bytes[i]);
         if (result == LOBE_OK)
             result = copy(copies->graph, copies->bytes[i]);

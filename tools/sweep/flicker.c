@@ -3,14 +3,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// From one frame to the next, as part of the path: 1/30 s of 20 s.
+/// Time between two frames as a fraction of the path: 1/30 s of 20 s.
 static const double step = 1.0 / (30 * 20);
 
 static size_t pixel_count(const sweep_job *job) {
     return (size_t)job->bench.size[0] * job->bench.size[1];
 }
 
-/// Two frames at a station of the path. Both are empty where the sweep is to stop.
+/// Two frames at a station of the path. Both are empty if the sweep is to stop.
 static lobe_result render_pair(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, lobe_render_parameters parameters,
                                uint32_t station, lobe_frame pair[2]) {
@@ -35,7 +35,7 @@ static void free_pair(lobe_frame pair[2]) {
 // ---------------------------------------------------------------------------------------------
 // The references
 
-/// The second frames become the changes to them.
+/// The second frames are replaced by their difference from the first.
 static void keep_changes(const sweep_job *job, lobe_frame pairs[2][2], uint32_t station,
                          sweep_path *path) {
     const float *before[2] = {pairs[0][0].radiance.texels, pairs[1][0].radiance.texels};

@@ -11,7 +11,7 @@ const sweep_scene *sweep_results_scene(const sweep_results *results, const char 
     return NULL;
 }
 
-/// No text is as good as an empty one.
+/// A missing text equals an empty one.
 static bool same_text(const char *a, const char *b) {
     return strcmp(a ? a : "", b ? b : "") == 0;
 }
@@ -22,8 +22,9 @@ bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *env
            same_text(entry->environment, environment) && same_text(entry->lighting, lighting);
 }
 
-/// The reference is the mean of two of chances of their own. Of a picture's square distance from
-/// it, what the products of its distances from both leave is theirs (noise_of in sweep_measure.c).
+/// The reference is the mean of two independent ones. Products of a picture's distances from both
+/// estimate its squared error; what exceeds that in the squared distance from the mean is noise
+/// (see merge_parts in measure.c).
 double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
     const double error = row->error.relative_l2;
     if (isnan(scene->noise) || isnan(error))

@@ -7,21 +7,21 @@
 
 #include "tools/bench/timing.h"
 
-/// Frames of a kind in one turn of a row: each turn is paid for with two untimed ones.
+/// Timed frames of a kind in one turn of a row; each turn also costs two untimed ones.
 #define TURN_FRAMES 2
 
 typedef struct row_times {
     lobe_profile *rebuilt, *retained, *parts;
 } row_times;
 
-/// What is kept for one scene.
+/// State of the measurements of one scene.
 typedef struct scene_run {
     const sweep_job *job;
     const lobe_scene *scene;
-    const char *name; ///< of the results
-    lobe_host errors; ///< passes on errors alone: warnings of a filter come once, not in every turn
+    const char *name; ///< in the results
+    lobe_host errors; ///< passes on errors only: a filter's warnings come once, not in every turn
     sweep_row *rows;
-    row_times *times; ///< one a row
+    row_times *times; ///< one per row
     lobe_image truth, truth_lobe_base;
     sweep_path path;
 } scene_run;
@@ -74,7 +74,7 @@ double sweep_scene_work(const sweep_job *job) {
 // ---------------------------------------------------------------------------------------------
 // Truth
 
-/// What a truth is made of: one or two parts with samples of their own.
+/// A reference consists of one or two parts with independent samples.
 typedef struct truth_parts {
     const sweep_variant *reference;
     const char *kind; ///< for people
@@ -88,20 +88,22 @@ static lobe_result render_part(const scene_run *run, lobe_renderer *renderer,
     *frame = (lobe_frame){0};
     if (samples == 0 || sweep_stopped(run->job))
         return LOBE_OK;
-    progress_step(bench->progress, "%s: %s, samples a pixel: %u", run->name, parts->kind, samples);
+    progress_step(bench->progress, "%s: %s, samples per pixel: %u", run->name, parts->kind,
+                  samples);
     progress_weigh(bench->progress, samples);
     lobe_render_parameters parameters = sweep_parameters(run->job, parts->reference);
     parameters.reference.samples = samples;
-    // Of two parts neither has the pattern of the filter reference, which is held against them.
+    // Of two parts, neither has the sample pattern of the filter reference, which is compared with
+    // them.
     parameters.reference.pattern = parts->samples[1] > 0 ? part + 1 : 0;
     parameters.discard = false;
     parameters.host.progress = sweep_show_progress;
     return lobe_renderer_render(renderer, &parameters, frame);
 }
 
-/// `first` becomes the mean of all samples. Returns what chance leaves in it, as relative L2: with
-/// n and m samples the parts' square distance is, in the mean, 1/n + 1/m times a sample's variance,
-/// the mean's own is 1/(n + m) times that.
+/// `first` becomes the mean of all samples. Returns the remaining noise as relative L2: with n and
+/// m samples, the squared distance of the parts is on average 1/n + 1/m times a sample's variance,
+/// and that of the mean is 1/(n + m) times the variance.
 static double merge_parts(lobe_image *first, const lobe_image *second, const uint32_t samples[2]) {
     const double all = (double)samples[0] + samples[1], weight = samples[1] / all;
     const float *other = second->texels;
@@ -129,8 +131,8 @@ static lobe_result render_parts(const scene_run *run, lobe_renderer *renderer,
     return result;
 }
 
-/// Lit by an environment, each sample sees it in a direction drawn by lot: there the truth is made
-/// of two parts of chances of their own, which tell how much of it is noise.
+/// With an environment, each sample sees it in a random direction. The reference then consists of
+/// two independent parts, which show how much of it is noise.
 static lobe_result render_truth(const scene_run *run, lobe_renderer *renderer,
                                 const lobe_settings *settings, const char *kind, sweep_scene *entry,
                                 lobe_image *image) {
@@ -181,7 +183,7 @@ static const lobe_pass_time *find_pass(const lobe_frame *frame, const char *name
     return NULL;
 }
 
-/// A pass builds where it runs in a frame that builds maps and not in the next, which finds them.
+/// A pass builds if it runs in a frame that builds maps and not in the next, which retains them.
 static lobe_result list_passes(const scene_run *run, const lobe_frame *built,
                                const lobe_frame *retained, sweep_row *row) {
     row->passes = calloc(built->pass_count + 1, sizeof *row->passes);
@@ -193,9 +195,9 @@ static lobe_result list_passes(const scene_run *run, const lobe_frame *built,
         sweep_pass *pass = &row->passes[i];
         snprintf(pass->name, sizeof pass->name, "%s", time->name);
         pass->count = time->count;
-        pass->milliseconds = time->milliseconds; // until its median is known
+        pass->milliseconds = time->milliseconds; // replaced by the median later
         pass->building = strcmp(time->name, "shading") != 0 && !find_pass(retained, time->name);
-        // Which texels other passes fetch depends on the picture.
+        // The texels that other passes fetch depend on the picture.
         pass->bytes = pass->building ? (double)(time->read_bytes + time->written_bytes) : 0;
     }
     return LOBE_OK;
@@ -213,7 +215,7 @@ static lobe_result measure_memory(const scene_run *run, const sweep_variant *var
         result = open_renderer(run, quiet ? &run->errors : bench->host, renderer);
     lobe_render_parameters parameters = sweep_parameters(run->job, variant);
     parameters.rebuild = parameters.environment.keep = true;
-    parameters.reference.samples = 1; // the memory does not depend on them
+    parameters.reference.samples = 1; // memory does not depend on samples
     if (result == LOBE_OK)
         result = lobe_renderer_render(*renderer, &parameters, built);
     lobe_device_memory_query(bench->device, &after);
@@ -264,7 +266,7 @@ static lobe_result measure_still(const scene_run *run, const sweep_variant *vari
     return result;
 }
 
-/// To measure its memory each row has a renderer of its own. Brief sweeps have one for all, which
+/// To measure its memory, each row has its own renderer. Brief sweeps use one for all, which
 /// prepares an environment once.
 static lobe_result measure_stills(const scene_run *run) {
     const sweep_job *job = run->job;
@@ -287,7 +289,7 @@ static lobe_result measure_stills(const scene_run *run) {
 // ---------------------------------------------------------------------------------------------
 // Time
 
-/// Adds the two parts of a frame in which maps were built, as a frame of two passes.
+/// Adds the two parts of a frame that built maps, as a frame of two passes.
 static lobe_result add_parts(const scene_run *run, size_t index, const lobe_frame *frame) {
     lobe_pass_report parts[2] = {{.name = "building", .state = LOBE_PASS_RUN},
                                  {.name = "shading", .state = LOBE_PASS_RUN}};
@@ -301,7 +303,7 @@ static lobe_result add_parts(const scene_run *run, size_t index, const lobe_fram
     return lobe_profile_add(run->times[index].parts, &report);
 }
 
-/// How often passes run in a whole frame: the reference's were listed from a single sample.
+/// How often passes run in a complete frame: those of the reference were listed from one sample.
 static void count_passes(sweep_row *row, const lobe_frame *frame) {
     for (size_t i = 0; i < row->pass_count; i++) {
         const lobe_pass_time *time = find_pass(frame, row->passes[i].name);
@@ -330,7 +332,7 @@ static lobe_result time_frame(const scene_run *run, lobe_renderer *renderer, siz
     return result;
 }
 
-/// Timed frames of one kind, after one of one sample that warms up.
+/// Timed frames of one kind, after one warm-up frame with one sample.
 static lobe_result time_frames(const scene_run *run, lobe_renderer *renderer, size_t index,
                                bool rebuild, uint32_t count) {
     lobe_result result = time_frame(run, renderer, index, rebuild, false);
@@ -419,7 +421,7 @@ static lobe_result summarise(const row_times *times, sweep_row *row) {
     return result;
 }
 
-/// Passes of a frame that built all, of which frames that build maps of materials have none.
+/// Passes of a frame that built everything, which frames that only build maps of materials lack.
 static lobe_result mark_once(const row_times *times, sweep_row *row) {
     lobe_profile_summary summary;
     lobe_result result = lobe_profile_statistics(times->rebuilt, &summary);
@@ -432,7 +434,7 @@ static lobe_result mark_once(const row_times *times, sweep_row *row) {
     return result;
 }
 
-/// Lists where rows keep the time of a pass that prepares the environment; returns how many do.
+/// Lists where rows store the time of a pass that prepares the environment; returns the number.
 static size_t list_once(const scene_run *run, const char *name, double **places) {
     size_t count = 0;
     for (size_t i = 0; i < run->job->plan.count; i++) {
@@ -445,7 +447,7 @@ static size_t list_once(const scene_run *run, const char *name, double **places)
     return count;
 }
 
-/// Rows prepare the environment alike: all get the median of them.
+/// All rows prepare the environment in the same way, so all get the median of their times.
 static void share_median(const scene_run *run, const char *name, double **places, double *times) {
     const size_t count = list_once(run, name, places);
     for (size_t i = 0; i < count; i++)

@@ -26,7 +26,7 @@ static char *default_folder(const char *json) {
     return asprintf(&folder, "%.*s.pictures", (int)length, json) < 0 ? NULL : folder;
 }
 
-/// The folder that a file lies in, as an absolute path without links.
+/// The folder that contains a file, as an absolute path without links.
 static char *real_folder_of(const char *file) {
     const char *slash = strrchr(file, '/');
     char *folder = slash ? strndup(file, (size_t)(slash - file) + 1) : strdup(".");
@@ -35,7 +35,7 @@ static char *real_folder_of(const char *file) {
     return real;
 }
 
-/// How `to` is called from within `from`, with a slash at its end; both absolute and without links.
+/// The path of `to` relative to `from`, with a slash at its end; both absolute and without links.
 static char *relative_path(const char *from, const char *to) {
     size_t common = 0, ups = 0;
     for (size_t i = 0; from[i] == to[i] || !from[i] || !to[i]; i++) {
@@ -71,7 +71,7 @@ lobe_result sweep_pictures_open(sweep_job *job) {
     int error = errno;
     if (stat(job->picture_folder, &status) != 0 || !S_ISDIR(status.st_mode))
         return lobe_host_fail(job->bench.host, LOBE_ERROR_WRITE,
-                              "%s: the folder for pictures cannot be made: %s", job->picture_folder,
+                              "%s: cannot create the folder for pictures: %s", job->picture_folder,
                               strerror(error));
     return find_prefix(job);
 }
@@ -93,8 +93,8 @@ static uint32_t digest(const char *text) {
     return hash;
 }
 
-/// A scene's name as part of a file's: of a path the last part without its ending, and a digest,
-/// because files of different folders may be called alike.
+/// A scene's name as part of a file name: for a path its last part without extension, and a hash,
+/// because files in different folders may have the same name.
 static void name_scene(const char *scene, char name[96]) {
     const char *slash = strrchr(scene, '/');
     const char *last = slash ? slash + 1 : scene;

@@ -64,10 +64,11 @@ void sweep_print(const sweep_results *results) {
     const bool software = strcmp(results->device_type, "CPU") == 0;
     printf("lobe %s on %s, %s (%s%s)\n", results->version, results->device, results->driver,
            results->device_type, software ? ": times are those of a software renderer" : "");
-    printf("Errors are against %u samples a pixel, flicker against twice %u; the filter reference "
-           "takes "
-           "%d.\n",
-           results->reference_samples, results->path_samples, BENCH_TIMED_SAMPLES);
+    printf(
+        "Errors are against %u samples per pixel, flicker against twice %u; the filter reference "
+        "takes "
+        "%d.\n",
+        results->reference_samples, results->path_samples, BENCH_TIMED_SAMPLES);
     for (size_t i = 0; i < results->scene_count; i++)
         print_scene(results, &results->scenes[i]);
 }

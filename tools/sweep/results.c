@@ -16,16 +16,16 @@
 
 typedef enum member_kind {
     MEMBER_NUMBER,          ///< double; null is NAN
-    MEMBER_OPTIONAL_NUMBER, ///< likewise; NAN too where it is left out
+    MEMBER_OPTIONAL_NUMBER, ///< the same; NAN if it is missing
     MEMBER_COUNT,           ///< uint32_t
     MEMBER_LONG_COUNT,      ///< uint64_t
     MEMBER_FLAG,            ///< bool
-    MEMBER_OPTIONAL_FLAG,   ///< likewise; false too where it is left out
-    MEMBER_TEXT,            ///< char *, of its own
-    MEMBER_OPTIONAL_TEXT,   ///< likewise; null or left out is NULL
+    MEMBER_OPTIONAL_FLAG,   ///< the same; false if it is missing
+    MEMBER_TEXT,            ///< char *, allocated
+    MEMBER_OPTIONAL_TEXT,   ///< the same; NULL if it is null or missing
     MEMBER_FIXED_TEXT,      ///< char[size]
     MEMBER_EXTENT,          ///< uint32_t[2]
-    MEMBER_STRUCTURE,       ///< a structure within
+    MEMBER_STRUCTURE,       ///< a nested structure
     MEMBER_LIST,            ///< a pointer to structures, their number at count_offset
 } member_kind;
 
@@ -172,7 +172,7 @@ void sweep_scene_free(sweep_scene *scene) {
 
 static cJSON *describe_structure(const structure *structure, const void *object);
 
-/// Six digits are more than any measurement here has. cJSON writes null for what is not finite.
+/// Six digits exceed the precision of any measurement here. cJSON writes null if it is not finite.
 static cJSON *describe_number(double value) {
     if (!isfinite(value) || value == floor(value))
         return cJSON_CreateNumber(value);
@@ -223,7 +223,7 @@ static cJSON *describe_member(const member *member, const void *object) {
     }
 }
 
-/// NULL without memory.
+/// NULL if memory runs out.
 static cJSON *describe_structure(const structure *structure, const void *object) {
     cJSON *described = cJSON_CreateObject();
     for (size_t i = 0; described && i < structure->member_count; i++) {
@@ -253,7 +253,7 @@ lobe_result sweep_results_write(const char *path, const sweep_results *results,
 // ---------------------------------------------------------------------------------------------
 // Reading
 
-/// Where in the file the reader is: "rows[3].passes[0]", for messages.
+/// The reader's position in the file, for messages: "rows[3].passes[0]".
 typedef struct reader {
     const char *path;
     const lobe_host *host;
@@ -265,10 +265,10 @@ static lobe_result read_structure(reader *reader, const structure *structure, co
 
 static lobe_result malformed(const reader *reader, const char *what) {
     return lobe_host_fail(reader->host, LOBE_ERROR_MALFORMED, "%s: %s: %s", reader->path,
-                          reader->place[0] ? reader->place : "the whole", what);
+                          reader->place[0] ? reader->place : "the whole file", what);
 }
 
-/// Appends to the place; the result goes to leave().
+/// Appends to the position; pass the result to leave().
 __attribute__((format(printf, 2, 3))) static size_t enter(reader *reader, const char *format, ...) {
     size_t length = strlen(reader->place);
     va_list arguments;
@@ -322,7 +322,7 @@ static lobe_result read_fixed_text(const reader *reader, const cJSON *item, char
     if (!cJSON_IsString(item))
         return malformed(reader, "not a text");
     if (strlen(item->valuestring) >= size)
-        return malformed(reader, "too long a text");
+        return malformed(reader, "text too long");
     strcpy(text, item->valuestring);
     return LOBE_OK;
 }
@@ -345,7 +345,7 @@ static lobe_result read_list(reader *reader, const structure *element, const cJS
     const cJSON *child;
     cJSON_ArrayForEach(child, item) {
         size_t length = enter(reader, "[%zu]", *count);
-        // Counted before it is read: what a failure leaves of it is freed too.
+        // Counted before it is read, so that everything is freed after a failure.
         lobe_result result =
             read_structure(reader, element, child, *elements + (*count)++ * element->size);
         leave(reader, length);

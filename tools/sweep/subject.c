@@ -14,7 +14,7 @@ bool sweep_subject_has_environment(const sweep_subject *subject) {
     return subject->environment && !is_none(subject->environment);
 }
 
-/// "tablecloth in courtyard": a file's name without folder and ending.
+/// "tablecloth in courtyard": the file name without folder and extension.
 static char *name_subject(const sweep_subject *subject) {
     if (!sweep_subject_has_environment(subject))
         return strdup(subject->scene);
@@ -30,7 +30,7 @@ static bool same(const char *a, const char *b) {
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
-/// Of one name must be one scene in one environment.
+/// A name must mean one scene in one environment.
 static lobe_result check_name(const sweep_subject *subjects, size_t index, const lobe_host *host) {
     const sweep_subject *added = &subjects[index];
     for (size_t i = 0; i < index; i++) {

@@ -15,7 +15,7 @@ static lobe_result out_of_memory(const sweep_job *job) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Results of this sweep, and of one before that it goes on from
+// Results of this sweep, and of a previous one that it resumes
 
 static lobe_result describe_sweep(const sweep_job *job, sweep_results *results) {
     const lobe_device_information *device = lobe_device_describe(job->bench.device);
@@ -77,7 +77,7 @@ static lobe_result check_same(const sweep_job *job, const sweep_results *former,
     return result;
 }
 
-/// Empty results, or those of the file that the sweep goes on from, where there is one.
+/// Empty results, or those of the file that the sweep resumes, if there is one.
 static lobe_result start_results(const sweep_job *job, sweep_results *results) {
     sweep_results former;
     lobe_result result = describe_sweep(job, results);
@@ -134,7 +134,7 @@ static void remove_scene(sweep_results *results, const char *name) {
     results->scene_count = scenes;
 }
 
-/// Takes over the entry, and so many rows; on failure they stay the caller's.
+/// Takes ownership of the entry and this many rows; on failure the caller keeps it.
 static lobe_result add_scene(const sweep_job *job, sweep_results *results, const sweep_scene *entry,
                              const sweep_row *rows, size_t count) {
     sweep_scene *scenes =
@@ -154,7 +154,7 @@ static lobe_result add_scene(const sweep_job *job, sweep_results *results, const
 // ---------------------------------------------------------------------------------------------
 // A scene
 
-/// A log that keeps the line of a failure instead of handing it on.
+/// A log that stores the message of a failure instead of passing it on.
 typedef struct reason_log {
     const lobe_host *host;
     char reason[1024];
@@ -168,7 +168,7 @@ static void keep_reason(void *user, lobe_log_level level, const char *message) {
         lobe_host_log(kept->host, level, "%s", message);
 }
 
-/// The job as it is for scenes with or without an environment.
+/// A copy of the job for scenes with or without an environment.
 static sweep_job job_for(const sweep_job *job, bool environment) {
     sweep_job result = *job;
     result.plan = *plan_for(job, environment);
@@ -180,7 +180,7 @@ static double work_of(const sweep_job *job, const sweep_subject *subject) {
     return sweep_scene_work(&expected);
 }
 
-/// A scene that the device takes.
+/// A scene that the device accepts.
 static lobe_result try_scene(const sweep_job *job, const sweep_subject *subject,
                              const lobe_host *host, lobe_scene **scene) {
     lobe_renderer *renderer = NULL;
@@ -195,7 +195,7 @@ static lobe_result try_scene(const sweep_job *job, const sweep_subject *subject,
     return result;
 }
 
-/// NULL, and the entry says why, where the scene cannot be opened or drawn.
+/// NULL, with the reason in the entry, if the scene cannot be opened or drawn.
 static lobe_result open_scene(const sweep_job *job, const sweep_subject *subject,
                               sweep_scene *entry, lobe_scene **scene) {
     reason_log kept = {.host = job->bench.host};
@@ -218,7 +218,7 @@ static char *copy_text(const char *text, bool *copied) {
     return copy;
 }
 
-/// `scene` may be NULL. Free the entry with sweep_scene_free, after a failure too.
+/// `scene` may be NULL. Free the entry with sweep_scene_free, also after a failure.
 static lobe_result describe_light(const sweep_job *job, const lobe_scene *scene,
                                   sweep_scene *entry) {
     char lighting[SCENE_OPTIONS_DESCRIPTION];
@@ -242,7 +242,7 @@ static lobe_result describe_scene(const sweep_job *job, const sweep_subject *sub
     return result == LOBE_OK ? describe_light(job, *scene, entry) : result;
 }
 
-/// The results get the scene, unless the sweep was stopped meanwhile.
+/// Adds the scene to the results unless the sweep was stopped.
 static lobe_result measure_scene(const sweep_job *job, const sweep_subject *subject,
                                  sweep_results *results) {
     lobe_scene *scene = NULL;
@@ -286,7 +286,7 @@ static size_t count_done(const sweep_job *job, const sweep_results *results,
     return done;
 }
 
-/// What was missing then may be there now.
+/// Skipped scenes are tried again: what was missing may be there now.
 static lobe_result check_former(const sweep_job *job, const subject_list *list,
                                 sweep_results *results) {
     lobe_result result = LOBE_OK;
@@ -348,7 +348,7 @@ static lobe_result check_outcome(const sweep_job *job, const subject_list *list,
                                  const sweep_results *results) {
     if (!results->complete)
         lobe_host_log(job->bench.host, LOBE_LOG_WARNING,
-                      "interrupted: %s holds %zu of %zu scenes, --resume goes on", job->json,
+                      "interrupted: %s has %zu of %zu scenes, continue with --resume", job->json,
                       count_done(job, results, list), list->count);
     if (results->complete && results->row_count == 0)
         return lobe_host_fail(job->bench.host, LOBE_ERROR_NOT_FOUND,

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Nearest that the view comes to the up vector, radians.
+/// Smallest angle between the direction of view and the up vector, radians.
 #define MINIMUM_ANGLE 0.02
 
 static void subtract(const float a[3], const float b[3], double difference[3]) {
@@ -30,7 +30,7 @@ static void cross(const double a[3], const double b[3], double product[3]) {
         product[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/// Rodrigues: turns a vector around a unit axis, counter-clockwise as seen from its tip.
+/// Rodrigues: rotates a vector about a unit axis, counter-clockwise as seen from its tip.
 static void turn(const double axis[3], double angle, double vector[3]) {
     double across[3];
     cross(axis, vector, across);
@@ -55,7 +55,7 @@ static axes axes_of(const lobe_camera *camera) {
     normalise(a.forward);
     cross(a.forward, a.upright, a.right);
     if (length(a.right) < 1e-6) {
-        // Looking along the up vector: any direction across it will do.
+        // Looking along the up vector: any perpendicular direction will do.
         const double other[3] = {fabs(a.forward[0]) < 0.5, 0, fabs(a.forward[0]) >= 0.5};
         cross(a.forward, other, a.right);
     }
@@ -124,7 +124,7 @@ void viewer_camera_zoom(lobe_camera *camera, double factor) {
     const double distance = fmin(fmax(a.distance * factor, 1e-6), 1e9);
     memcpy(camera->eye, camera->target, sizeof camera->eye);
     move(camera->eye, a.forward, -distance);
-    // The planes go with the distance, or what one looks at closely would be cut away.
+    // The planes scale with the distance; otherwise close objects would be cut away.
     camera->near_plane = (float)(camera->near_plane * distance / a.distance);
     camera->orthographic_height = (float)(camera->orthographic_height * distance / a.distance);
 }

@@ -62,7 +62,7 @@ static lobe_result end(const viewer_device *device, VkCommandBuffer commands) {
     return VULKAN_CHECK(&device->host, vkEndCommandBuffer(commands), "frame");
 }
 
-/// A side of its own command buffer: that of one which fails is not submitted.
+/// Each side has its own command buffer: that of a side that fails is not submitted.
 static lobe_result record_side(const viewer_view *view, viewer_side *side, VkCommandBuffer commands,
                                bool *recorded) {
     *recorded = false;

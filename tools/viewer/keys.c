@@ -8,9 +8,9 @@
 #include "tools/viewer/camera.h"
 #include "tools/viewer/keys.h"
 
-/// Of a press of an arrow key, radians.
+/// Angle per press of an arrow key, radians.
 #define TURN 0.1
-/// Flight: parts of the distance to the target in a second.
+/// Speed of flight: fractions of the distance to the target per second.
 #define SPEED 0.8
 
 static void toggle_help(viewer *v) {

@@ -5,8 +5,8 @@
 
 struct viewer;
 
-/// What a key or a gesture does: help in the window, the manual page and the program go by one
-/// table.
+/// The action of a key or a gesture. The help in the window, the manual page and the program all
+/// use one table.
 typedef struct viewer_key {
     int key;             ///< GLFW's number; 0: a gesture of the mouse, or keys that are held
     const char *name;    ///< "F1"
@@ -17,11 +17,11 @@ typedef struct viewer_key {
 extern const viewer_key viewer_keys[];
 extern const size_t viewer_key_count;
 
-/// Does what the key is for, where it is one of the table.
+/// Performs the action of the key, if it is in the table.
 void viewer_keys_press(struct viewer *v, int key);
 
-/// How far the keys that are held move the camera in so many seconds: to the right, upwards,
-/// forwards; parts of the distance to the target. False: none is held.
+/// How far the held keys move the camera in this time: to the right, upwards, forwards; as
+/// fractions of the distance to the target. False: none is held.
 bool viewer_keys_fly(const struct viewer *v, double seconds, double steps[3]);
 
 #endif

@@ -32,7 +32,7 @@ const char *viewer_name_of(const char *path) {
     return name;
 }
 
-/// What takes long is said first, in the frames until it is done.
+/// Shows a message about a slow step in the frames before it starts.
 static void announce(viewer *v, const char *name) {
     char text[VIEWER_MESSAGE_SIZE];
     snprintf(text, sizeof text, "opening %.400s ...", viewer_name_of(name));
@@ -70,9 +70,9 @@ lobe_result viewer_open_first_scene(viewer *v) {
         scene_options_open(&v->opening, request->scene, request->size, &v->host, &v->scene);
     if (result == LOBE_OK && !view_options_apply(&request->view, request->lights, v->scene))
         result = lobe_host_fail(&v->host, LOBE_ERROR_INVALID_ARGUMENT,
-                                "camera: eye and target are the same point, it looks nowhere");
+                                "camera: eye and target are the same point");
     if (result != LOBE_OK) {
-        lobe_release(request->lights); // else they are the scene's now
+        lobe_release(request->lights); // otherwise the scene owns them now
         return result;
     }
     v->view.scene = v->scene;

@@ -169,7 +169,7 @@ static void show_samples(const viewer *v) {
     }
 }
 
-/// What is shown is not lit by all of the environment's maps yet.
+/// While the scene is not yet lit by all of the environment's maps.
 static void show_parts(const viewer *v) {
     char text[32];
     uint32_t left = v->sides[0].parts_left;

@@ -3,8 +3,8 @@
 
 struct viewer;
 
-/// Declares what lies over the picture: the panel, the keys where they are asked for, the last
-/// message. The user's changes take effect at once.
+/// Declares what is shown over the picture: the panel, the keys if requested, the last message. The
+/// user's changes take effect at once.
 void viewer_panel(struct viewer *v);
 
 #endif

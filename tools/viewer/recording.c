@@ -9,7 +9,7 @@
 #include "tools/render/capture.h"
 #include "tools/viewer/viewer.h"
 
-/// The scene's name without folders and ending.
+/// The scene's name without folder and extension.
 static void stem_of(const char *name, char stem[NAME_MAX]) {
     size_t length = strlen(name);
     while (length > 1 && name[length - 1] == '/')
@@ -23,7 +23,7 @@ static void stem_of(const char *name, char stem[NAME_MAX]) {
         *dot = '\0';
 }
 
-/// False: all numbers are taken.
+/// False if all numbers are taken.
 static bool choose_path(const viewer *v, char path[PATH_MAX]) {
     char stem[NAME_MAX];
     stem_of(v->scene->name, stem);
@@ -36,7 +36,7 @@ static bool choose_path(const viewer *v, char path[PATH_MAX]) {
     return false;
 }
 
-/// A reference is as good as it has become by now.
+/// A reference is recorded with the samples it has so far.
 static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
     return lobe_renderer_render(side->renderer,
                                 &(lobe_render_parameters){
@@ -93,7 +93,7 @@ void viewer_record(viewer *v) {
     char path[PATH_MAX], text[PATH_MAX + 32];
     v->records_frame = false;
     if (!choose_path(v, path))
-        lobe_host_log(&v->host, LOBE_LOG_ERROR, "%s: no name is free for a recorded frame",
+        lobe_host_log(&v->host, LOBE_LOG_ERROR, "%s: no free file name for a recorded frame",
                       v->request->folder);
     else if (record(v, &v->sides[0], path) == LOBE_OK) {
         snprintf(text, sizeof text, "recorded %s", path);

@@ -3,9 +3,9 @@
 
 struct viewer;
 
-/// Draws the first side again, as `lobe render` would, and writes it to the folder of recordings:
-/// SCENE-NUMBER.exr, with a number above those there. The frame under way must have been finished.
-/// Failures are told in the window, and end the recording of a path.
+/// Redraws the first side, as `lobe render` would, and writes it to the folder of recordings:
+/// SCENE-NUMBER.exr, with the next free number. The frame in flight must have been finished.
+/// Failures are shown in the window, and end the recording of a path.
 void viewer_record(struct viewer *v);
 
 #endif

@@ -19,15 +19,13 @@
 #include "tools/viewer/recording.h"
 #include "tools/viewer/window.h"
 
-/// Panels need a frame to see the mouse, one to act, one to show what came of it.
-#define REDRAWS 3
-/// How often saved shaders are looked for while the window rests.
+/// Interval of checks for saved shaders while the window is idle.
 #define RELOAD_SECONDS 0.25
 
 // ---------------------------------------------------------------------------------------------
 // Opening and closing
 
-/// Keeps the last line for the window, where it is more than a remark.
+/// Shows the last message in the window if it is a warning or an error.
 static void write_log(void *user, lobe_log_level level, const char *message) {
     viewer *v = user;
     v->console.write(v->console.user, level, message);
@@ -70,7 +68,7 @@ static void clean_up(viewer *v) {
 // ---------------------------------------------------------------------------------------------
 // Time
 
-/// One step along the path, after the last one the first.
+/// One step along the path; the first follows the last.
 static void advance(viewer *v) {
     const uint32_t last = v->request->path_frames - 1;
     v->path_frame = v->path_frame < last ? v->path_frame + 1 : 0;
@@ -93,7 +91,7 @@ static void move(viewer *v) {
     }
 }
 
-/// After a frame: writes what is to be recorded.
+/// After a frame: writes the recording.
 static void record(viewer *v) {
     if (v->records_frame || v->records_path)
         viewer_record(v);
@@ -125,8 +123,8 @@ static bool is_hidden(const viewer *v) {
     return width == 0 || height == 0 || glfwGetWindowAttrib(v->window, GLFW_ICONIFIED);
 }
 
-/// In a build with hot reload: draws again where a shader in use was saved. Others that were saved
-/// stay stale until they are used.
+/// In a build with hot reload: redraws if a shader in use was saved. Other saved shaders stay stale
+/// until they are used.
 static void check_shaders(viewer *v) {
     const size_t stale = engine_shaders_stale(v->device.lobe);
     const bool more = stale > v->stale_shaders;
@@ -134,7 +132,7 @@ static void check_shaders(viewer *v) {
         v->message[0] = '\0';
         viewer_redraw_scene(v);
     }
-    v->reloads = more; // one may have been saved while it was drawn: looks once more
+    v->reloads = more; // one may have been saved while drawing: check again
     v->stale_shaders = stale;
 }
 
@@ -164,7 +162,7 @@ static lobe_result refine(viewer *v) {
     return LOBE_OK;
 }
 
-/// Those that the frame has compiled are stale no longer.
+/// Shaders that the frame compiled are no longer stale.
 static void update_stale_shaders(viewer *v) {
     const size_t stale = v->stale_shaders > 0 ? engine_shaders_stale(v->device.lobe) : 0;
     if (stale < v->stale_shaders)
@@ -238,7 +236,7 @@ static lobe_result check_faults(const viewer *v) {
     const unsigned long long count = v->device.fault_count;
     return count == 0 ? LOBE_OK
                       : lobe_host_fail(&v->host, LOBE_ERROR_UNSUPPORTED,
-                                       "the validation layer found %llu faults", count);
+                                       "the validation layer reported %llu errors", count);
 }
 
 lobe_result viewer_run(const viewer_request *request, const lobe_host *console) {

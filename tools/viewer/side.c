@@ -58,7 +58,7 @@ bool viewer_side_has_work(const viewer_view *view, const viewer_side *side) {
 // ---------------------------------------------------------------------------------------------
 // Times
 
-/// The line of that name; one is added where there is none.
+/// The line of that name, added if there is none.
 static viewer_pass *line_of(viewer_side *side, const char *name) {
     for (size_t i = 0; i < side->pass_count; i++)
         if (strcmp(side->passes[i].name, name) == 0)
@@ -135,7 +135,7 @@ static void add_samples(viewer_side *side, const lobe_image *radiance, uint32_t 
     }
 }
 
-/// As many samples at once as the window stays lively with.
+/// As many samples at once as keep the window responsive.
 static void adapt_step(viewer_side *side, double seconds) {
     if (seconds < 0.02 && side->step < 16)
         side->step *= 2;
@@ -201,7 +201,7 @@ static void show_output(void *user, lobe_graph *graph, lobe_render_stage stage,
                                       .constants_size = sizeof *constants});
 }
 
-/// Of the environment's maps: ever more parts in a frame, as long as it does not become slow by it.
+/// Parts of the environment's maps: more per frame as long as the frames do not become slow.
 static void adapt_parts(viewer_side *side) {
     const double now = side->milliseconds, before = side->former_milliseconds;
     if (side->parts_left == 0)
@@ -211,15 +211,15 @@ static void adapt_parts(viewer_side *side) {
     side->former_milliseconds = now;
 }
 
-/// Where maps were made the next frame is lit by more of them; the one after the last keeps them in
+/// If maps were made, the next frame is lit by more of them; the frame after the last saves them in
 /// the folder.
 static void go_on_with_parts(viewer_side *side, uint32_t left) {
     side->stale = left > 0 || side->parts_left > 0;
     side->parts_left = left;
 }
 
-/// The side's own filter and settings; where that one supersamples, of a single sample, the first
-/// that does not.
+/// The side's own filter and settings with a single sample, or, if that supersamples, the first
+/// filter that does not.
 static const lobe_filter *filter_to_draw(const viewer_side *side, lobe_settings *settings) {
     size_t i = 0;
     *settings = side->settings;

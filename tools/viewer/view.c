@@ -8,7 +8,7 @@
 #include "tools/viewer/keys.h"
 #include "tools/viewer/viewer.h"
 
-/// What is read before it becomes a request.
+/// Parsed values before they become a request.
 typedef struct view_texts {
     const char *filter_name;
     option_list assignments; ///< "KNOB=VALUE"
@@ -29,7 +29,7 @@ static int check_usage(const option_table *table, const viewer_request *request)
     if (!request->scene)
         return options_usage_error(table, "no SCENE");
     if (request->exit && request->frames == 0)
-        return options_usage_error(table, "--exit goes with --frames");
+        return options_usage_error(table, "--exit needs --frames");
     return cache_options_check(table, &request->cache);
 }
 
@@ -46,7 +46,7 @@ static int run_request(const option_table *table, const view_texts *texts,
     return viewer_run(request, &host) == LOBE_OK ? 0 : 1;
 }
 
-/// The keys, from the table that the window's help is made of.
+/// The keys, from the table that also makes the help in the window.
 static void describe_keys(FILE *stream) {
     roff_section(stream, "KEYS");
     for (size_t i = 0; i < viewer_key_count; i++)
@@ -61,20 +61,20 @@ static int run(int argc, char **argv) {
         {.name = "filter",
          .kind = OPTION_TEXT,
          .argument = "NAME",
-         .summary = "how appearance is filtered at first, see 'lobe filters'",
+         .summary = "the initial appearance filter, see 'lobe filters'",
          .target = &texts.filter_name,
          .fallback = "lobes",
          .values = OPTION_VALUES_FILTER},
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",
-         .summary = "sets a knob of the filter, see 'lobe filters'",
+         .summary = "set a knob of the filter, see 'lobe filters'",
          .target = &texts.assignments,
          .values = OPTION_VALUES_KNOB},
         {.name = "size",
          .kind = OPTION_SIZE,
          .argument = "WxH",
-         .summary = "the window's, at first",
+         .summary = "the initial size of the window in pixels",
          .target = request.size,
          .fallback = "1280x720",
          .minimum = 1,
@@ -82,7 +82,7 @@ static int run(int argc, char **argv) {
         {.name = "samples",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "samples a pixel up to which the filter reference is refined",
+         .summary = "samples per pixel up to which the filter reference is refined",
          .target = &request.samples,
          .fallback = "256",
          .minimum = 1,
@@ -100,7 +100,7 @@ static int run(int argc, char **argv) {
         {.name = "exposure",
          .kind = OPTION_NUMBER,
          .argument = "STOPS",
-         .summary = "brightens the picture at first",
+         .summary = "the initial brightening of the picture",
          .target = &request.exposure,
          .fallback = "0",
          .minimum = -VIEWER_MAXIMUM_EXPOSURE,
@@ -108,7 +108,7 @@ static int run(int argc, char **argv) {
         {.name = "path-frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "frames in which the camera goes along its path",
+         .summary = "number of frames of the camera's path",
          .target = &request.path_frames,
          .fallback = "240",
          .minimum = 2,
@@ -123,14 +123,14 @@ static int run(int argc, char **argv) {
         {.name = "frames",
          .kind = OPTION_INTEGER,
          .argument = "N",
-         .summary = "draws so many frames at least before the window rests",
+         .summary = "draw at least this many frames before the window may idle",
          .target = &request.frames,
          .fallback = "0",
          .minimum = 0,
          .maximum = 1000000},
         {.name = "exit",
          .kind = OPTION_FLAG,
-         .summary = "closes the window after those",
+         .summary = "close the window after those",
          .target = &request.exit},
         cache_option_folder(&request.cache),
         cache_option_off(&request.cache),

@@ -12,14 +12,14 @@
 #include "tools/viewer/frame.h"
 #include "tools/viewer/graphics/display.h"
 
-/// What the command line asks for.
+/// The command line.
 typedef struct viewer_request {
     const char *scene;
     const lobe_filter *filter;
     lobe_settings settings;
     uint32_t size[2];
-    uint32_t frames; ///< to draw at least, before the window may rest
-    bool exit;       ///< after those
+    uint32_t frames; ///< to draw at least, before the window may idle
+    bool exit;       ///< close the window after those
     uint32_t samples, path_frames;
     double exposure;
     const char *folder; ///< of recorded frames
@@ -49,7 +49,7 @@ typedef enum viewer_drag {
 typedef struct viewer {
     const viewer_request *request;
     lobe_host console;
-    lobe_host host; ///< to the console, and the last line into `message`
+    lobe_host host; ///< writes to the console, and warnings to `message`
     char message[VIEWER_MESSAGE_SIZE];
     struct GLFWwindow *window;
     viewer_device device;
@@ -57,26 +57,26 @@ typedef struct viewer {
     viewer_display display;
     viewer_frame frame;
     viewer_view view;
-    char cache_folder[CACHE_FOLDER_SIZE]; ///< what `view.cache` may point to
+    char cache_folder[CACHE_FOLDER_SIZE]; ///< `view.cache` may point to it
     viewer_look look;
     viewer_side sides[2];
     lobe_scene *scene;
     char *wanted_scene;         ///< to open before the next frame; NULL: none
     char *wanted_environment;   ///< the same
-    unsigned frames_to_opening; ///< to draw before
-    bool opens;                 ///< the message is about that
+    unsigned frames_to_opening; ///< frames to draw before that
+    bool opens;                 ///< the message is about opening
     scene_options opening;      ///< how scenes are lit
     double turned;              ///< degrees by which the user has turned the scene's environment
-    char *environment; ///< what the user lights scenes with; NULL: what was asked for first
+    char *environment; ///< chosen by the user for all scenes; NULL: that of the command line
     bool shows_panel, shows_help;
     bool swapchain_is_stale;
-    float scale; ///< of panels: 1 for 96 dots an inch
+    float scale; ///< of panels: 1 for 96 dots per inch
     bool scale_is_stale;
     bool waits;            ///< the last frame found nothing more to do
     unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
-    uint32_t frames_drawn; ///< up to the number asked for
+    uint32_t frames_drawn; ///< up to the number requested
     size_t stale_shaders;  ///< saved, but not used by the last frame
-    bool reloads;          ///< the last look at them found more
+    bool reloads;          ///< the last check found more of them
     // Mouse and keys.
     viewer_drag drag;
     double cursor[2]; ///< pixels of the window's content
@@ -87,28 +87,28 @@ typedef struct viewer {
     unsigned losses; ///< of the device or the surface, since a frame was last shown
 } viewer;
 
-/// Opens the window, shows the scene until the window is closed. Returns after a line on the log
-/// where something is in the way.
+/// Opens the window and shows the scene until the window is closed. Logs a message if it fails.
 lobe_result viewer_run(const viewer_request *request, const lobe_host *console);
 
 // ---------------------------------------------------------------------------------------------
-// What keys and panels ask for
+// Actions of keys and panels
 
-/// The next frame draws the scene again: camera, knobs or light have changed.
+/// Redraws the scene in the next frame: camera, knobs or light have changed.
 void viewer_redraw_scene(viewer *v);
-/// The next frames draw the panels again.
+/// Redraws the panels in the next frames.
 void viewer_redraw_panels(viewer *v);
-/// Shows a line in the window.
+/// Shows a message in the window.
 void viewer_show_message(viewer *v, const char *text);
-/// The scene's own camera.
+/// Switches to the scene's own camera.
 void viewer_reset_camera(viewer *v);
-/// Another filter on one side, with its default knobs but for those of the same name.
+/// Changes the filter of a side. Its knobs get their defaults, except those with the same name as
+/// in the old filter, which keep their values.
 void viewer_set_filter(viewer_side *side, const lobe_filter *filter);
 void viewer_set_comparison(viewer *v, viewer_comparison comparison);
-/// Opens a scene (a name, a file or a folder), or an environment where the name ends so, before the
-/// next frame. Copied.
+/// Opens a scene (a name, a file or a folder) before the next frame, or an environment if the name
+/// has that extension. The text is copied.
 void viewer_request_opening(viewer *v, const char *path);
-/// Lights the scene by a file, "sky" or "none" before the next frame. Copied.
+/// Lights the scene by a file, "sky" or "none" from the next frame on. The text is copied.
 void viewer_request_light(viewer *v, const char *environment);
 /// Moves the camera to a frame of its path.
 void viewer_go_to(viewer *v, uint32_t path_frame);

@@ -11,11 +11,11 @@
 #include "tools/viewer/keys.h"
 #include "tools/viewer/viewer.h"
 
-/// The picture's height across, radians.
+/// Angle for a movement across the picture's height, radians.
 #define TURN_OF_HEIGHT 3.0
 /// A step of the wheel.
 #define ZOOM 0.9
-/// Pixels around the divider by which it can be grabbed.
+/// Distance from the divider in pixels within which it can be grabbed.
 #define GRIP 6
 
 static viewer *viewer_of(GLFWwindow *window) {
@@ -45,11 +45,11 @@ static viewer_drag drag_of(const viewer *v, int button, int modifiers) {
 static void on_button(GLFWwindow *window, int button, int action, int modifiers) {
     viewer *v = viewer_of(window);
     if (action == GLFW_PRESS)
-        v->message[0] = '\0'; // it has been read
+        v->message[0] = '\0'; // the user has read it
     v->drag = action == GLFW_PRESS ? drag_of(v, button, modifiers) : VIEWER_DRAG_NONE;
 }
 
-/// `right` and `down`: parts of the picture's height.
+/// `right` and `down`: fractions of the picture's height.
 static void drag(viewer *v, double right, double down) {
     lobe_camera *camera = &v->view.camera;
     if (v->drag == VIEWER_DRAG_ORBIT)
@@ -61,7 +61,7 @@ static void drag(viewer *v, double right, double down) {
     viewer_redraw_scene(v);
 }
 
-/// GLFW tells places in the window's own units, of which a pixel may be a part.
+/// GLFW reports positions in the window's own units, which may be larger than pixels.
 static void to_pixels(const viewer *v, double place[2]) {
     int width = 0, height = 0;
     glfwGetWindowSize(v->window, &width, &height);
@@ -161,7 +161,7 @@ lobe_result viewer_window_open(viewer *v) {
     if (!glfwInit())
         return fail(v, "cannot be opened");
     if (!glfwVulkanSupported())
-        return fail(v, "cannot show what Vulkan draws");
+        return fail(v, "cannot present Vulkan images");
     snprintf(title, sizeof title, "lobe - %s", v->request->scene);
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     v->window =

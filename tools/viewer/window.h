@@ -7,12 +7,12 @@
 
 struct viewer;
 
-/// Opens the window, with panels over it, whose mouse and keys move the viewer's camera.
-/// LOBE_ERROR_UNSUPPORTED with a line: no display, no Vulkan.
+/// Opens the window, with panels over it; mouse and keys move the viewer's camera.
+/// LOBE_ERROR_UNSUPPORTED, with a message: no display, no Vulkan.
 lobe_result viewer_window_open(struct viewer *v);
 void viewer_window_close(struct viewer *v);
 
-/// Whether the mouse could grab the divider of a split view.
+/// Whether the mouse can grab the divider of a split view.
 bool viewer_window_is_on_divider(const struct viewer *v);
 
 #endif

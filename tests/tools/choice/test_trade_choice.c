@@ -6,7 +6,7 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/// A row as its costs: rebuilding takes half of the time.
+/// A row with its costs: rebuilding takes half of the time.
 static sweep_row row_of(double milliseconds, double error) {
     return (sweep_row){
         .rebuilt_ms = milliseconds,
@@ -37,7 +37,7 @@ static void assert_choice(const trade_choice *choice, const sweep_row *picked,
     assert_ptr_equal(choice->better, better);
 }
 
-/// Five rows on a front and one behind it.
+/// Five rows on the Pareto front and one behind it.
 static void make_front(void) {
     const double costs[][2] = {{1, 0.8}, {5, 0.4}, {9, 0.2}, {8, 0.5}, {12, 0.1}, {30, 0.05}};
     for (size_t i = 0; i < COUNT_OF(costs); i++)
@@ -57,7 +57,7 @@ static void an_error_takes_the_least_time(void **state) {
     (void)state;
     make_front();
     const trade_choice choice = choose(&errs_by_a_tenth, 6);
-    // Of all that are faster, row 2 errs least.
+    // Among all faster rows, row 2 has the least error.
     assert_choice(&choice, &rows[4], &rows[5], &rows[2]);
     assert_int_equal(choice.candidates, 6);
     assert_int_equal(choice.within, 2);
@@ -140,7 +140,7 @@ static void rows_without_time_or_error_are_passed_over(void **state) {
         assert_choice(&choice, NULL, NULL, NULL);
         assert_int_equal(choice.candidates, 0);
     }
-    rows[0] = row_of(1, 0); // no error at all is an error that is known
+    rows[0] = row_of(1, 0); // an error of 0 is a known error
     assert_ptr_equal(choose(&errs_by_a_tenth, 1).picked, &rows[0]);
 }
 
@@ -161,7 +161,7 @@ static void retained_maps_are_not_paid_for(void **state) {
     assert_true(trade_milliseconds(&request, &rows[0]) == 9);
 }
 
-/// Three quarters of it build: four times the pixels cost 30 ms more.
+/// Building takes three quarters of the time, so four times the pixels cost 30 ms more.
 static void shading_grows_with_the_pixels(void **state) {
     (void)state;
     const sweep_row row = {

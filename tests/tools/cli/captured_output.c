@@ -5,7 +5,7 @@
 
 #include "tests/engine/support/cmocka_all.h"
 
-/// A stream on its way into a file; `former` is where it went before.
+/// A stream that is redirected to a file; `former` is its previous destination.
 typedef struct redirection {
     FILE *stream, *file;
     int former;

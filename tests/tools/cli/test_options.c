@@ -5,7 +5,7 @@
 #include "tests/tools/cli/captured_output.h"
 #include "tools/cli/options.h"
 
-/// One option of each kind, and what a run of the parser left in them.
+/// One option of each kind, and the values that the parser left in them.
 typedef struct sample {
     bool flag, size_given;
     const char *text;
@@ -227,7 +227,7 @@ static void values_out_of_range_come_with_the_range(void **state) {
     REFUSE("2.0001 is outside [-2, 2]", "--number=2.0001", "x");
     REFUSE("65536x1 is outside [1x1, 65535x65535]", "--size=65536x1", "x");
     REFUSE("1x0 is outside", "--size=1x0", "x");
-    REFUSE("outside", "--vector=1e300,0,0", "x"); // more than a float holds
+    REFUSE("outside", "--vector=1e300,0,0", "x"); // beyond the range of float
 }
 
 static void help_tells_defaults_ranges_and_choices(void **state) {

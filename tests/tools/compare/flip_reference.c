@@ -27,7 +27,7 @@ static square make_square(int radius, kernel_function function, const double *pa
     return square;
 }
 
-/// Positive weights are scaled to the sum 1, negative ones to -1.
+/// Scales positive weights to the sum 1, negative ones to -1.
 static void normalise(square *square) {
     int count = (2 * square->radius + 1) * (2 * square->radius + 1);
     double positive = 0, negative = 0;
@@ -125,7 +125,7 @@ static double hyab(const vector a, const vector b) {
     return fabs(a[0] - b[0]) + sqrt(pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2));
 }
 
-/// Everything that a texel's neighbourhood says: colour as seen, edge and point strength.
+/// Everything that depends on a texel's neighbourhood: colour as seen, edge and point strength.
 typedef struct percept {
     vector lab;
     double edge, point;

@@ -81,7 +81,7 @@ static void expect_success(void) {
     assert_string_equal(captured.errors, "");
 }
 
-/// One line that holds all of the texts, and nothing on standard output.
+/// One line that contains all of the texts, and nothing on standard output.
 static void expect_failure(int status, const char *const *texts) {
     assert_int_equal(captured.status, status);
     assert_string_equal(captured.output, "");

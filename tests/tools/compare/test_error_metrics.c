@@ -47,7 +47,7 @@ static void low_dynamic_range_is_measured_as_it_is_shown(void **state) {
     lobe_image test = wrap(a, 1, 1), reference = wrap(b, 1, 1);
     error_metrics metrics = measure(&test, &reference, false);
     double difference = (double)lobe_srgb_encode(0.5f) - lobe_srgb_encode(0.4f);
-    assert_true(near(metrics.rmse, difference / sqrt(3.0))); // 2 is shown as 1
+    assert_true(near(metrics.rmse, difference / sqrt(3.0))); // 2 is displayed as 1
     assert_true(near(metrics.psnr, 10.0 * log10(3.0 / (difference * difference))));
 }
 

@@ -28,7 +28,7 @@ static float random_unit(uint32_t *state) {
     return (float)(*state >> 8) * 0x1p-24f;
 }
 
-/// Smooth colours, and noise of the given amplitude on them; never negative.
+/// Smooth colours with added noise of the given amplitude; never negative.
 static lobe_image make_scene(uint32_t width, uint32_t height, float scale, float noise) {
     lobe_image image = make_image(width, height);
     uint32_t seed = 77;
@@ -82,7 +82,7 @@ static void equal_images_do_not_differ(void **state) {
     lobe_image_free(&image);
 }
 
-/// Constant images have no features and no neighbours: only HyAB and its redistribution remain.
+/// Constant images have no features and no structure: only HyAB and its redistribution remain.
 static void constants_differ_as_their_colours_do(void **state) {
     (void)state;
     lobe_image black = make_constant(9, 7, (float[3]){0, 0, 0});
@@ -163,7 +163,7 @@ static void each_texel_is_what_the_papers_formulas_give(void **state) {
     compare_with_paper(2, 11, 1.0);
 }
 
-/// Seen from afar, fine noise vanishes.
+/// From a distance, fine noise vanishes.
 static void distance_hides_detail(void **state) {
     (void)state;
     lobe_image clean = make_constant(64, 64, (float[3]){0.4f, 0.4f, 0.4f});
@@ -234,7 +234,8 @@ static void black_does_not_ask_for_infinite_exposure(void **state) {
     flip_exposures exposures;
     assert_int_equal(flip_choose_exposures(&image, NULL, &exposures), LOBE_OK);
     assert_int_equal(exposures.count, 1);
-    ((float *)image.texels)[1] = 16.0f; // of ten texels, one bright and one dark one are lit
+    ((float *)image.texels)[1] =
+        16.0f; // of ten texels, one is bright and one is dark, the others are black
     ((float *)image.texels)[5] = 4.0f;
     assert_int_equal(flip_choose_exposures(&image, NULL, &exposures), LOBE_OK);
     assert_true(fabs(exposures.stop - exposures.start - log2(16.0 / 10.0)) < 1e-5);

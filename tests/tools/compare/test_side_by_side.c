@@ -28,7 +28,7 @@ static lobe_image make_errors(uint32_t width, uint32_t height, float value) {
     return image;
 }
 
-/// Texels of a colour anywhere in a picture.
+/// Counts the texels of a colour in a picture.
 static size_t count_colour(const lobe_image *image, const uint8_t rgb[3]) {
     size_t count = 0;
     for (size_t index = 0; index < (size_t)image->width * image->height; index++)
@@ -119,7 +119,7 @@ static void what_does_not_fit_is_refused(void **state) {
     lobe_image_free(&wrong);
 }
 
-/// Dots of a character as one number.
+/// The dots of a character as one number.
 static uint64_t shape(char character) {
     uint64_t dots = 0;
     for (int y = 0; y < BITMAP_FONT_HEIGHT; y++) {

@@ -88,7 +88,7 @@ def test_the_least_error_within_a_budget():
           says=["picked mipmap: 20.0 ms with maps rebuilt, relative L2 0.500",
                 f"3 of {choices} choices keep to 20 ms, this one errs least",
                 "the next more exact is mipmap with probes=2: 40.0 ms with maps rebuilt, relative L2 0.4",
-                f"figures: {path}, 1 frame, errors against 2 samples a pixel"])
+                f"figures: {path}, 1 frame, errors against 2 samples per pixel"])
     picks(folder, *SCENE, "--sweep", path, "--budget", "19.9", filter_name="mipmap",
           knobs=[("storage", "float16")], says=["mipmap with storage=float16: 16.0 ms"])
     picks(folder, *SCENE, "--sweep", path, "--budget", "10", filter_name="direct",
@@ -231,7 +231,7 @@ def test_a_calibration_measures_what_is_drawn():
     said = re.match(r"picked (\w+)(?: with (\S+=\S+))?: (\S+) ms with maps rebuilt, relative L2 "
                     r"(\S+); (\d+) of (\d+) choices keep to 100000 ms, this one errs least\n"
                     r"none is more exact; figures: calibrated, 3 frames, errors against 64 "
-                    r"samples a pixel\n", result.stdout)
+                    r"samples per pixel\n", result.stdout)
     check(said is not None, report(result))
     name, knob, milliseconds, error, within, choices = said.groups()
     check(within == choices and f"calibrating: {choices} choices" in result.stderr, report(result))
@@ -271,8 +271,8 @@ def test_options_that_do_not_go_together():
                        says=f"{limit[0]} and --filter exclude each other")
         is_wrong_usage(*render, *limit, "--set", "probes=2",
                        says=f"{limit[0]} and --set exclude each other")
-    is_wrong_usage(*render, "--sweep", "a.json", says="--sweep goes with --budget or --error")
-    is_wrong_usage(*render, "--maps", "rebuilt", says="--maps goes with --budget or --error")
+    is_wrong_usage(*render, "--sweep", "a.json", says="--sweep needs --budget or --error")
+    is_wrong_usage(*render, "--maps", "rebuilt", says="--maps needs --budget or --error")
     is_wrong_usage(*render, "--maps", "half", "--budget", "5", says=["half", "rebuilt, retained"])
     is_wrong_usage("render", "--material", "maps", "-o", "never.exr", "--budget", "5", "--sweep",
                    "a.json", says="--sweep and --material exclude each other")

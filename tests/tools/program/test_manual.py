@@ -60,7 +60,7 @@ def test_pages_are_shown_as_meant():
         return "there is no man"
     render, compare = shown(page("render")), shown(page("compare"))
     for words in ("lobe-render - render a scene to an OpenEXR or PNG file",
-                  "lobe render [OPTION]... SCENE -o FILE", "-o, --output FILE what to write",
+                  "lobe render [OPTION]... SCENE -o FILE", "-o, --output FILE output: FILE.exr",
                   "[1, 4096] (default 64)", "half, float (default half)", "see 'lobe filters'"):
         check(words in render, f"no '{words}' in {render}")
     check("mean of (a - b)^2 / (b^2 + 0.01)" in compare, compare)

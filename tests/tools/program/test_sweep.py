@@ -345,7 +345,7 @@ def test_interrupted_and_resumed_equals_undisturbed():
     folder = fresh_folder("resumed")
     arguments = ["bumps", "checkerboard", "--frames", "3", "--json", folder / "a.json"]
     said = interrupt_at("checkerboard: error", *arguments)
-    check("holds 1 of 2 scenes, --resume goes on" in said and "error:" not in said, said)
+    check("has 1 of 2 scenes, continue with --resume" in said and "error:" not in said, said)
     results = json.loads((folder / "a.json").read_text())
     check(results["complete"] is False, "complete")
     check({row["scene"] for row in results["rows"]} == {"bumps"}, "rows")
@@ -421,9 +421,9 @@ def test_options_that_do_not_go_together():
     is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--knobs", "env,odd",
                    says="no filter has a knob 'odd'")
     is_wrong_usage("bench", "bumps", "--environment", "sky", "--environment", "none",
-                   says="--environment: more than one go with --sweep")
+                   says="--environment: more than one needs --sweep")
     for option in (["--resume"], ["--knobs", "env"], ["--pictures", "x"], ["--stations", "2"], ["--path-samples", "2"]):
-        is_wrong_usage("bench", "bumps", *option, says=f"{option[0]} goes with --sweep")
+        is_wrong_usage("bench", "bumps", *option, says=f"{option[0]} needs --sweep")
     is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--stations", "0",
                    says="--stations")
     is_wrong_usage("bench", "bumps", "--sweep", "--json", "a.json", "--path-samples", "0",

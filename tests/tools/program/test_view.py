@@ -483,7 +483,7 @@ def test_a_device_that_is_lost_for_good():
     screen().do("key", "minus")
     status = lost.process.wait(timeout=60)
     last = lost.said().splitlines()[-1]
-    check(status == 1 and "given up" in last, f"{status}: {lost.said()}")
+    check(status == 1 and "giving up" in last, f"{status}: {lost.said()}")
     return None
 
 

@@ -1,8 +1,8 @@
-// Loaded before `lobe view`: Vulkan fails, and monitors change, when the file that LOBE_TEST_FAULT
-// names says so. Its lines are obeyed one after the other, and go: "FUNCTION CODE" makes the next
-// call of a function give that VkResult, "scale NUMBER" is what the window's content is scaled by
-// from then on, "unit NUMBER" how many pixels the window's own unit has. A device or a surface that
-// is lost stays so until it is destroyed.
+// Preloaded into `lobe view`: makes Vulkan fail, and monitors change, as told by the file that
+// LOBE_TEST_FAULT names. Its lines are executed in order and removed: "FUNCTION CODE" makes the
+// next call of a function return that VkResult, "scale NUMBER" sets the scale of the window's
+// content from then on, "unit NUMBER" the number of pixels of the window's unit. A device or a
+// surface that is lost stays lost until it is destroyed.
 
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -25,7 +25,7 @@ static GLFWcursorposfun on_cursor;
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-/// Takes the first line off a file; one that was the last goes with it.
+/// Removes the first line of a file, and the file with its last line.
 static void take_line(const char *path, FILE *file) {
     char rest[1024];
     const size_t size = fread(rest, 1, sizeof rest, file);
@@ -38,7 +38,7 @@ static void take_line(const char *path, FILE *file) {
     fclose(shorter);
 }
 
-/// The number in the file's first line, where that is about a name; false: it is not.
+/// The number in the file's first line if that begins with this name; otherwise false.
 static bool is_told(const char *name, double *number) {
     const char *path = getenv("LOBE_TEST_FAULT");
     FILE *file = path ? fopen(path, "r") : NULL;
@@ -52,7 +52,7 @@ static bool is_told(const char *name, double *number) {
     return found;
 }
 
-/// What a function is to give instead of doing anything; VK_SUCCESS: nothing.
+/// The result that a function returns instead of doing anything; VK_SUCCESS: none.
 static VkResult fault_of(const char *name) {
     double number = VK_SUCCESS;
     const VkResult fault = is_told(name, &number) ? (VkResult)number : VK_SUCCESS;
@@ -91,7 +91,7 @@ VKAPI_ATTR VkResult VKAPI_CALL vkDeviceWaitIdle(VkDevice device) {
     return device_is_lost ? VK_ERROR_DEVICE_LOST : result;
 }
 
-/// What was not submitted is never signalled: what was is waited for.
+/// Work that was not submitted is never signalled; waits only for submitted work.
 VKAPI_ATTR VkResult VKAPI_CALL vkWaitForFences(VkDevice device, uint32_t count,
                                                const VkFence *fences, VkBool32 all,
                                                uint64_t timeout) {
@@ -165,7 +165,7 @@ VKAPI_ATTR void VKAPI_CALL vkDestroySurfaceKHR(VkInstance instance, VkSurfaceKHR
 }
 
 // ---------------------------------------------------------------------------------------------
-// For the engine, which asks for functions by name
+// For the engine, which looks functions up by name
 
 static const struct {
     const char *name;

@@ -104,7 +104,7 @@ static void only_some_knobs_are_varied(void **state) {
                      LOBE_OK);
     assert_int_equal(plan.count, 3);
     assert_variant(&plan.variants[1], "shape", "square");
-    // What the knob needs beside it is set too.
+    // Knobs that it requires are set, too.
     sweep_setting settings[LOBE_MAXIMUM_KNOBS];
     sweep_variant_settings(&plan.variants[2], settings);
     assert_string_equal(plan.variants[2].varied, "bright");
@@ -159,7 +159,7 @@ static void a_value_out_of_range_is_refused(void **state) {
     sweep_plan_free(&plan);
 }
 
-/// What filters ask to be swept, their own knobs must allow, and none of it may be the default.
+/// The values that filters list for a sweep must be valid for their own knobs, and not the default.
 static void all_filters_have_sound_lists(void **state) {
     (void)state;
     for (size_t i = 0; i < 2 * lobe_filter_count(); i++) {

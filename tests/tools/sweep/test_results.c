@@ -104,7 +104,7 @@ static void write_changed(const char *piece, const char *by) {
     free(changed);
 }
 
-/// Reading fails, with one line that holds the words and the file's name.
+/// Reading fails, with one message that contains the words and the file's name.
 static void assert_refused(lobe_result expected, const char *words) {
     log_recorder recorder;
     log_recorder_start(&recorder);
@@ -217,7 +217,7 @@ static void unknown_members_are_passed_over(void **state) {
     sweep_results_free(&read);
 }
 
-/// Files from before there were environments.
+/// Files from before environments were supported.
 static void what_older_files_lack_is_unknown(void **state) {
     (void)state;
     write_changed("\"environment\":\tnull", "\"envoy\":\tnull");
@@ -250,7 +250,7 @@ static void malformed_members_are_named(void **state) {
          "rows[0].passes[1].count: not a whole number"},
         {"\"flip\":\t0.75", "\"flap\":\t0.75", "rows[0].error.flip: missing"},
         {"\"value\":\t\"0.5\"", "\"value\":\t\"0.5000000000000000000000000000000\"",
-         "rows[1].settings[0].value: too long"},
+         "rows[1].settings[0].value: text too long"},
         {"\"picture\":\tnull", "\"picture\":\t3", "rows[1].picture: not a text"},
     };
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
@@ -263,7 +263,8 @@ static void other_lists_and_objects_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *text, *named;
-    } faults[] = {{"[]", "the whole: not an object"}, {"{}", "version: missing"}, {"", "not JSON"}};
+    } faults[] = {
+        {"[]", "the whole file: not an object"}, {"{}", "version: missing"}, {"", "not JSON"}};
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {
         const char *text = faults[i].text;
         assert_int_equal(lobe_file_write(results_file(), text, strlen(text), NULL), LOBE_OK);

@@ -64,7 +64,7 @@ static lobe_result choose(viewer_device *device, const char *select) {
     return result;
 }
 
-/// With what lobe asks for, and swapchains.
+/// With the features that lobe needs, and swapchains.
 static lobe_result create_device(viewer_device *device) {
     lobe_vulkan_device *vulkan = &device->vulkan;
     lobe_vulkan_features features;
@@ -99,7 +99,7 @@ static lobe_result create_device(viewer_device *device) {
         &(lobe_device_parameters){.pipeline_cache = device_options_pipeline_cache(cache),
                                   .host = &device->host},
         &device->lobe);
-    vulkan->features = NULL; // they were needed during the call only
+    vulkan->features = NULL; // only needed during the call
     vulkan->extensions = NULL;
     return result;
 }

@@ -10,8 +10,8 @@
 
 struct GLFWwindow;
 
-/// Vulkan of the viewer's own, on which lobe is a guest: an instance that knows windows, a surface,
-/// a device that presents on it. All zero: none.
+/// The viewer's own Vulkan objects, which lobe uses as a guest: an instance with window surfaces, a
+/// surface, a device that presents to it. All zero: none.
 typedef struct viewer_device {
     engine_validation validation;
     _Atomic uint64_t fault_count; ///< messages of the validation layer
@@ -27,10 +27,10 @@ typedef struct viewer_device {
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result viewer_device_open(const device_options *options, struct GLFWwindow *window,
                                const lobe_host *host, viewer_device *device);
-/// Waits for what is under way. All zero is fine.
+/// Waits for work in flight. All zero is allowed.
 void viewer_device_close(viewer_device *device);
 
-/// Gives the window a new surface in the place of one that was lost.
+/// Replaces a lost surface of the window.
 lobe_result viewer_device_renew_surface(viewer_device *device, struct GLFWwindow *window);
 
 #endif

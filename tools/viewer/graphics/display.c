@@ -12,7 +12,7 @@ extern const engine_shader_code viewer_shaders[];
 extern const size_t viewer_shaders_count;
 
 // ---------------------------------------------------------------------------------------------
-// What outlives frames
+// Objects that outlive frames
 
 lobe_result viewer_display_renew_font(const viewer_device *device, viewer_display *display) {
     lobe_texture_destroy(&display->font);
@@ -61,8 +61,8 @@ static lobe_resource picture_of(const viewer_display *display, const viewer_side
     return lobe_graph_import_texture(display->graph, display->blank);
 }
 
-/// What a picture's numbers are, by the knob "view", as in capture_write_png: of lobes a mixture
-/// has at most 8, of levels above its own a map of 4096 texels has 12.
+/// The meaning of a picture's numbers, by the knob "view", as in capture_write_png: a mixture has
+/// at most 8 lobes, a map of 4096 texels has 12 levels above the base.
 static uint kind_of(const viewer_side *side, float *maximum) {
     const int view = (int)lobe_settings_get(side->filter, &side->settings, "view");
     *maximum = view == 1 ? 8.0f : 12.0f;

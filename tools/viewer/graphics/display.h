@@ -6,12 +6,12 @@
 
 /// How two sides are shown.
 typedef enum viewer_comparison {
-    VIEWER_SINGLE, ///< the first alone
+    VIEWER_SINGLE, ///< only the first
     VIEWER_SPLIT,  ///< the first to the left of a divider, the second to the right
-    VIEWER_ERROR,  ///< a heat map of how far the first is from the second
+    VIEWER_ERROR,  ///< a heat map of the error of the first relative to the second
 } viewer_comparison;
 
-/// Stops up and down.
+/// Largest exposure in stops, up and down.
 #define VIEWER_MAXIMUM_EXPOSURE 10.0
 
 typedef struct viewer_look {
@@ -21,8 +21,8 @@ typedef struct viewer_look {
     double error_maximum; ///< relative error that is shown brightest
 } viewer_look;
 
-/// What turns pictures into what the window shows, and draws the panels over it: passes of the
-/// viewer's own on a graph of lobe's. All zero: none.
+/// Turns pictures into the window's content, and draws the panels over it: passes of the viewer on
+/// a graph of lobe. All zero: none.
 typedef struct viewer_display {
     lobe_graph *graph;
     lobe_texture *font, *blank;
@@ -32,10 +32,10 @@ typedef struct viewer_display {
 lobe_result viewer_display_open(const viewer_device *device, viewer_display *display);
 void viewer_display_close(viewer_display *display);
 
-/// The panels have another font. Nothing that was recorded may be under way.
+/// Call when the panels' font has changed. No recorded frame may be in flight.
 lobe_result viewer_display_renew_font(const viewer_device *device, viewer_display *display);
 
-/// Records the drawing of the swapchain's current image, with the panels of this frame.
+/// Records drawing the swapchain's current image, with the panels of this frame.
 lobe_result viewer_display_record(viewer_display *display, const viewer_look *look,
                                   const viewer_side sides[2], const viewer_swapchain *swapchain,
                                   VkCommandBuffer commands);

@@ -7,7 +7,7 @@
 #include "third_party/imgui.h"
 #include "tools/viewer/viewer.h"
 
-/// Losses in a row, without a picture shown in between, after which it is given up.
+/// Losses in a row, without a picture shown in between, after which the viewer gives up.
 #define MAXIMUM_LOSSES 3
 
 lobe_result viewer_graphics_open(viewer *v) {
@@ -18,7 +18,7 @@ lobe_result viewer_graphics_open(viewer *v) {
         result = viewer_display_open(&v->device, &v->display);
     for (int i = 0; i < 2 && result == LOBE_OK; i++)
         result = viewer_side_open(&v->view, &v->sides[i]);
-    v->view.width = v->view.height = 0; // images are made with the swapchain
+    v->view.width = v->view.height = 0; // images are created with the swapchain
     v->swapchain_is_stale = true;
     return result;
 }
@@ -34,7 +34,7 @@ void viewer_graphics_close(viewer *v) {
     viewer_device_close(&v->device);
 }
 
-/// Nothing of a frame may be under way when what it uses is made anew.
+/// No frame may be in flight when objects that it uses are recreated.
 static lobe_result finish(viewer *v) {
     lobe_result result = viewer_frame_finish(&v->device, &v->frame, v->sides);
     if (result == LOBE_OK)
@@ -80,8 +80,8 @@ lobe_result viewer_graphics_rescale(viewer *v) {
 static lobe_result renew_surface(viewer *v) {
     if (++v->losses > MAXIMUM_LOSSES)
         return lobe_host_fail(&v->host, LOBE_ERROR_UNSUPPORTED,
-                              "window: its surface is lost again and again: it is given up");
-    lobe_host_log(&v->host, LOBE_LOG_WARNING, "the window's surface was lost; it is made again");
+                              "window: the surface was lost repeatedly, giving up");
+    lobe_host_log(&v->host, LOBE_LOG_WARNING, "the window's surface was lost, creating a new one");
     lobe_result result = finish(v);
     viewer_swapchain_destroy(&v->device, &v->swapchain);
     return result == LOBE_OK ? viewer_device_renew_surface(&v->device, v->window) : result;
@@ -92,7 +92,7 @@ lobe_result viewer_graphics_handle_result(viewer *v, viewer_shown shown, lobe_re
         return LOBE_OK;
     if (shown == VIEWER_FAILED)
         return result;
-    viewer_redraw_panels(v); // what was not shown is drawn again
+    viewer_redraw_panels(v); // draw the frame again that was not shown
     if (shown == VIEWER_BUSY)
         return LOBE_OK;
     v->swapchain_is_stale = true;
@@ -103,13 +103,12 @@ lobe_result viewer_graphics_recover(viewer *v) {
     lobe_result result = LOBE_ERROR_DEVICE_LOST;
     const uint64_t faults = v->device.fault_count;
     while (result == LOBE_ERROR_DEVICE_LOST && ++v->losses <= MAXIMUM_LOSSES) {
-        lobe_host_log(&v->host, LOBE_LOG_WARNING, "the device was lost; it is opened again");
+        lobe_host_log(&v->host, LOBE_LOG_WARNING, "the device was lost, reopening it");
         viewer_graphics_close(v);
         result = viewer_graphics_open(v);
     }
     v->device.fault_count += faults;
     return result != LOBE_ERROR_DEVICE_LOST
                ? result
-               : lobe_host_fail(&v->host, result,
-                                "the device is lost again and again: it is given up");
+               : lobe_host_fail(&v->host, result, "the device was lost repeatedly, giving up");
 }

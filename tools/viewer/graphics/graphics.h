@@ -5,22 +5,22 @@
 
 struct viewer;
 
-/// All that the viewer has on the device. It can be closed and opened again: what is to be seen is
-/// drawn anew.
+/// All objects of the viewer on the device. It can be closed and opened again: everything is then
+/// redrawn.
 lobe_result viewer_graphics_open(struct viewer *v);
-/// All zero is fine.
+/// All zero is allowed.
 void viewer_graphics_close(struct viewer *v);
 
-/// Images of the window's size in the place of those before. Where it has none (it is minimised)
-/// there is no swapchain, and it stays stale.
+/// Recreates the images in the window's size. While it has none (it is minimised) there is no
+/// swapchain, and it stays stale.
 lobe_result viewer_graphics_resize(struct viewer *v);
-/// Panels of the size that the window's content is scaled to.
+/// Scales the panels like the window's content.
 lobe_result viewer_graphics_rescale(struct viewer *v);
 
-/// What comes of showing: the swapchain, and the surface, may have to be made anew. `result` where
-/// that is not the way out.
+/// Handles the result of showing a frame: recreates the swapchain, and the surface, if necessary.
+/// Otherwise returns `result`.
 lobe_result viewer_graphics_handle_result(struct viewer *v, viewer_shown shown, lobe_result result);
-/// Opens a lost device again. LOBE_ERROR_DEVICE_LOST after a line where it is lost again and again.
+/// Reopens a lost device. LOBE_ERROR_DEVICE_LOST, with a message, if it is lost repeatedly.
 lobe_result viewer_graphics_recover(struct viewer *v);
 
 #endif

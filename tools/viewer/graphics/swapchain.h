@@ -7,7 +7,7 @@
 
 #define VIEWER_MAXIMUM_IMAGES 16
 
-/// The images that a window shows in turn. One frame is under way at a time. All zero: none.
+/// The images that a window shows in turn. One frame is in flight at a time. All zero: none.
 typedef struct viewer_swapchain {
     VkSwapchainKHR swapchain;
     VkFormat format;
@@ -21,22 +21,22 @@ typedef struct viewer_swapchain {
     bool fits_badly; ///< it would like the one acquired last to be other than it is
 } viewer_swapchain;
 
-/// How showing, or getting ready for it, went.
+/// Result of showing a frame, or of preparing for it.
 typedef enum viewer_shown {
     VIEWER_SHOWN,
-    VIEWER_BUSY,         ///< the window takes no picture now: it may be covered
-    VIEWER_OUT_OF_DATE,  ///< the window is not what it was: the swapchain must be made anew
-    VIEWER_SURFACE_LOST, ///< the surface, too
-    VIEWER_FAILED,       ///< a line says why
+    VIEWER_BUSY,         ///< the window accepts no picture now: it may be covered
+    VIEWER_OUT_OF_DATE,  ///< the window has changed: recreate the swapchain
+    VIEWER_SURFACE_LOST, ///< recreate the surface, too
+    VIEWER_FAILED,       ///< the log says why
 } viewer_shown;
 
-/// Makes one of about this size in the place of the one before, whose images nobody may still use.
-/// Where the window has no size now (it is minimised) there is none, and `count` is 0.
+/// Creates a swapchain of about this size in place of the old one, whose images must be unused. If
+/// the window has no size now (it is minimised) there is none, and `count` is 0.
 viewer_shown viewer_swapchain_renew(const viewer_device *device, uint32_t width, uint32_t height,
                                     viewer_swapchain *swapchain, lobe_result *result);
 void viewer_swapchain_destroy(const viewer_device *device, viewer_swapchain *swapchain);
 
-/// Takes the next image, for which it waits a moment.
+/// Acquires the next image, waiting for a short time.
 viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapchain *swapchain,
                                       lobe_result *result);
 /// Shows it, once its semaphore `drawn` is signalled.

@@ -10,7 +10,7 @@ typedef struct viewer_target {
     VkDeviceMemory memory;
 } viewer_target;
 
-/// In the place of the one before, which nobody may still use.
+/// Replaces the old image, which must be unused.
 lobe_result viewer_target_renew(const viewer_device *device, uint32_t width, uint32_t height,
                                 viewer_target *target);
 void viewer_target_destroy(const viewer_device *device, viewer_target *target);
