@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks what the documents say against the tree: files that they link to or name are there, and
-code that they quote stands in the file named above it, word for word.
+"""Checks the documents against the tree: the files that they link to or name exist, and code that
+they quote appears word for word in the file named above it.
 
 Usage: documentation.py ROOT"""
 
@@ -24,7 +24,7 @@ def missing_files(root, text):
 
 
 def wrong_quotes(root, text):
-    """A quotation is of the file named last before it. Whole programs quote nothing."""
+    """A quote is from the last file named before it. Complete programs are not quotes."""
     faults = []
     for match in QUOTE.finditer(text):
         code, before = match[1], NAMED.findall(text[:match.start()])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that all C and C++ is laid out as .clang-format says.
+"""Checks that all C and C++ has the layout of .clang-format.
 
 Usage: formatting.py ROOT CLANG-FORMAT"""
 
@@ -18,7 +18,7 @@ def main():
     done = subprocess.run([program, "--dry-run", "-Werror", *map(str, files)], text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     print(done.stdout, end="")
-    print(f"{len(files)} files looked at")
+    print(f"{len(files)} files checked")
     return 1 if done.returncode or not files else 0
 
 

@@ -10,8 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What a folder's files may include, besides the system's and other libraries' headers. A public
-# entry means the headers under <folder>/include alone.
+# What a folder's files may include, besides headers of the system and of other libraries. "public"
+# means only the headers under <folder>/include.
 ALLOWED = {
     "third_party": {"third_party"},
     "shaders": {"shaders"},
@@ -20,7 +20,7 @@ ALLOWED = {
     "passes": {"passes", "scenes public", "engine public", "shaders"},
     "tools": {"tools", "passes", "scenes", "engine", "shaders", "third_party"},
 }
-# Headers of libraries that some folders alone may use.
+# Headers of libraries that only some folders may use.
 OWNED = {
     re.compile(r"vulkan/"): {"engine"},
     re.compile(r"spirv_cross/|glslang/"): {"engine"},
@@ -33,10 +33,11 @@ OWNED = {
 # Vulkan, neither directly nor through our own headers.
 ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
 # Folders in which no file may include itself through others. A header and its source count as one.
-ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/")
+ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/", "passes/environment/",
+           "passes/filters/", "passes/maps/", "passes/renderer/", "scenes/", "tools/")
 VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")
 
-# Functions of the C library that give memory, or take it back; and where they may be called.
+# Functions of the C library that allocate or free memory, and where they may be called.
 HEAP = re.compile(r"\b(?:malloc|calloc|realloc|reallocarray|free|strdup|strndup|asprintf|vasprintf|"
                   r"open_memstream|getline|getdelim|aligned_alloc|posix_memalign)\s*\(|"
                   r"\brealpath\s*\([^;]*, NULL\)")
@@ -64,7 +65,7 @@ def included_file(root, path, quote, name, public):
 
 
 def target_of(root, path, quote, name, public):
-    """The part of the tree that an include reaches; None for the system and libraries."""
+    """The part of the tree that an include refers to; None for the system and libraries."""
     if name in public:
         return f"{public[name]} public"
     file = included_file(root, path, quote, name, public)
@@ -219,7 +220,7 @@ def check_itself():
 def main():
     faults, count = check_tree(Path(sys.argv[1]).resolve())
     faults += check_itself()
-    print("\n".join(faults) if faults else f"{count} files keep to the table")
+    print("\n".join(faults) if faults else f"{count} files follow the rules")
     return 1 if faults or count == 0 else 0
 
 

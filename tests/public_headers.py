@@ -12,7 +12,7 @@ WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
 
 def compile_header(compiler, language, standard, includes, header, scratch):
-    """The compiler's complaints about one header; "" where it has none."""
+    """The compiler's output for one header; "" if it compiles."""
     source = Path(scratch) / ("header.cpp" if language == "c++" else "header.c")
     # Twice, so that a missing include guard shows.
     source.write_text(f"#include <{header}>\n#include <{header}>\n"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs a test program and hands on what it prints, with the skipped cases of cmocka 1.1 as TAP has
-them: "ok 3 - name # SKIP", not "not ok 3 # SKIP name", which counts as a failure."""
+"""Runs a test program and passes its output on, with the skipped cases of cmocka 1.1 in TAP's form:
+"ok 3 - name # SKIP", not "not ok 3 # SKIP name", which would count as a failure."""
 
 import re
 import subprocess

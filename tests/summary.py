@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts the test cases in Meson's logs and prints one line, "N passed, N failed". A program that
-speaks TAP counts with each of its cases, any other as one case. A program that dies, or that hands
-back fewer cases than it planned, has one failure at least. Fails where a case failed or none ran."""
+prints TAP counts once per case, any other as one case. A program that crashes, or reports fewer
+cases than planned, has at least one failure. Exits with 1 if a case failed or none ran."""
 
 import json
 import re

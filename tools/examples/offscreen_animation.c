@@ -6,6 +6,7 @@
 //     offscreen_animation SCENE FOLDER FRAMES WIDTH HEIGHT
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,7 +23,7 @@ static _Atomic size_t bytes, most_bytes;
 
 static void *allocate(void *user, size_t size) {
     (void)user;
-    const size_t now = bytes += size;
+    const size_t now = atomic_fetch_add(&bytes, size) + size;
     if (now > most_bytes)
         most_bytes = now;
     return malloc(size);

@@ -86,7 +86,8 @@ static void check_steady(fixture *f, float step) {
     for (int i = 0; i < SETTLING; i++, time += step)
         run_frame(frame, time);
     f->counting.taken = 0;
-    sorted = faults.made = 0;
+    faults.made = 0;
+    sorted = 0;
     for (int i = 0; i < STEADY; i++, time += step)
         run_frame(frame, time);
     if (f->counting.taken || sorted || faults.made)

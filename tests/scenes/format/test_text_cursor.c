@@ -69,7 +69,8 @@ static void what_is_no_number_is_left_alone(void **state) {
         assert_ptr_equal(cursor.at, texts[i]);
     }
     // Nothing is read past the end.
-    text_cursor cursor = {"12345", "12345" + 0};
+    const char *const text = "12345";
+    text_cursor cursor = {text, text};
     double value;
     assert_false(scenes_text_cursor_number(&cursor, &value));
 }

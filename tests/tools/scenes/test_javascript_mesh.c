@@ -51,8 +51,8 @@ static void other_ways_to_write_it_are_read(void **state) {
         "{\"cells\": [[0, 1, 2]], \"positions\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}",
         "module.exports = { 'positions' : [ [0,0,0,] , [1,0,0], [0,1,0], ], cells : [[0,1,2],], }",
         // Names that only begin or end like these, and mentions without a value.
-        "// positions and cells\nvar npositions=[7], positionsOld=[8], positions =\n[\n[0,0,0],"
-        "[1,0,0],[0,1,0]]; var subcells=[[9,9,9]]; cells=[[0,1,2]];",
+        ("// positions and cells\nvar npositions=[7], positionsOld=[8], positions =\n[\n[0,0,0],"
+         "[1,0,0],[0,1,0]]; var subcells=[[9,9,9]]; cells=[[0,1,2]];"),
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         lobe_mesh mesh;
