@@ -1,0 +1,146 @@
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <lobe/file.h>
+#include <lobe/image.h>
+
+#include "tools/console.h"
+#include "tools/options.h"
+#include "tools/report/picture_stream.h"
+#include "tools/report/script.h"
+#include "tools/subcommand.h"
+#include "tools/sweep_results.h"
+
+/// `lobe report` checks the results, reads their pictures and writes the file; a Python script
+/// draws the page.
+typedef struct report_request {
+    const char *results, *folder;
+    const char *targets; ///< NULL: none
+    uint32_t picture_width;
+    lobe_log log;
+} report_request;
+
+// ---------------------------------------------------------------------------------------------
+// Making
+
+/// The script takes the pictures from its standard input.
+static lobe_result start_script(const report_request *request, report_script *script) {
+    char width[16];
+    snprintf(width, sizeof width, "%u", request->picture_width);
+    const char *arguments[REPORT_SCRIPT_ARGUMENTS + 1] = {"--picture-width", width};
+    size_t count = 2;
+    if (request->targets) {
+        arguments[count++] = "--targets";
+        arguments[count++] = request->targets;
+    }
+    arguments[count++] = "--";
+    arguments[count++] = request->results;
+    return report_script_start(arguments, &request->log, script);
+}
+
+/// The page as text, to free() by the caller.
+static lobe_result make_page(const report_request *request, char **text, size_t *size) {
+    sweep_results results;
+    report_script script;
+    *text = NULL;
+    lobe_result result = sweep_results_read(request->results, &request->log, &results);
+    if (result != LOBE_OK)
+        return result;
+    result = start_script(request, &script);
+    if (result == LOBE_OK) {
+        result = picture_stream_write(script.input, &results, request->results, &request->log);
+        lobe_result finished = report_script_finish(&script, &request->log, text, size);
+        result = result == LOBE_OK ? finished : result;
+    }
+    sweep_results_free(&results);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Writing
+
+/// The folder may exist. One that was made is removed again where the page cannot be written.
+static lobe_result write_page(const report_request *request, const char *text, size_t size) {
+    bool made = mkdir(request->folder, 0777) == 0;
+    if (!made && errno != EEXIST)
+        return lobe_log_fail(&request->log, LOBE_ERROR_WRITE, "%s: cannot be made: %s",
+                             request->folder, strerror(errno));
+    char *path = malloc(strlen(request->folder) + sizeof "/index.html");
+    if (!path)
+        return lobe_log_fail(&request->log, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                             request->folder);
+    sprintf(path, "%s/index.html", request->folder);
+    lobe_result result = lobe_file_write(path, text, size, &request->log);
+    if (result != LOBE_OK && made)
+        rmdir(request->folder);
+    free(path);
+    return result;
+}
+
+static int make_report(const report_request *request) {
+    char *text;
+    size_t size;
+    lobe_result result = make_page(request, &text, &size);
+    if (result == LOBE_OK)
+        result = write_page(request, text, size);
+    free(text);
+    return result == LOBE_OK ? 0 : 1;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Command line
+
+static int run(int argc, char **argv) {
+    report_request request = {.log = console_log(false)};
+    const option options[] = {
+        {.name = "output",
+         .letter = 'o',
+         .kind = OPTION_TEXT,
+         .argument = "DIR",
+         .summary = "folder that index.html is written to; made where it is not there",
+         .target = &request.folder},
+        {.name = "picture-width",
+         .kind = OPTION_INTEGER,
+         .argument = "PIXELS",
+         .summary = "wider pictures are reduced, and a part of each shown as it is",
+         .target = &request.picture_width,
+         .fallback = "320",
+         .minimum = 16,
+         .maximum = LOBE_IMAGE_MAXIMUM_EXTENT},
+        {.name = "targets",
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "limits of ratios between filters, as JSON: shows which are met",
+         .target = &request.targets},
+    };
+    const option_table table = {
+        .program = "lobe report",
+        .operands = "RESULTS.json",
+        .summary = "Draws what 'lobe bench --sweep' measured as one HTML page that needs nothing\n"
+                   "else: for each scene the pictures with maps of their errors, error over time\n"
+                   "and over memory with the Pareto front, and the times of passes; means over\n"
+                   "the scenes; and the table of Xu et al. 2017 beside the same ratios here.\n"
+                   "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
+                   "python3-jinja2).",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .minimum_operands = 1,
+        .maximum_operands = 1,
+        .operand_values = OPTION_VALUES_FILE,
+    };
+    option_list operands = {0};
+    int status;
+    if (options_parse(&table, argc, argv, &operands, &status)) {
+        request.results = operands.values[0];
+        status = request.folder ? make_report(&request)
+                                : options_usage_error(&table, "-o DIR is missing");
+    }
+    options_free(&table, &operands);
+    return status;
+}
+
+const subcommand report_subcommand = {"report", "draw a sweep of the benchmark as an HTML page",
+                                      run};
