@@ -2,6 +2,7 @@
 
 import json
 import math
+import runpy
 import sys
 import tempfile
 from pathlib import Path
@@ -10,6 +11,7 @@ import tap
 from lobe_report import bandwidth, measures, paper, results, targets
 from lobe_report.errors import ReportError
 
+ROOT = Path(__file__).resolve().parents[3]
 FOLDER = tempfile.TemporaryDirectory(prefix="lobe-test-")
 FILE = Path(FOLDER.name) / "file.json"
 ERRORS = {"rmse": 0, "relative_l2": 0.5, "relative_l1": None, "flip": 0.1}
@@ -180,6 +182,14 @@ def test_broken_targets_are_refused():
         refuses(targets.read, "target")
     FILE.write_text(json.dumps([TARGET]).replace("2", "NaN"))
     refuses(targets.read, "[0]")
+
+
+def test_what_lobe_aims_at_is_understood():
+    aims = runpy.run_path(str(ROOT / "tools/targets"))["described_targets"]()
+    FILE.write_text(json.dumps(aims))
+    found = targets.read(FILE)
+    check(len(found) == len(aims) > 15, len(found))
+    check({target.scene for target in found} >= {None, "checkerboard", "hall"}, found)
 
 
 if __name__ == "__main__":
