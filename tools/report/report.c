@@ -1,5 +1,3 @@
-#include "tools/report/report.h"
-
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,9 +10,15 @@
 #include "tools/cli/console.h"
 #include "tools/cli/options.h"
 #include "tools/cli/subcommand.h"
+#include "tools/report/picture_stream.h"
+#include "tools/report/script.h"
+#include "tools/sweep/results.h"
 
+/// `lobe report` checks the results, reads their pictures and writes the file; a Python script
+/// draws the page.
 typedef struct report_request {
     const char *results, *folder;
+    const char *targets; ///< NULL: none
     uint32_t picture_width;
     lobe_host host;
 } report_request;
@@ -22,70 +26,35 @@ typedef struct report_request {
 // ---------------------------------------------------------------------------------------------
 // Making
 
-static bool is_known(const report *report, const char *filter) {
-    for (size_t i = 0; i < report->filter_count; ++i) {
-        if (strcmp(report->filters[i], filter) == 0)
-            return true;
+/// The script takes the pictures from its standard input.
+static lobe_result start_script(const report_request *request, report_script *script) {
+    char width[16];
+    snprintf(width, sizeof width, "%u", request->picture_width);
+    const char *arguments[REPORT_SCRIPT_ARGUMENTS + 1] = {"--picture-width", width};
+    size_t count = 2;
+    if (request->targets) {
+        arguments[count++] = "--targets";
+        arguments[count++] = request->targets;
     }
-    return false;
-}
-
-static lobe_result find_filters(report *report) {
-    for (size_t i = 0; i < report->results->row_count; ++i) {
-        const char *filter = report->results->rows[i].filter;
-        if (is_known(report, filter))
-            continue;
-        if (report->filter_count == REPORT_MAXIMUM_FILTERS)
-            return lobe_host_fail(report->host, LOBE_ERROR_LIMIT, "%s: more than %d filters",
-                                  report->path, REPORT_MAXIMUM_FILTERS);
-        report->filters[report->filter_count++] = filter;
-    }
-    return LOBE_OK;
-}
-
-static void leave_out_noise(sweep_results *results) {
-    for (size_t i = 0; i < results->row_count; ++i) {
-        sweep_row *row = &results->rows[i];
-        const sweep_scene *scene = sweep_results_scene(results, row->scene);
-        if (scene)
-            row->error.relative_l2 = sweep_error_without_noise(scene, row);
-    }
+    arguments[count++] = "--";
+    arguments[count++] = request->results;
+    return report_script_start(arguments, &request->host, script);
 }
 
 /// The page as text, to free() by the caller.
-static lobe_result write_text(report *report, char **text, size_t *size) {
-    *text = NULL;
-    lobe_result result = LOBE_OK;
-    bool failed = true;
-    report->page = open_memstream(text, size);
-    if (report->page) {
-        result = report_write_page(report);
-        failed = ferror(report->page);
-        failed = fclose(report->page) != 0 || failed;
-    }
-    if (result == LOBE_OK && failed)
-        result = lobe_host_fail(report->host, LOBE_ERROR_OUT_OF_MEMORY,
-                                "%s: no memory for the page", report->path);
-    return result;
-}
-
 static lobe_result make_page(const report_request *request, char **text, size_t *size) {
     sweep_results results;
-    struct stat status;
+    report_script script;
     *text = NULL;
     lobe_result result = sweep_results_read(request->results, &request->host, &results);
     if (result != LOBE_OK)
         return result;
-    leave_out_noise(&results);
-    report report = {.results = &results,
-                     .path = request->results,
-                     .picture_width = request->picture_width,
-                     .host = &request->host};
-    if (stat(request->results, &status) == 0)
-        report.time = status.st_mtime;
-    result = find_filters(&report);
-    if (result == LOBE_OK)
-        result = write_text(&report, text, size);
+    result = start_script(request, &script);
+    if (result == LOBE_OK) {
+        result = picture_stream_write(script.input, &results, request->results, &request->host);
+        lobe_result finished = report_script_finish(&script, &request->host, text, size);
+        result = result == LOBE_OK ? finished : result;
+    }
     sweep_results_free(&results);
     return result;
 }
@@ -93,7 +62,7 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-/// The folder may be there; one that had to be made goes again where the page cannot be written.
+/// The folder may exist. One that was made is removed again where the page cannot be written.
 static lobe_result write_page(const report_request *request, const char *text, size_t size) {
     bool made = mkdir(request->folder, 0777) == 0;
     if (!made && errno != EEXIST)
@@ -141,6 +110,11 @@ static int run(int argc, char **argv) {
          .fallback = "320",
          .minimum = 16,
          .maximum = LOBE_IMAGE_MAXIMUM_EXTENT},
+        {.name = "targets",
+         .kind = OPTION_TEXT,
+         .argument = "FILE",
+         .summary = "limits of ratios between filters, as JSON: shows which are met",
+         .target = &request.targets},
     };
     const option_table table = {
         .program = "lobe report",
@@ -148,7 +122,9 @@ static int run(int argc, char **argv) {
         .summary = "Draws what 'lobe bench --sweep' measured as one HTML page that needs nothing\n"
                    "else: for each scene the pictures with maps of their errors, error over time\n"
                    "and over memory with the Pareto front, and the times of passes; means over\n"
-                   "the scenes; and the table of Xu et al. 2017 beside the same ratios here.",
+                   "the scenes; and the table of Xu et al. 2017 beside the same ratios here.\n"
+                   "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
+                   "python3-jinja2).",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

@@ -50,7 +50,7 @@ def test_libraries_are_depended_on():
 
 def test_each_file_is_where_it_belongs():
     for name, pattern in {"liblobe0": r"/liblobe\.so\.0$", "liblobe-dev": r"/lobe/lobe\.h$",
-                          "lobe-tools": r"/man1/lobe-render\.1\.gz$"}.items():
+                          "lobe-tools": r"/libexec/lobe/lobe-report$"}.items():
         paths = [line.split()[5] for line in
                  run(["dpkg-deb", "--contents", package(name)]).splitlines()]
         check(any(re.search(pattern, path) for path in paths), f"{name}: {paths}")

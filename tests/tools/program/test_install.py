@@ -1,6 +1,7 @@
 """Installs the library, then builds and runs programs against it: those of docs/embed.md, in C, also
 linked statically, and one in C++; with pkg-config and with CMake."""
 
+import json
 import os
 import re
 import shlex
@@ -119,6 +120,26 @@ def test_static_library_shows_the_same_names():
 def test_installed_program_runs():
     output = run([installed("bin/lobe"), "--version"])
     check(output.startswith("lobe "), output)
+
+
+def test_installed_program_draws_reports():
+    """By the script that was installed with it, wherever both are."""
+    moved = FOLDER / "moved"
+    shutil.copytree(TARGET, moved, symlinks=True)
+    results = FOLDER / "results.json"
+    results.write_text(json.dumps({
+        "version": "1", "device": "d", "driver": "d", "device_type": "CPU", "size": [1, 1],
+        "reference_samples": 1, "path_samples": 1, "stations": 1, "frames": 1, "complete": True,
+        "scenes": [], "rows": []}))
+    program = next(moved.rglob("bin/lobe"))
+    run([program, "report", results, "-o", FOLDER / "report"])
+    check("</html>" in (FOLDER / "report/index.html").read_text(), "no page")
+    script = next(moved.rglob("lobe-report"))
+    script.unlink()
+    result = subprocess.run([program, "report", results, "-o", FOLDER / "none"], text=True,
+                            capture_output=True, check=False)
+    check(result.returncode == 1 and script.name in result.stderr, result.stderr)
+    check(len(result.stderr.splitlines()) == 1, result.stderr)
 
 
 def test_every_subcommand_has_its_manual_page():

@@ -2,6 +2,7 @@
 
 import base64
 import copy
+import functools
 import json
 import math
 import os
@@ -23,6 +24,18 @@ FILTERS = ("direct", "mipmap", "lobes", "moments", "reference")
 GREY = {"direct": 0.5, "mipmap": 0.4, "lobes": 0.3, "moments": 0.22, "reference": 0.201}
 TRUTH = 0.2
 MILLISECONDS = {"direct": 100, "mipmap": 130, "lobes": 310, "moments": 290, "reference": 12000}
+# Ratios of moments and another filter, as tools/targets hands them over.
+TARGETS = [
+    {"name": f"{measure}({a}) / {measure}({b})", "measure": kind, "scene": scene, "filter": a,
+     "base": b, "limit": limit, "at_least": a == "reference"}
+    for measure, kind, scene, a, b, limit in (
+        ("error", "error", None, "moments", "lobes", 0.5),
+        ("error", "error", None, "moments", "lean", 0.5),
+        ("flicker", "flicker", None, "moments", "lobes", 0.3),
+        ("bytes", "bytes", None, "moments", "lobes", 1),
+        ("time", "rebuilt", "pillow", "moments", "direct", 3.3),
+        ("time", "rebuilt", "tablecloth", "moments", "direct", 4),
+        ("time", "rebuilt", "tablecloth", "reference", "moments", 40))]
 BYTES = {"direct": 0, "mipmap": 8, "lobes": 33, "moments": 30, "reference": 0}
 
 
@@ -87,11 +100,29 @@ def make_sweep(name, results=None):
 
 
 def make_report(name, results=None, *options):
+    """The text of the page, and the page as a tree."""
+    if results is None and not options:
+        return plain_report()
+    return draw_report(name, results, *options)
+
+
+@functools.cache
+def plain_report():
+    return draw_report("plain")
+
+
+def draw_report(name, results=None, *options):
     path = make_sweep(name, results)
     succeeds("report", path, "-o", path.parent / "report", *options)
     leaves(path.parent / "report", "index.html")
     text = (path.parent / "report/index.html").read_text(encoding="utf-8")
     return text, page.parse(text)
+
+
+def make_report_with_targets(name, results=None):
+    targets = FOLDER / "targets.json"
+    targets.write_text(json.dumps(TARGETS), encoding="utf-8")
+    return make_report(name, results, "--targets", targets)
 
 
 def near(a, b):
@@ -167,7 +198,8 @@ def test_plots_show_all_points_and_the_front():
             check(len(plot.all("title")) == 1 + count, f"{kind}: {len(plot.all('title'))} marks")
             figure = plot.parent
             front = [item.text() for item in figure.all("ol")[0].all("li")]
-            check(len(plot.all("circle", class_="ring")) == len(front), f"{front}")
+            check(len(plot.all("g", class_="ring")) == len(front), f"{front}")
+            check(len(plot.all("g", class_="mark")) == count, f"{kind}: marks")
             check(front[0].startswith("direct:") and "moments" in front[-1], f"{front}")
             check("Not drawn: reference" in figure.text(), figure.text())
     titles = [title.text() for title in root.all("title")]
@@ -236,10 +268,10 @@ def test_summary_averages_over_scenes():
 
 def test_targets_are_computed():
     results = make_results()
-    _, root = make_report("targets")
+    _, root = make_report_with_targets("targets")
     rows = {(cells[0], cells[1]): cells[2:]
             for cells in page.rows(page.by_id(root, "targets").all("table")[0])}
-    check(len(rows) == 15, str(rows))
+    check(len(rows) == len(TARGETS), str(rows))
     error = [[default(results, scene, name)["error"]["relative_l2"] for scene in (0, 1)]
              for name in ("moments", "lobes")]
     limit, value, verdict, _ = rows["error(moments) / error(lobes)", "means over 2 scenes"]
@@ -255,11 +287,25 @@ def test_targets_are_computed():
 def test_a_missed_target_says_by_how_much():
     results = make_results()
     default(results, 0, "moments")["rebuilt_ms"] = 500
-    _, root = make_report("missed", results)
+    _, root = make_report_with_targets("missed", results)
     rows = {(cells[0], cells[1]): cells[2:]
             for cells in page.rows(page.by_id(root, "targets").all("table")[0])}
     check(rows["time(moments) / time(direct)", "tablecloth"][2] == "✗ missed by 25 %", str(rows))
     check(rows["time(reference) / time(moments)", "tablecloth"][2] == "✗ missed by 67 %", str(rows))
+
+
+def test_without_targets_nothing_is_said_of_them():
+    text, root = make_report("untargeted")
+    check("#targets" not in text and page.by_id(root, "paper"), "targets")
+
+
+def test_broken_targets_are_refused():
+    path = make_sweep("broken-targets")
+    targets = path.parent / "targets.json"
+    targets.write_text(json.dumps([{**TARGETS[0], "limit": None}]))
+    refuses(path, "targets.json", options=("--targets", targets))
+    targets.unlink()
+    refuses(path, "targets.json", options=("--targets", targets))
 
 
 def test_the_papers_table_is_beside_ours():
@@ -295,10 +341,23 @@ def test_what_was_not_measured_is_a_dash():
         row["flicker"] = -1
     default(results, 0, "lobes")["error"]["relative_l2"] = None
     default(results, 0, "direct")["rebuilt_ms"] = None
-    text, root = make_report("dashes", results)
+    text, root = make_report_with_targets("dashes", results)
     check("interrupted" in root.all("header")[0].text(), "not told")
     check(not re.search(r"\b(nan|inf)\b", re.sub(r"base64,[^\"]*", "", text)), "not a number")
     check("no scene was measured" in page.by_id(root, "targets").text(), "flicker")
+
+
+def test_hostile_results_make_a_page_or_a_line():
+    """Values that a reader in another language would take in another way."""
+    for change in ({"device": "\x00\x1b[31m\x85<script>"}, {"scenes": make_results()["scenes"] * 2},
+                   {"rows": make_results()["rows"] * 2}):
+        make_report("hostile", {**make_results(), **change})
+    results = make_results()
+    for row, value in zip(results["rows"], (1e308, 5e-324, -1, 1e18, 0, -1e308)):
+        row.update(rebuilt_ms=value, bytes_per_texel=value, flicker=value)
+        row["error"]["relative_l2"] = value
+        row["passes"][0].update(milliseconds=value, bytes=value, copy_milliseconds=value)
+    make_report("extreme", results)
 
 
 def test_empty_results_make_a_page():
@@ -398,15 +457,44 @@ def test_wide_pictures_are_reduced_and_a_part_is_kept():
 
 
 def test_equal_sweeps_give_equal_pages():
-    first, second = make_report("equal")[0], make_report("equal")[0]
+    first, second = draw_report("equal")[0], draw_report("equal")[0]
     check(first == second, "two pages")
 
 
 # Failures --------------------------------------------------------------------------------------
 
-def refuses(path, *says):
-    fails("report", path, "-o", path.parent / "report", says=says)
+def refuses(path, *says, options=(), **environment):
+    fails("report", path, "-o", path.parent / "report", *options, says=says, **environment)
     check(not (path.parent / "report").exists(), "something was written")
+
+
+def test_what_draws_it_may_be_missing():
+    path = make_sweep("libraries")
+    for name, package in (("matplotlib", "python3-matplotlib"), ("jinja2", "python3-jinja2")):
+        folder = fresh_folder("without")
+        (folder / f"{name}.py").write_text(f"raise ImportError('no {name} here')")
+        refuses(path, package, f"no {name} here", PYTHONPATH=folder)
+    refuses(path, "install python3", PATH=fresh_folder("nothing"))
+
+
+def test_a_virtual_environment_comes_first():
+    """Packages of the system are not in it."""
+    folder = fresh_folder("first")
+    (folder / "bin").mkdir()
+    (folder / "bin/python3").symlink_to("/usr/bin/python3")
+    (folder / "pyvenv.cfg").write_text("home = /usr/bin\ninclude-system-site-packages = false\n")
+    path = make_sweep("environment")
+    succeeds("report", path, "-o", path.parent / "report",
+             PATH=f"{folder / 'bin'}:{os.environ['PATH']}")
+
+
+def test_a_users_matplotlib_is_left_alone():
+    path = make_sweep("settings")
+    (FOLDER / "matplotlibrc").write_text("axes.facecolor: red\nnonsense: 1\n")
+    succeeds("report", path, "-o", path.parent / "report", MPLBACKEND="nonsense",
+             PYTHONSAFEPATH="1")
+    (FOLDER / "matplotlibrc").unlink()
+    check((path.parent / "report/index.html").read_text() == make_report("settings")[0], "settings")
 
 
 def test_a_missing_picture_is_named():
@@ -468,7 +556,7 @@ def count_near(pixels, colour, tolerance=6):
 
 
 def test_a_browser_shows_it():
-    make_report("shown")
+    draw_report("shown")
     messages, (width, height, pixels) = browser.screenshot(
         FOLDER / "shown/report/index.html", 1200, 5200, 0.5)
     check(messages == [], "\n".join(messages))
@@ -481,7 +569,7 @@ def test_a_browser_shows_it():
 
 
 def test_a_browser_draws_marks_where_they_are():
-    text, root = make_report("marks")
+    text, root = draw_report("marks")
     plot = root.all("svg", class_="plot")[0]
     source = re.search(r'<svg class="plot".*?</svg>', text, re.DOTALL).group()
     style = re.search(r"<style>.*?</style>", text, re.DOTALL).group()
@@ -490,12 +578,12 @@ def test_a_browser_draws_marks_where_they_are():
                      f"top:0;width:560px'>{source}</div>", encoding="utf-8")
     messages, (width, _, pixels) = browser.screenshot(alone, 560, 400)
     check(messages == [], "\n".join(messages))
-    marks = [mark for group in plot.all("g") for mark in group.children
-             if isinstance(mark, page.Element) and mark.tag == "circle"]
-    check(marks, "no round marks")
-    for mark in marks:
-        x, y = (round(float(mark.attributes[name])) for name in ("cx", "cy"))
-        check(count_near([pixels[y * width + x]], (0, 0, 0), 60) == 1, f"none at {x}, {y}")
+    marks = {mark.all("title")[0].text(): mark.all("use")[0].attributes
+             for mark in plot.all("g", class_="mark")}
+    for name, colour in (("direct", (0, 0, 0)), ("mipmap", (230, 159, 0)), ("lobes", (0, 114, 178)),
+                         ("moments", (0, 158, 115))):
+        x, y = (round(float(marks[name][axis])) for axis in "xy")
+        check(count_near([pixels[y * width + x]], colour, 60) == 1, f"{name}: none at {x}, {y}")
     axis = [pixels[y * width + 62] for y in range(100, 300)]
     check(count_near(axis, (85, 85, 85), 90) > 150, "no axis")
 

@@ -77,12 +77,20 @@ def test_debian_packages_are_built_with_what_setup_installs():
     words = {word for line in listed if "#" not in line for word in line.split()}
     # There on every machine that builds packages, or only for running.
     words -= {"gcc", "g++", "libc6-dev", "ninja-build", "mesa-vulkan-drivers",
-              "vulkan-validationlayers"}
+              "vulkan-validationlayers", "python3-matplotlib", "python3-jinja2"}
     control = (ROOT / "tools/debian/control").read_text()
     depends = control[control.index("Build-Depends:"):control.index("Standards-Version")]
     needed = {word for word in depends.replace(",", " ").split() if word[0].isalpha()}
     needed -= {"Build-Depends:", "debhelper-compat"}
     check(needed == words, f"setup alone: {words - needed}; packages alone: {needed - words}")
+
+
+def test_the_debian_package_needs_what_reports_need():
+    control = (ROOT / "tools/debian/control").read_text()
+    tools = control[control.index("Package: lobe-tools"):]
+    setup = (ROOT / "tools/setup").read_text()
+    for package in ("python3-matplotlib", "python3-jinja2"):
+        check(f" {package}" in tools[:tools.index("Recommends:")] and package in setup, package)
 
 
 def count(*entries):

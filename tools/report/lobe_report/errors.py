@@ -1,0 +1,5 @@
+"""What a user is told when the report cannot be drawn."""
+
+
+class ReportError(Exception):
+    """Its text is one line that names the file and the cause."""

@@ -1,0 +1,88 @@
+"""Numbers of rows, and their means over scenes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+from .results import NAN, Results, Row
+
+Measure = Callable[[Row], float]  # NaN where it was not measured
+
+
+def error(row: Row) -> float:
+    return row.error.relative_l2
+
+
+def flicker(row: Row) -> float:
+    return row.flicker if row.flicker >= 0 else NAN
+
+
+def rebuilt(row: Row) -> float:
+    return row.rebuilt_ms
+
+
+def retained(row: Row) -> float:
+    return row.retained_ms
+
+
+def texel_bytes(row: Row) -> float:
+    return row.bytes_per_texel
+
+
+def divide(a: float, b: float) -> float:
+    """As floating point numbers do: infinite, or NaN, where Python raises an exception."""
+    if b:
+        return a / b
+    return math.copysign(math.inf, a) if a else NAN
+
+
+def logarithm(value: float) -> float:
+    if value > 0:
+        return math.log(value)
+    return NAN if value else -math.inf
+
+
+@dataclass
+class Mean:
+    arithmetic: float
+    geometric: float
+    scenes: int  # those that have a value
+
+
+def mean_of(values: list[float]) -> Mean:
+    """Of those that are finite."""
+    values = [value for value in values if math.isfinite(value)]
+    if not values:
+        return Mean(NAN, NAN, 0)
+    count = len(values)
+    return Mean(sum(values) / count, math.exp(sum(map(logarithm, values)) / count), count)
+
+
+def of_default(results: Results, measure: Measure, scene: str, name: str) -> float:
+    row = results.default(scene, name)
+    return measure(row) if row else NAN
+
+
+def ratio(results: Results, measure: Measure, scene: str, name: str, base: str) -> float:
+    """A filter's measure over that of another, both at their defaults in a scene."""
+    return divide(of_default(results, measure, scene, name),
+                  of_default(results, measure, scene, base))
+
+
+def mean_ratio(results: Results, measure: Measure, name: str, base: str | None) -> Mean:
+    """Over the scenes; without a base, of the measure itself."""
+    if base is None:
+        return mean_of([of_default(results, measure, scene.name, name)
+                        for scene in results.scenes])
+    return mean_of([ratio(results, measure, scene.name, name, base) for scene in results.scenes])
+
+
+def ratio_of_means(results: Results, measure: Measure, name: str, base: str) -> float:
+    """Over the scenes that have both."""
+    pairs = [(of_default(results, measure, scene.name, name),
+              of_default(results, measure, scene.name, base)) for scene in results.scenes]
+    pairs = [pair for pair in pairs if all(map(math.isfinite, pair))]
+    total = sum(second for _, second in pairs)
+    return sum(first for first, _ in pairs) / total if total > 0 else NAN
