@@ -105,7 +105,7 @@ static lobe_result write_scene(const picture_stream *stream, const sweep_results
 
 lobe_result picture_stream_write(FILE *file, const sweep_results *results, const char *path,
                                  const lobe_host *host) {
-    const picture_stream stream = {file, path, log};
+    const picture_stream stream = {file, path, host};
     lobe_result result = LOBE_OK;
     write_heat_colours(&stream);
     for (size_t i = 0; result == LOBE_OK && i < results->scene_count && !ferror(file); i++)
