@@ -130,7 +130,7 @@ static void draw_with(fixture *f, const lobe_filter *filter, size_t knob, double
     lobe_settings_default(filter, &settings);
     settings.values[knob] = value;
     const lobe_render_parameters parameters = {
-        .filter = filter, .settings = &settings, .width = 4, .height = 4, .samples = 1};
+        .filter = filter, .settings = &settings, .width = 4, .height = 4, .reference.samples = 1};
     lobe_frame frame;
     if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
         fail_msg("%s, %s=%g: %s", lobe_filter_name(filter), lobe_filter_knob(filter, knob)->name,

@@ -51,7 +51,9 @@ static void values_make_no_pipelines(void **state) {
     for (size_t n = 0; n < lobe_filter_count(); n++) {
         picture_request request = {
             .filter = lobe_filter_name(lobe_filter_get(n)), .width = 4, .height = 4, .samples = 2};
-        XX lobe_scene *scene = changing_scene();
+        if (strcmp(request.filter, "moments") == 0)
+            request.settings[0] = "bins=2"; // as many as suit the values, otherwise
+        lobe_scene *scene = changing_scene();
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         lobe_frame first = draw(f, &request);
         change_values(scene);
