@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "engine/graph/graph.h"
+#include "engine/graph/state.h"
 #include "engine/shader/shader.h"
 #include "passes/filters/filters.h"
 #include "shaders/interface/specialisation.h"
