@@ -5,7 +5,7 @@
 
 #include "passes/upload/device_scene.h"
 
-#define MAXIMUM_SPECIALISATIONS 64
+#define MAXIMUM_SPECIALISATIONS 96
 
 typedef struct specialisation_list {
     lobe_graph *graph; ///< where an overflow is reported: the frame fails

@@ -6,8 +6,9 @@
 
 #include "engine/graph/state.h"
 #include "engine/shader/shader.h"
-#include "passes/filters/filters.h"
-#include "shaders/interface/specialisation.h"
+#include "passes/filters/filter.h"
+#include "passes/filters/shared_knobs.h"
+#include "passes/maps/filtered_maps.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -158,44 +159,28 @@ static void every_choice_reaches_its_constant(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-// A filter of this test alone, with a knob of its own.
-enum { SPECIALISE_TURNS = SPECIALISE_FILTER + 100 };
-static const filter_knob turns_knob = {
-    .description = {.name = "turns",
-                    .summary = "for this test",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .maximum = 9,
-                    .initial = 3},
-    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_TURNS),
-};
-static const filter_knob *const own_knobs[] = {&turns_knob, NULL};
-static const lobe_filter own_filter = {.name = "own",
-                                       .summary = "for this test",
-                                       .paper = "",
-                                       .shading = "direct",
-                                       .knobs = own_knobs};
+// ---------------------------------------------------------------------------------------------
+// What C reads
 
-static void a_knob_is_one_entry(void **state) {
-    fixture *f = *state;
-    lobe_scene *scene = mapped_scene();
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    assert_string_equal(lobe_filter_knob(&own_filter, 0)->name, "turns");
-    lobe_settings settings;
-    lobe_settings_default(&own_filter, &settings);
-    assert_int_equal(lobe_settings_set(&own_filter, &settings, "turns=7", &f->host), LOBE_OK);
-    const filter_context context = {.filter = &own_filter, .settings = &settings};
-    assert_int_equal(passes_knob_choice(&context, &turns_knob), 7);
-    const lobe_render_parameters parameters = {
-        .filter = &own_filter, .settings = &settings, .width = 4, .height = 4};
-    lobe_frame frame;
-    assert_int_equal(lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_OK);
-    assert_int_equal(drawn_with(f, SPECIALISE_TURNS), 7);
-    lobe_frame_free(&frame);
-    // A filter without the knob goes by its default.
-    const filter_context other = {.filter = &passes_filter_direct, .settings = &settings};
-    assert_int_equal(passes_knob_choice(&other, &turns_knob), 3);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
-    lobe_scene_destroy(&scene);
+/// A filter without a knob goes by the knob's default.
+static void c_reads_a_knob_by_its_entry(void **state) {
+    (void)state;
+    const lobe_filter *lobes = filter_named("lobes"), *direct = filter_named("direct");
+    const lobe_settings settings =
+        settings_of(lobes, (const char *[]){"probes=7", "bias=1.5", "base=lobe", NULL});
+    const filter_context context = {.filter = lobes, .settings = &settings};
+    assert_int_equal(passes_knob_choice(&context, &passes_knob_probes), 7);
+    assert_true(passes_knob_value(&context, &passes_knob_bias) == 1.5);
+    assert_int_equal(passes_knob_choice(&context, &passes_knob_base), 1);
+    assert_int_equal(passes_knob_choice(&context, &passes_knob_environment), 2);
+    const filter_context other = {.filter = direct, .settings = &settings};
+    assert_int_equal(passes_knob_choice(&other, &passes_knob_probes), 1);
+    assert_true(passes_knob_value(&other, &passes_knob_bias) == -0.5);
+    // The reference has another entry for this one, which is read by the same name.
+    const lobe_filter *reference = filter_named("reference");
+    const lobe_settings exact = settings_of(reference, (const char *[]){NULL});
+    const filter_context truth = {.filter = reference, .settings = &exact};
+    assert_int_equal(passes_knob_choice(&truth, &passes_knob_environment), 0);
 }
 
 int main(void) {
@@ -203,7 +188,7 @@ int main(void) {
         cmocka_unit_test(defaults_are_the_same_in_glsl),
         cmocka_unit_test(choices_are_constants_and_numbers_are_uniforms),
         cmocka_unit_test(every_choice_reaches_its_constant),
-        cmocka_unit_test(a_knob_is_one_entry),
+        cmocka_unit_test(c_reads_a_knob_by_its_entry),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
