@@ -5,6 +5,7 @@
 #include "passes/environment/directional_albedo.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
+#include "passes/filters/shared_knobs.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 
@@ -16,19 +17,19 @@ static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, L
                                        LOBE_WRAP_CLAMP, 0};
 
 static uint32_t method_of(const filter_context *context) {
-    uint32_t method = (uint32_t)passes_filter_setting(context, "env");
+    uint32_t method = passes_knob_choice(context, &passes_knob_environment);
     // With many samples per pixel, each may sample the environment once: just as exact, and faster.
     return method == ENVIRONMENT_EXACT && context->filter->supersamples ? ENVIRONMENT_REFERENCE
                                                                         : method;
 }
 
 static bool scatters(const filter_context *context) {
-    return passes_filter_setting(context, "scattering") > 0;
+    return passes_knob_choice(context, &passes_knob_scattering) > 0;
 }
 
 /// Whether lobes between two levels are blended from two cubes.
 static bool blends(const filter_context *context) {
-    return passes_filter_setting(context, "env_levels") > 0;
+    return passes_knob_choice(context, &passes_knob_environment_levels) > 0;
 }
 
 /// Whether any instance has microfacets of this distribution.
@@ -45,7 +46,7 @@ static bool uses_distribution(const filter_context *context, uint32_t distributi
 
 /// Whether any instance is shaded with GGX lobes.
 static bool uses_ggx(const filter_context *context) {
-    bool as_lobes = passes_filter_setting(context, "base") > 0;
+    bool as_lobes = passes_knob_choice(context, &passes_knob_base) > 0;
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
@@ -64,7 +65,7 @@ static lobe_resource no_harmonics(lobe_graph *graph) {
 
 /// Texels along a face of the cube.
 static uint32_t environment_width(const filter_context *context) {
-    return 16u << (uint32_t)passes_filter_setting(context, "env_size");
+    return 16u << passes_knob_choice(context, &passes_knob_environment_size);
 }
 
 static environment_maps_request request_of(const filter_context *context,
@@ -125,10 +126,10 @@ static void build_maps(const filter_context *context, const environment_work *wo
                                 maps.levels[LOBE_ENVIRONMENT_RADIANCE]};
     bool harmonics =
         light->method == ENVIRONMENT_PREFILTERED || light->method == ENVIRONMENT_SAMPLED;
-    light->harmonics =
-        harmonics ? passes_irradiance_harmonics(context->graph, source,
-                                                passes_filter_setting(context, "env_window"))
-                  : no_harmonics(context->graph);
+    light->harmonics = harmonics ? passes_irradiance_harmonics(
+                                       context->graph, source,
+                                       passes_knob_value(context, &passes_knob_environment_window))
+                                 : no_harmonics(context->graph);
 }
 
 lobe_result passes_environment_light_load(const filter_context *context,
@@ -241,18 +242,9 @@ uint32_t passes_environment_light_lights_at_once(const environment_light *light,
 }
 
 void passes_environment_light_specialise(const environment_light *light,
-                                         const filter_context *context, specialisation_list *list) {
-    passes_specialise(list, SPECIALISE_MULTIPLE_SCATTERING, scatters(context));
-    if (!light->present)
-        return;
-    passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
-    passes_specialise(list, SPECIALISE_ENVIRONMENT_PROBES,
-                      (uint32_t)passes_filter_setting(context, "env_probes"));
-    passes_specialise(list, SPECIALISE_ENVIRONMENT_GRID,
-                      (uint32_t)passes_filter_setting(context, "env_grid"));
-    passes_specialise(list, SPECIALISE_ENVIRONMENT_BLENDED, blends(context));
-    passes_specialise(list, SPECIALISE_HORIZON,
-                      (uint32_t)passes_filter_setting(context, "horizon"));
+                                         specialisation_list *list) {
+    if (light->present)
+        passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
 }
 
 lobe_binding passes_environment_light_albedo(const environment_light *light,

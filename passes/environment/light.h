@@ -67,8 +67,7 @@ void passes_environment_light_bind(const environment_light *light, const filter_
 /// How many of `lights` punctual lights the shaders evaluate together.
 uint32_t passes_environment_light_lights_at_once(const environment_light *light, uint32_t lights);
 
-void passes_environment_light_specialise(const environment_light *light,
-                                         const filter_context *context, specialisation_list *list);
+void passes_environment_light_specialise(const environment_light *light, specialisation_list *list);
 
 /// Binds the table of directional albedo for a material's draws.
 lobe_binding passes_environment_light_albedo(const environment_light *light,

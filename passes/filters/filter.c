@@ -1,10 +1,56 @@
 #include "passes/filters/filter.h"
 
+#include <stdio.h>
 #include <string.h>
 
-double passes_filter_setting(const filter_context *context, const char *knob) {
-    return lobe_settings_get(context->filter, context->settings, knob);
+size_t lobe_filter_count(void) {
+    size_t count = 0;
+    while (passes_filter_table[count])
+        count++;
+    return count;
 }
+
+const lobe_filter *lobe_filter_get(size_t index) {
+    return index < lobe_filter_count() ? passes_filter_table[index] : NULL;
+}
+
+void passes_append_name(char *names, size_t size, const char *name) {
+    size_t used = strlen(names);
+    snprintf(names + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe_filter **filter) {
+    char names[512] = "";
+    for (size_t i = 0; passes_filter_table[i]; i++) {
+        if (strcmp(passes_filter_table[i]->name, name) == 0) {
+            *filter = passes_filter_table[i];
+            return LOBE_OK;
+        }
+        passes_append_name(names, sizeof names, passes_filter_table[i]->name);
+    }
+    *filter = NULL;
+    lobe_host_log(host, LOBE_LOG_ERROR, "no filter '%s'; there are %s", name, names);
+    return LOBE_ERROR_NOT_FOUND;
+}
+
+const char *lobe_filter_name(const lobe_filter *filter) {
+    return filter->name;
+}
+
+const char *lobe_filter_summary(const lobe_filter *filter) {
+    return filter->summary;
+}
+
+const char *lobe_filter_paper(const lobe_filter *filter) {
+    return filter->paper;
+}
+
+bool lobe_filter_supersamples(const lobe_filter *filter) {
+    return filter->supersamples;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Appearances
 
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler) {
@@ -28,11 +74,4 @@ void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, 
     }
     appearance->specialisation[appearance->specialisation_count++] =
         (lobe_specialisation){id, bits};
-}
-
-void passes_appearance_specialise_number(filtered_appearance *appearance, uint32_t id,
-                                         float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    passes_appearance_specialise(appearance, id, bits);
 }

@@ -5,6 +5,7 @@
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
+#include "passes/filters/knob.h"
 #include "passes/upload/device_scene.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8
@@ -49,7 +50,7 @@ struct lobe_filter {
     const char *paper;
     /// File in shaders/filters that shades, without its ending.
     const char *shading;
-    const lobe_knob *const *knobs; ///< its own, ended by NULL; NULL: none
+    const filter_knob *const *knobs; ///< its own, ended by NULL; NULL: none
     bool supersamples;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material. Called in every frame, before `build`, for each
@@ -77,12 +78,12 @@ struct lobe_filter {
 /// All filters, ended by NULL: the one place that lists them (passes/filters/table.c).
 extern const lobe_filter *const passes_filter_table[];
 
-double passes_filter_setting(const filter_context *context, const char *knob);
-
 // More than FILTER_MAXIMUM_... of either makes the frame fail.
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler);
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);
-void passes_appearance_specialise_number(filtered_appearance *appearance, uint32_t id, float value);
+
+/// Adds a name to a list for a message, after a comma unless it is the first.
+void passes_append_name(char *names, size_t size, const char *name);
 
 #endif

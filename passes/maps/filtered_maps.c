@@ -5,41 +5,48 @@
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/knobs.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
 static const char *const storages[] = {"float32", "float16", NULL};
 
-const lobe_knob passes_knob_probes = {
-    .name = "probes",
-    .summary = "most samples along the longer axis of a pixel's footprint; as many as it is longer "
-               "than wide",
-    .kind = LOBE_KNOB_INTEGER,
-    .minimum = 1,
-    .maximum = 16,
-    .initial = 1,
-    .sweep = "2,4",
+const filter_knob passes_knob_probes = {
+    .description = {.name = "probes",
+                    .summary = "most samples along the longer axis of a pixel's footprint; as many "
+                               "as it is longer than wide",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 16,
+                    .initial = 1,
+                    .sweep = "2,4"},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_PROBES),
 };
-const lobe_knob passes_knob_bias = {
-    .name = "bias",
-    .summary = "added to the MIP level: below 0 sharper, above 0 smoother",
-    .minimum = -2,
-    .maximum = 2,
-    .initial = -0.5,
+const filter_knob passes_knob_bias = {
+    .description = {.name = "bias",
+                    .summary = "added to the MIP level: below 0 sharper, above 0 smoother",
+                    .minimum = -2,
+                    .maximum = 2,
+                    .initial = -0.5},
+    .feeds = KNOB_FEEDS_SHARED(level_bias),
 };
-const lobe_knob passes_knob_curvature = {
-    .name = "curvature",
-    .summary = "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
-    .maximum = 4,
-    .initial = 1,
+const filter_knob passes_knob_curvature = {
+    .description =
+        {.name = "curvature",
+         .summary =
+             "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
+         .maximum = 4,
+         .initial = 1},
+    .feeds = KNOB_FEEDS_SHARED(curvature),
 };
-const lobe_knob passes_knob_storage = {
-    .name = "storage",
-    .summary = "format of filtered maps: float16 halves memory, for kappa below some 200",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 1,
-    .choices = storages,
-    .sweep = "float16",
+const filter_knob passes_knob_storage = {
+    .description = {.name = "storage",
+                    .summary =
+                        "format of filtered maps: float16 halves memory, for kappa below some 200",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = storages,
+                    .sweep = "float16"},
 };
 
 static const char *const filtered_names[MAP_COUNT] = {
@@ -49,8 +56,8 @@ static const char *const filtered_names[MAP_COUNT] = {
 };
 
 lobe_format passes_filtered_map_format(const filter_context *context) {
-    return passes_filter_setting(context, "storage") == 0 ? LOBE_FORMAT_RGBA32_FLOAT
-                                                          : LOBE_FORMAT_RGBA16_FLOAT;
+    return passes_knob_choice(context, &passes_knob_storage) == 0 ? LOBE_FORMAT_RGBA32_FLOAT
+                                                                  : LOBE_FORMAT_RGBA16_FLOAT;
 }
 
 lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32_t map) {
@@ -102,8 +109,8 @@ static bool is_like_lobes(const device_material *material, uint32_t map) {
 static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
-    double probes = passes_filter_setting(context, "probes"),
-           bias = passes_filter_setting(context, "bias");
+    double probes = passes_knob_value(context, &passes_knob_probes),
+           bias = passes_knob_value(context, &passes_knob_bias);
     uint32_t bits = 0;
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
         if (!material->maps[map].use)
@@ -138,10 +145,4 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));
     passes_appearance_specialise(appearance, SPECIALISE_COLOUR_MAPS, filtered);
-    passes_appearance_specialise(appearance, SPECIALISE_PROBES,
-                                 (uint32_t)passes_filter_setting(context, "probes"));
-    passes_appearance_specialise_number(appearance, SPECIALISE_LEVEL_BIAS,
-                                        (float)passes_filter_setting(context, "bias"));
-    passes_appearance_specialise_number(appearance, SPECIALISE_CURVATURE,
-                                        (float)passes_filter_setting(context, "curvature"));
 }

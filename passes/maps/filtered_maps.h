@@ -22,12 +22,12 @@ lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32
 /// tablecloth 0.1365, 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
 ///
 /// curvature: 1 is the variance that the interpolated normals have under the pixel's box.
-extern const lobe_knob passes_knob_probes, passes_knob_bias, passes_knob_curvature;
+extern const filter_knob passes_knob_probes, passes_knob_bias, passes_knob_curvature;
 
 /// The format of maps of numbers that lie between 0 and 1, or are directions.
 /// float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs
 /// 6 % of kappa at 128 and half of it at 1000, where float32 loses 4e-5. In pictures: tablecloth
 /// (kappa 128) 1.3 % apart (relative L2), errors against the reference equal to three digits.
-extern const lobe_knob passes_knob_storage;
+extern const filter_knob passes_knob_storage;
 
 #endif

@@ -1,7 +1,6 @@
 #include "passes/renderer/material_specialisation.h"
 
 #include <assert.h>
-#include <string.h>
 
 #include "shaders/interface/specialisation.h"
 
@@ -21,12 +20,6 @@ void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
         return;
     }
     list->items[list->count++] = (lobe_specialisation){id, bits};
-}
-
-void passes_specialise_number(specialisation_list *list, uint32_t id, float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    passes_specialise(list, id, bits);
 }
 
 static bool any(const float colour[3]) {

@@ -5,7 +5,7 @@
 
 #include "passes/upload/device_scene.h"
 
-#define MAXIMUM_SPECIALISATIONS 64
+#define MAXIMUM_SPECIALISATIONS 96
 
 typedef struct specialisation_list {
     lobe_graph *graph; ///< where an overflow is reported: the frame fails
@@ -14,7 +14,6 @@ typedef struct specialisation_list {
 } specialisation_list;
 
 void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits);
-void passes_specialise_number(specialisation_list *list, uint32_t id, float value);
 
 /// What the shaders compile out for a material: maps, lobes and features that it lacks.
 void passes_material_specialise(const device_material *material, specialisation_list *list);

@@ -159,10 +159,8 @@ static void specialise_draw(const filter_context *context, const environment_lig
     uint32_t lights = (uint32_t)scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
                       passes_environment_light_lights_at_once(light, lights));
-    passes_environment_light_specialise(light, context, list);
-    passes_specialise(list, SPECIALISE_VIEW, (uint32_t)passes_filter_setting(context, "view"));
-    passes_specialise(list, SPECIALISE_BASE_AS_LOBE,
-                      (uint32_t)passes_filter_setting(context, "base"));
+    passes_environment_light_specialise(light, list);
+    passes_knobs_specialise(context, list);
     for (size_t i = 0; i < appearance->specialisation_count; i++)
         passes_specialise(list, appearance->specialisation[i].id,
                           appearance->specialisation[i].bits);
@@ -233,6 +231,7 @@ void passes_shading(const filter_context *context, const filtered_appearance *ap
     lobe_resource frame = upload_frame(context, sample->position, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    passes_knobs_bind(context, pass);
     passes_environment_light_bind(&light->environment, context, pass, sample);
     bool aov = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);

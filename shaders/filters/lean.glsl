@@ -8,6 +8,10 @@
 
 #include "shading/slope_maps.glsl"
 
+float height_scale() {
+    return 1.0;
+}
+
 struct footprint_lobe {
     mat3 tangent_from_mean; // z: the mean normal
     slope_distribution slopes; // over the mean normal's plane, base lobes included

@@ -21,10 +21,11 @@ layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_LENGTH;
-layout(constant_id = SPECIALISE_EPSILON_0) const float EPSILON_0 = 0.95;
-layout(constant_id = SPECIALISE_EPSILON_1) const float EPSILON_1 = 0.85;
-layout(constant_id = SPECIALISE_BLEND) const float BLEND = 0.05;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
+
+layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+    lobes_knobs filter_knobs;
+};
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
@@ -137,7 +138,7 @@ float refinement(float complement, float base_complement, float epsilon) {
     float measure = THRESHOLD == THRESHOLD_LENGTH
                         ? 1.0 - complement
                         : 1.0 / (1.0 + dispersion(base_complement, complement));
-    return 1.0 - transition(measure, epsilon, BLEND);
+    return 1.0 - transition(measure, epsilon, filter_knobs.blend);
 }
 
 // Lobes about their texels' normals have their resultant from the mean layer, so that the one
@@ -182,7 +183,7 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     float complement = resultant_complement(moment.xyz, moment.w);
     float refine = 0.0;
     if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
-        refine = refinement(complement, fetched.base_complement, one ? EPSILON_0 : EPSILON_1);
+        refine = refinement(complement, fetched.base_complement, one ? filter_knobs.epsilon0 : filter_knobs.epsilon1);
     refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
     if (root_from_mean())
         refine = one ? at.root_share : refine;
@@ -226,7 +227,7 @@ walk start_walk(appearance fetched) {
     at.root_share = 1.0;
     at.sector_share = 0.0;
     if (root_from_mean()) {
-        at.root_share = refinement(fetched.complement, fetched.base_complement, EPSILON_0);
+        at.root_share = refinement(fetched.complement, fetched.base_complement, filter_knobs.epsilon0);
         if (fetched.base_share < 1.0 && at.root_share >= 1.0)
             at.sector = 0;
     }

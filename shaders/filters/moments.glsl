@@ -17,7 +17,10 @@
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
-layout(constant_id = SPECIALISE_LEAST_SHARE) const float LEAST_SHARE = 0.0;
+
+layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+    moments_knobs filter_knobs;
+};
 
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
 layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
@@ -210,7 +213,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(fetched.area, i, surface.curvature);
         // The lobes of a footprint have a mass of one at least.
-        if (bin.mass <= LEAST_SHARE)
+        if (bin.mass <= filter_knobs.least_share)
             continue;
         add_to_means(means, bin);
         fetched.lobe_count += 1.0;
@@ -372,7 +375,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(fetched.area, i, surface.curvature);
-        if (bin.mass <= LEAST_SHARE)
+        if (bin.mass <= filter_knobs.least_share)
             continue;
         add_to_means(means, bin);
         fetched.lobe_count += 1.0;

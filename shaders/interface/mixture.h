@@ -2,6 +2,7 @@
 #define INTERFACE_MIXTURE_H
 
 #include "specialisation.h"
+#include "types.h"
 
 // How a mixture of lobes lies in the layers of a map (see shaders/filters/lobes/clustering.comp).
 //
@@ -21,16 +22,23 @@
 #define SPECIALISE_PROBES      (SPECIALISE_FILTER + 5)  // uint, [1, 16]
 #define SPECIALISE_COLOUR_MAPS (SPECIALISE_FILTER + 6)  // uint, bit MAP_...: filtered map exists
 #define SPECIALISE_MIXTURE     (SPECIALISE_FILTER + 7)  // bool: there is a map of mixtures
-#define SPECIALISE_EPSILON_0   (SPECIALISE_FILTER + 8)  // float
-#define SPECIALISE_EPSILON_1   (SPECIALISE_FILTER + 9)  // float
-#define SPECIALISE_BLEND       (SPECIALISE_FILTER + 10) // float, half width of the transition
-#define SPECIALISE_LEVEL_BIAS  (SPECIALISE_FILTER + 11) // float, added to the level
 // uint, bit MAP_...: some pixel may see level 0 of the map.
-#define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 12)
+#define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 8)
 // uint, bit MAP_...: the map is as large as that of the lobes, and read at the same coordinates.
-#define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 13)
+#define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 9)
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
-#define SPECIALISE_ONE_HUE (SPECIALISE_FILTER + 14)
+#define SPECIALISE_ONE_HUE (SPECIALISE_FILTER + 10)
+
+// Numbers of the filter's knobs (see knobs.h).
+struct lobes_knobs {
+    float epsilon0; // below it one lobe becomes four
+    float epsilon1; // below it one of four becomes two
+    float blend;    // half width of the transition
+    float padding;
+};
+INTERFACE_SIZE(lobes_knobs, 16)
+INTERFACE_OFFSET(lobes_knobs, epsilon1, 4)
+INTERFACE_OFFSET(lobes_knobs, blend, 8)
 
 #define SPACE_TANGENT 0
 #define SPACE_OBJECT  1

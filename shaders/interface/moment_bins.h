@@ -18,7 +18,15 @@
 #define SPECIALISE_BINS        (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
 #define SPECIALISE_PARTITION   (SPECIALISE_FILTER + 33) // uint, PARTITION_...
 #define SPECIALISE_BIN_COLOUR  (SPECIALISE_FILTER + 34) // bool: bins have colours
-#define SPECIALISE_LEAST_SHARE (SPECIALISE_FILTER + 35) // float: bins with less are passed over
+
+// Numbers of the filter's knobs (see knobs.h).
+struct moments_knobs {
+    float least_share; // bins with less of the footprint are skipped
+    float padding_0;
+    float padding_1;
+    float padding_2;
+};
+INTERFACE_SIZE(moments_knobs, 16)
 
 #define PARTITION_FITTED 0
 #define PARTITION_HATS   1

@@ -29,8 +29,16 @@ INTERFACE_SIZE(slope_moments_constants, 8)
 INTERFACE_OFFSET(slope_moments_constants, height, 4)
 
 #define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
-#define SPECIALISE_GRID   (SPECIALISE_FILTER + 21) // uint, odd: slopes each way of a grid
-#define SPECIALISE_REACH  (SPECIALISE_FILTER + 22) // float: of the grid, standard deviations
-#define SPECIALISE_HEIGHT (SPECIALISE_FILTER + 23) // float: factor of all slopes
+// uint, [0, 2], of `leadr`: 3, 5 or 7 slopes each way of a grid
+#define SPECIALISE_GRID (SPECIALISE_FILTER + 21)
+
+// Numbers of the knobs of `leadr` (see knobs.h).
+struct leadr_knobs {
+    float height; // factor of all slopes
+    float padding_0;
+    float padding_1;
+    float padding_2;
+};
+INTERFACE_SIZE(leadr_knobs, 16)
 
 #endif

@@ -25,7 +25,6 @@
 // The user.
 #define SPECIALISE_VIEW         24 // uint, VIEW_...
 #define SPECIALISE_BASE_AS_LOBE 25 // bool: base lobes are turned into von Mises-Fisher lobes first
-#define SPECIALISE_CURVATURE    26 // float: factor of the macro-surface's curvature, 0: ignored
 // A filter's own, see shaders/filters.
 #define SPECIALISE_FILTER 32
 

@@ -9,7 +9,6 @@
 #include "shading/unfiltered_maps.glsl"
 
 layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
-layout(constant_id = SPECIALISE_LEVEL_BIAS) const float LEVEL_BIAS = 0.0;
 layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
@@ -56,7 +55,7 @@ map_area area_of(int map, vec2 size, surface_point surface) {
     area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
     float probes = float(probes_of(area));
     area.stride = pixel.direction * (pixel.major_axis / probes) / size;
-    area.level = max(level_of(pixel, probes) + LEVEL_BIAS, may_see_level_0(map) ? 0.0 : 1.0);
+    area.level = max(level_of(pixel, probes) + knobs.level_bias, may_see_level_0(map) ? 0.0 : 1.0);
     return area;
 }
 

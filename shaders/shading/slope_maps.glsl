@@ -14,7 +14,9 @@
 #endif
 
 layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
-layout(constant_id = SPECIALISE_HEIGHT) const float HEIGHT = 1.0;
+
+// What all slopes are multiplied by: the filter says.
+float height_scale();
 
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
 
@@ -27,7 +29,8 @@ struct slope_moments {
 };
 
 vec3 scaled_normal(vec3 normal) {
-    return HEIGHT == 1.0 ? normal : normalize(vec3(HEIGHT * normal.xy, normal.z));
+    float height = height_scale();
+    return height == 1.0 ? normal : normalize(vec3(height * normal.xy, normal.z));
 }
 
 vec4 fetch_moment_layer(map_area area, int layer) {
@@ -46,10 +49,11 @@ vec4 fetch_moment_layer(map_area area, int layer) {
 slope_moments fetch_moments(map_area area, surface_point surface) {
     vec4 first = fetch_moment_layer(area, SLOPE_LAYER_FIRST);
     vec4 second = fetch_moment_layer(area, SLOPE_LAYER_SECOND);
+    float height = height_scale();
     slope_moments result;
-    result.mean = HEIGHT * first.xy;
+    result.mean = height * first.xy;
     result.covariance =
-        HEIGHT * HEIGHT * covariance_of_moments(first.xy, second.xyz) + surface.curvature;
+        height * height * covariance_of_moments(first.xy, second.xyz) + surface.curvature;
     result.mean_cosine = first.z;
     result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
     return result;

@@ -5,6 +5,7 @@
 
 #include "interface/frame.h"
 #include "interface/instance.h"
+#include "interface/knobs.h"
 #include "interface/material.h"
 #include "interface/specialisation.h"
 #include "shading/tangent_frame.glsl"
@@ -27,9 +28,9 @@ layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
-layout(constant_id = SPECIALISE_CURVATURE) const float CURVATURE = 0.0;
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
+layout(set = 0, binding = 10, std140) uniform knob_block { shared_knobs knobs; };
 layout(set = 0, binding = 3, std140) uniform material_block { material_constants material; };
 layout(push_constant) uniform instance_block { instance_constants instance; };
 
@@ -76,7 +77,7 @@ const float CURVATURE_MAXIMUM = 0.1;
 vec3 normal_covariance(vec3 normal, mat3 world_from_tangent) {
     vec2 dx = (dFdx(normal) * world_from_tangent).xy;
     vec2 dy = (dFdy(normal) * world_from_tangent).xy;
-    vec3 covariance = (CURVATURE / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
+    vec3 covariance = (knobs.curvature / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
     float variance = max(covariance.x, covariance.y);
     return covariance * min(1.0, CURVATURE_MAXIMUM / max(variance, 1e-30));
 }
@@ -94,7 +95,7 @@ surface_point read_surface() {
     surface.coordinates_dy = dFdy(interpolated_coordinates);
     surface.colour = interpolated_colour;
     surface.curvature = vec3(0.0);
-    if (CURVATURE > 0.0)
+    if (knobs.curvature > 0.0)
         surface.curvature =
             normal_covariance(surface.world_from_tangent[2], surface.world_from_tangent);
     return surface;

@@ -14,9 +14,12 @@
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/irradiance_harmonics.h"
+#include "shaders/interface/knobs.h"
 #include "shaders/interface/light.h"
 #include "shaders/interface/material.h"
+#include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
+#include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "tests/engine/support/cmocka_all.h"
 
@@ -62,10 +65,14 @@ static known_member known[] = {
     MEMBER(irradiance_harmonics_constants, size, 0),
     MEMBER(irradiance_harmonics_sum_constants, band_factors, 0),
     MEMBER(irradiance_harmonics_sum_constants, count, 1),
+    MEMBER(leadr_knobs, height, 0),
     MEMBER(light, position, 0),
     MEMBER(light, direction, 1),
     MEMBER(light, intensity, 2),
     MEMBER(light, cone, 3),
+    MEMBER(lobes_knobs, epsilon0, 0),
+    MEMBER(lobes_knobs, epsilon1, 1),
+    MEMBER(lobes_knobs, blend, 2),
     MEMBER(material_constants, base_colour, 0),
     MEMBER(material_constants, emissive, 1),
     MEMBER(material_constants, metallic, 2),
@@ -83,6 +90,9 @@ static known_member known[] = {
     MEMBER(moment_binning_constants, bins, 2),
     MEMBER(moment_range, place, 0),
     MEMBER(moment_range, largest, 1),
+    MEMBER(moments_knobs, least_share, 0),
+    MEMBER(shared_knobs, curvature, 0),
+    MEMBER(shared_knobs, level_bias, 1),
     MEMBER(vertex, position, 0),
     MEMBER(vertex, normal, 1),
     MEMBER(vertex, tangent, 2),

@@ -152,9 +152,11 @@ static lobe_result heat_map(const capture *capture, float maximum, const lobe_ho
 }
 
 lobe_result capture_write_png(const char *path, const capture *capture, const lobe_host *host) {
-    int view = (int)lobe_settings_get(capture->filter, capture->settings, "view");
+    double view;
     lobe_image picture;
-    lobe_result result;
+    lobe_result result = lobe_settings_get(capture->filter, capture->settings, "view", &view, host);
+    if (result != LOBE_OK)
+        return result;
     if (view == 0)
         result = lobe_display_encode(
             &capture->frame->radiance,

@@ -14,51 +14,55 @@ static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL
 static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
 static const char *const thresholds[] = {"length", "dispersion", NULL};
 
-static const lobe_knob space_knob = {
-    .name = "space",
-    .summary = "where mixtures are built; auto: as the scene says",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 3,
-    .choices = spaces,
+static const filter_knob space_knob = {
+    .description = {.name = "space",
+                    .summary = "where mixtures are built; auto: as the scene says",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 3,
+                    .choices = spaces},
 };
-static const lobe_knob subdivision_knob = {
-    .name = "subdivision",
-    .summary = "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; auto: as few as "
-               "serve the material's maps as well",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 3,
-    .choices = subdivisions,
-    .sweep = "0,1,2",
+static const filter_knob subdivision_knob = {
+    .description = {.name = "subdivision",
+                    .summary = "finest level of clusters: 0, 1 or 2 for one, four or eight lobes; "
+                               "auto: as few as serve the material's maps as well",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 3,
+                    .choices = subdivisions,
+                    .sweep = "0,1,2"},
 };
-static const lobe_knob threshold_knob = {
-    .name = "threshold",
-    .summary = "what is held against epsilon: the length |r|, or the base lobes' share of the "
-               "breadth",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 1,
-    .choices = thresholds,
-    .sweep = "dispersion",
+static const filter_knob threshold_knob = {
+    .description = {.name = "threshold",
+                    .summary = "what is compared with epsilon: the length |r|, or the base lobes' "
+                               "share of the breadth",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = thresholds,
+                    .sweep = "dispersion"},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_THRESHOLD),
 };
-static const lobe_knob epsilon0_knob = {
-    .name = "epsilon0",
-    .summary = "below it one lobe becomes four",
-    .maximum = 1,
-    .initial = 0.95,
-    .sweep = "0.85,0.99",
+static const filter_knob epsilon0_knob = {
+    .description = {.name = "epsilon0",
+                    .summary = "below it one lobe becomes four",
+                    .maximum = 1,
+                    .initial = 0.95,
+                    .sweep = "0.85,0.99"},
+    .feeds = KNOB_FEEDS_FILTER(lobes_knobs, epsilon0),
 };
-static const lobe_knob epsilon1_knob = {
-    .name = "epsilon1",
-    .summary = "below it one of four becomes two",
-    .maximum = 1,
-    .initial = 0.85,
+static const filter_knob epsilon1_knob = {
+    .description = {.name = "epsilon1",
+                    .summary = "below it one of four becomes two",
+                    .maximum = 1,
+                    .initial = 0.85},
+    .feeds = KNOB_FEEDS_FILTER(lobes_knobs, epsilon1),
 };
-static const lobe_knob blend_knob = {
-    .name = "blend",
-    .summary = "half width of the transition at a threshold; 0: a switch",
-    .maximum = 0.5,
-    .initial = 0.02,
+static const filter_knob blend_knob = {
+    .description = {.name = "blend",
+                    .summary = "half width of the transition at a threshold; 0: a switch",
+                    .maximum = 0.5,
+                    .initial = 0.02},
+    .feeds = KNOB_FEEDS_FILTER(lobes_knobs, blend),
 };
-static const lobe_knob *const knobs[] = {
+static const filter_knob *const knobs[] = {
     &space_knob,
     &subdivision_knob,
     &threshold_knob,
@@ -76,7 +80,7 @@ static const lobe_knob *const knobs[] = {
 /// coordinates are not an atlas, or where the instance stretches the mesh.
 static lobe_map_space space_of(const filter_context *context, size_t instance) {
     const device_instance *drawn = &context->scene->instances[instance];
-    lobe_map_space space = (lobe_map_space)passes_filter_setting(context, "space");
+    lobe_map_space space = (lobe_map_space)passes_knob_choice(context, &space_knob);
     if (space == LOBE_SPACE_AUTOMATIC)
         space = context->scene->materials[drawn->material].material->space;
     // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
@@ -117,7 +121,7 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
     const device_material *uploaded = &context->scene->materials[material];
     const lobe_grid grid = passes_lobe_grid(uploaded);
     return passes_lobe_grid_varies(&grid) && !has_one_direction(uploaded) &&
-           passes_filter_setting(context, "subdivision") == 0 &&
+           passes_knob_choice(context, &subdivision_knob) == 0 &&
            is_in_tangent_space(context, material);
 }
 
@@ -140,7 +144,7 @@ static uint32_t subdivision_of(const filter_context *context, const device_mater
                                lobe_map_space space, const prepared_lobes *prepared) {
     if (space == LOBE_SPACE_TANGENT && has_one_direction(material))
         return 0;
-    uint32_t choice = (uint32_t)passes_filter_setting(context, "subdivision");
+    uint32_t choice = passes_knob_choice(context, &subdivision_knob);
     if (choice > 0)
         return choice - 1;
     return space == LOBE_SPACE_TANGENT && prepared ? prepared->subdivision : 2;
@@ -168,7 +172,7 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     bool derivable = along_normal && one_width && !material->maps[MAP_WIDTH].use;
     bool diffuse =
         source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
-    bool wanted = microfacet || diffuse || passes_filter_setting(context, "threshold") != 0;
+    bool wanted = microfacet || diffuse || passes_knob_choice(context, &threshold_knob) != 0;
     return wanted && !derivable;
 }
 
@@ -178,7 +182,7 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
                             const mixture_map *mixture) {
     const lobe_material *source = material->material;
     if (source->model == LOBE_MATERIAL_MICROFACET || mixture->subdivision == 0 ||
-        passes_filter_setting(context, "threshold") != 0)
+        passes_knob_choice(context, &threshold_knob) != 0)
         return 0;
     float mean[3] = {0};
     for (uint32_t i = 0; i < source->lobe_count; i++) {
@@ -187,7 +191,7 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
     }
     double length = sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]);
     return length <
-           passes_filter_setting(context, "epsilon0") - passes_filter_setting(context, "blend");
+           passes_knob_value(context, &epsilon0_knob) - passes_knob_value(context, &blend_knob);
 }
 
 static bool has_one_hue(const lobe_material *material) {
@@ -206,9 +210,8 @@ static bool has_one_hue(const lobe_material *material) {
     return true;
 }
 
-static void specialise_mixture(const filter_context *context, const lobe_material *material,
-                               const mixture_map *mixture, uint32_t coarsest,
-                               filtered_appearance *appearance) {
+static void specialise_mixture(const lobe_material *material, const mixture_map *mixture,
+                               uint32_t coarsest, filtered_appearance *appearance) {
     passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
     passes_appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
     passes_appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
@@ -218,14 +221,6 @@ static void specialise_mixture(const filter_context *context, const lobe_materia
                                  mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
                                  : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
                                                                        : SPACE_TANGENT);
-    passes_appearance_specialise(appearance, SPECIALISE_THRESHOLD,
-                                 (uint32_t)passes_filter_setting(context, "threshold"));
-    passes_appearance_specialise_number(appearance, SPECIALISE_EPSILON_0,
-                                        (float)passes_filter_setting(context, "epsilon0"));
-    passes_appearance_specialise_number(appearance, SPECIALISE_EPSILON_1,
-                                        (float)passes_filter_setting(context, "epsilon1"));
-    passes_appearance_specialise_number(appearance, SPECIALISE_BLEND,
-                                        (float)passes_filter_setting(context, "blend"));
 }
 
 static mixture_map build_mixture(const filter_context *context, size_t instance,
@@ -237,8 +232,8 @@ static mixture_map build_mixture(const filter_context *context, size_t instance,
                                                  subdivision_of(context, material, space, prepared),
                                                  needs_mean(context, material));
     passes_level_reduction(context->graph, &mixture.map);
-    specialise_mixture(context, material->material, &mixture,
-                       coarsest_of(context, material, &mixture), appearance);
+    specialise_mixture(material->material, &mixture, coarsest_of(context, material, &mixture),
+                       appearance);
     return mixture;
 }
 

@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "passes/filters/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
@@ -22,8 +23,7 @@ static void specialise_binning(const filter_context *context, const device_mater
                                const moment_partition *partition, bool colour,
                                specialisation_list *list) {
     passes_material_specialise(material, list);
-    passes_specialise(list, SPECIALISE_BASE_AS_LOBE,
-                      (uint32_t)passes_filter_setting(context, "base"));
+    passes_knob_specialise(context, &passes_knob_base, list);
     passes_specialise(list, SPECIALISE_BINS, partition->bins);
     passes_specialise(list, SPECIALISE_PARTITION, partition->kind);
     passes_specialise(list, SPECIALISE_BIN_COLOUR, colour);

@@ -15,47 +15,51 @@ static const char *const bin_numbers[] = {"auto", "1", "2", "3", "4", "5", "6", 
 static const char *const colours[] = {"auto", "mean", "bins", NULL};
 static const char *const storages[] = {"snorm16", "float16", "float32", NULL};
 
-static const lobe_knob partition_knob = {
-    .name = "partition",
-    .summary = "how lobes are shared out to bins: fitted to the material; or one for rough lobes "
-               "and four, with a cap five, for directions",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 2,
-    .choices = partitions,
-    .sweep = "hats,cap",
+static const filter_knob partition_knob = {
+    .description = {.name = "partition",
+                    .summary = "how lobes are shared out to bins: fitted to the material; or one "
+                               "for rough lobes and four, with a cap five, for directions",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 2,
+                    .choices = partitions,
+                    .sweep = "hats,cap"},
 };
-static const lobe_knob bins_knob = {
-    .name = "bins",
-    .summary = "how many bins are fitted; auto: as few as serve the material's maps as well",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 6,
-    .choices = bin_numbers,
-    .sweep = "1,2,3,4",
+static const filter_knob bins_knob = {
+    .description =
+        {.name = "bins",
+         .summary = "how many bins are fitted; auto: as few as serve the material's maps as well",
+         .kind = LOBE_KNOB_CHOICE,
+         .maximum = 6,
+         .choices = bin_numbers,
+         .sweep = "1,2,3,4"},
 };
-static const lobe_knob colour_knob = {
-    .name = "colour",
-    .summary = "the specular colour is the footprint's mean, or each bin has its own, for half as "
-               "much memory again; auto: its own where a map says what is metal",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 2,
-    .choices = colours,
-    .sweep = "mean,bins",
+static const filter_knob colour_knob = {
+    .description = {.name = "colour",
+                    .summary =
+                        "the specular colour is the footprint's mean, or each bin has its own, for "
+                        "half as much memory again; auto: its own where a map says what is metal",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 2,
+                    .choices = colours,
+                    .sweep = "mean,bins"},
 };
-static const lobe_knob least_share_knob = {
-    .name = "least_share",
-    .summary = "bins with less of the footprint than this are passed over",
-    .maximum = 0.1,
-    .initial = 1e-3,
+static const filter_knob least_share_knob = {
+    .description = {.name = "least_share",
+                    .summary = "bins with less of the footprint than this are skipped",
+                    .maximum = 0.1,
+                    .initial = 1e-3},
+    .feeds = KNOB_FEEDS_FILTER(moments_knobs, least_share),
 };
-static const lobe_knob storage_knob = {
-    .name = "storage",
-    .summary = "format of the moments; snorm16 keeps the digits of the material's own range",
-    .kind = LOBE_KNOB_CHOICE,
-    .maximum = 2,
-    .choices = storages,
-    .sweep = "float16,float32",
+static const filter_knob storage_knob = {
+    .description =
+        {.name = "storage",
+         .summary = "format of the moments; snorm16 keeps the digits of the material's own range",
+         .kind = LOBE_KNOB_CHOICE,
+         .maximum = 2,
+         .choices = storages,
+         .sweep = "float16,float32"},
 };
-static const lobe_knob *const knobs[] = {
+static const filter_knob *const knobs[] = {
     &partition_knob,        &bins_knob,          &colour_knob,
     &least_share_knob,      &passes_knob_probes, &passes_knob_bias,
     &passes_knob_curvature, &storage_knob,       NULL,
@@ -64,7 +68,7 @@ static const lobe_knob *const knobs[] = {
 static lobe_format format_of(const filter_context *context) {
     static const lobe_format formats[] = {LOBE_FORMAT_RGBA16_SNORM, LOBE_FORMAT_RGBA16_FLOAT,
                                           LOBE_FORMAT_RGBA32_FLOAT};
-    return formats[(int)passes_filter_setting(context, "storage")];
+    return formats[(int)passes_knob_choice(context, &storage_knob)];
 }
 
 /// Whether a map is read at the same coordinates as the lobes, and is no finer.
@@ -79,7 +83,7 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
 /// of the material metal, so that colour and width vary together.
 static bool has_bin_colour(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN };
-    int wanted = (int)passes_filter_setting(context, "colour");
+    int wanted = (int)passes_knob_choice(context, &colour_knob);
     if (wanted == MEAN || (wanted == AUTOMATIC && !material->metallic_varies))
         return false;
     return lies_under_lobes(material, MAP_BASE_COLOUR) &&
@@ -124,8 +128,8 @@ typedef struct prepared_moments {
 
 static lobe_result prepare_partition(const filter_context *context, uint32_t material,
                                      void **slot) {
-    const uint32_t kind = (uint32_t)passes_filter_setting(context, "partition");
-    const uint32_t bins = (uint32_t)passes_filter_setting(context, "bins");
+    const uint32_t kind = passes_knob_choice(context, &partition_knob);
+    const uint32_t bins = passes_knob_choice(context, &bins_knob);
     prepared_moments *prepared = *slot;
     if (prepared && prepared->kind == kind && prepared->bins == bins)
         return LOBE_OK;
@@ -164,8 +168,6 @@ static void specialise_bins(const filter_context *context, const moment_partitio
                             bool colour, filtered_appearance *appearance) {
     passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
     passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
-    passes_appearance_specialise_number(appearance, SPECIALISE_LEAST_SHARE,
-                                        (float)passes_filter_setting(context, "least_share"));
 }
 
 static moment_map build_moments(const filter_context *context, uint32_t material,

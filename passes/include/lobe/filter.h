@@ -74,9 +74,10 @@ LOBE_API void lobe_settings_default(const lobe_filter *filter, lobe_settings *se
 /// the choices; the line says what is allowed). `settings` is unchanged then.
 LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
                                        const char *assignment, const lobe_host *host);
-/// The value of a knob by name; 0 for a name the filter lacks.
-LOBE_API double lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
-                                  const char *name);
+/// Reads the value of a knob; for a choice, its index. LOBE_ERROR_NOT_FOUND with a line that lists
+/// the filter's knobs if it has none of that name; `value` is unchanged then.
+LOBE_API lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
+                                       const char *name, double *value, const lobe_host *host);
 /// Writes a knob's value as the user would ("0.95", "camera") into `text`.
 LOBE_API void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings,
                                   size_t knob, char *text, size_t size);

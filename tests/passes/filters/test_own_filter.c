@@ -21,8 +21,13 @@ enum { EXTENT = 8, MATERIALS = 3 };
 // ---------------------------------------------------------------------------------------------
 // The filter
 
-/// Specialisation constant of own/filters/own.glsl.
-enum { SPECIALISE_GAIN = 100 };
+/// Specialisation constants of own/filters/own.glsl.
+enum { SPECIALISE_SHINES = 100, SPECIALISE_REVERSED = 200 };
+
+/// Its filter_knob_block.
+struct own_knobs {
+    float padding, gain;
+};
 
 /// What hooks were called for, since the last forget_calls().
 static struct {
@@ -70,17 +75,29 @@ static void build(const filter_context *context, size_t instance, const void *pr
     for (unsigned i = 0; i < calls.bindings; i++)
         passes_appearance_bind(appearance, "one too many", (lobe_resource){0}, (lobe_sampler){0});
     for (unsigned i = 0; i < calls.constants; i++)
-        passes_appearance_specialise(appearance, SPECIALISE_GAIN + 1 + i, 0);
+        passes_appearance_specialise(appearance, SPECIALISE_SHINES + 1 + i, 0);
     passes_appearance_bind(appearance, "own_block",
                            lobe_graph_upload(context->graph, "mean", prepared, 4 * sizeof(float)),
                            (lobe_sampler){0});
-    passes_appearance_specialise_number(appearance, SPECIALISE_GAIN,
-                                        (float)passes_filter_setting(context, "gain"));
+    passes_appearance_specialise(appearance, SPECIALISE_SHINES, 1);
 }
 
-static const lobe_knob gain_knob = {
-    .name = "gain", .summary = "factor of the picture", .maximum = 4, .initial = 1};
-static const lobe_knob *const knobs[] = {&gain_knob, NULL};
+static const char *const orders[] = {"rgb", "bgr", NULL};
+
+// All that the knobs need in C: one entry each.
+static const filter_knob gain_knob = {
+    .description = {.name = "gain", .summary = "factor of the picture", .maximum = 4, .initial = 1},
+    .feeds = KNOB_FEEDS_FILTER(own_knobs, gain),
+};
+static const filter_knob order_knob = {
+    .description = {.name = "order",
+                    .summary = "of the colour's channels",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = orders},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_REVERSED),
+};
+static const filter_knob *const knobs[] = {&gain_knob, &order_knob, NULL};
 
 static const lobe_filter own_filter = {
     .name = "own",
@@ -116,7 +133,7 @@ static lobe_scene *own_scene(void) {
 
 static lobe_result draw_with(fixture *f, const lobe_filter *filter, const char *assignment,
                              lobe_frame *frame) {
-    lobe_settings settings = settings_of(filter, (const char *[]){assignment, NULL});
+    const lobe_settings settings = settings_of(filter, (const char *[]){assignment, NULL});
     const lobe_render_parameters parameters = {
         .filter = filter, .settings = &settings, .width = EXTENT, .height = EXTENT};
     return lobe_renderer_render(f->renderer, &parameters, frame);
@@ -154,15 +171,17 @@ static void assert_calls(unsigned first, unsigned second, unsigned forgotten) {
     assert_int_equal(calls.forgotten, forgotten);
 }
 
-/// A pixel of the square on the left or on the right is `scale` times its map's mean.
-static void check_pixel(const lobe_frame *frame, const lobe_scene *scene, int square,
-                        double scale) {
+/// A pixel of the square on the left or on the right is `scale` times its map's mean, whose
+/// channels may be in reverse order.
+static void check_pixel(const lobe_frame *frame, const lobe_scene *scene, int square, double scale,
+                        bool reversed) {
     const lobe_image *map = &scene->images[scene->materials[square].base_colour_map.image].image;
     const float *found = pixel_at(&frame->radiance, square ? 3 * EXTENT / 4 : EXTENT / 4, 4);
     for (int channel = 0; channel < 3; channel++) {
         double mean = 0;
         for (uint32_t i = 0; i < map->width * map->height; i++)
-            mean += ((const float *)map->texels)[(size_t)4 * i + (size_t)channel];
+            mean += ((const float *)
+                         map->texels)[(size_t)4 * i + (size_t)(reversed ? 2 - channel : channel)];
         mean /= map->width * map->height;
         if (fabs(found[channel] - scale * mean) > 1e-5)
             fail_msg("square %d, channel %d: %g instead of %g", square, channel,
@@ -170,19 +189,19 @@ static void check_pixel(const lobe_frame *frame, const lobe_scene *scene, int sq
     }
 }
 
-static void it_draws_with_its_own_knob_maps_and_shader(void **state) {
+static void it_draws_with_its_own_knobs_maps_and_shader(void **state) {
     fixture *f = *state;
     lobe_scene *scene = start(f);
-    const char *const assignments[] = {NULL, "gain=3"};
-    for (int i = 0; i < 2; i++) {
+    const char *const assignments[] = {NULL, "gain=3", "order=bgr"};
+    for (int i = 0; i < 3; i++) {
         lobe_frame frame;
         if (draw_with(f, &own_filter, assignments[i], &frame) != LOBE_OK)
             fail_msg("%s", f->error);
         for (int square = 0; square < 2; square++)
-            check_pixel(&frame, scene, square, i ? 6 : 2);
+            check_pixel(&frame, scene, square, i == 1 ? 6 : 2, i == 2);
         lobe_frame_free(&frame);
     }
-    assert_int_equal(calls.builds, 4);
+    assert_int_equal(calls.builds, 6);
     stop(f, &scene);
     assert_int_equal(f->errors + f->warnings, 0);
 }
@@ -230,8 +249,8 @@ static void what_changes_is_forgotten_and_nothing_else(void **state) {
     assert_calls(2, 1, 2);
     lobe_frame frame;
     assert_int_equal(draw_with(f, &own_filter, NULL, &frame), LOBE_OK);
-    check_pixel(&frame, scene, 0, 2);
-    check_pixel(&frame, scene, 1, 2);
+    check_pixel(&frame, scene, 0, 2, false);
+    check_pixel(&frame, scene, 1, 2, false);
     lobe_frame_free(&frame);
     assert_calls(2, 2, 2);
     stop(f, &scene);
@@ -347,7 +366,7 @@ static void lobes_choose_only_what_nobody_set(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_draws_with_its_own_knob_maps_and_shader),
+        cmocka_unit_test(it_draws_with_its_own_knobs_maps_and_shader),
         cmocka_unit_test(each_material_drawn_is_prepared_once),
         cmocka_unit_test(what_changes_is_forgotten_and_nothing_else),
         cmocka_unit_test(a_renderer_that_goes_frees_its_slots),

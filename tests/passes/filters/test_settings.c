@@ -79,6 +79,13 @@ static void knobs_describe_themselves(void **state) {
     }
 }
 
+/// The value of a knob that the filter has.
+static double value_of(const lobe_filter *filter, const lobe_settings *settings, const char *name) {
+    double value = NAN;
+    assert_int_equal(lobe_settings_get(filter, settings, name, &value, &log_to_messages), LOBE_OK);
+    return value;
+}
+
 /// Both ends of every range and every choice can be set, are got, and print as they were written.
 static void every_value_goes_in_and_comes_out(void **state) {
     (void)state;
@@ -96,10 +103,10 @@ static void every_value_goes_in_and_comes_out(void **state) {
                 snprintf(assignment, sizeof assignment, "%s=%s", knob->name, value);
                 lobe_settings settings;
                 lobe_settings_default(filter, &settings);
-                assert_true(lobe_settings_get(filter, &settings, knob->name) == knob->initial);
+                assert_true(value_of(filter, &settings, knob->name) == knob->initial);
                 assert_int_equal(lobe_settings_set(filter, &settings, assignment, &log_to_messages),
                                  LOBE_OK);
-                assert_true(lobe_settings_get(filter, &settings, knob->name) == values[k]);
+                assert_true(value_of(filter, &settings, knob->name) == values[k]);
                 lobe_settings_print(filter, &settings, j, printed, sizeof printed);
                 assert_string_equal(printed, value);
             }
@@ -151,7 +158,17 @@ static void a_missing_knob_has_no_value(void **state) {
     assert_int_equal(lobe_filter_find("direct", NULL, &filter), LOBE_OK);
     lobe_settings settings;
     lobe_settings_default(filter, &settings);
-    assert_true(lobe_settings_get(filter, &settings, "epsilon0") == 0);
+    static const char *const names[] = {"epsilon0", "view ", "vie", ""};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        double value = -7;
+        fixture_forget_messages(&messages);
+        lobe_result result =
+            lobe_settings_get(filter, &settings, names[i], &value, &log_to_messages);
+        assert_failure(&messages, result, LOBE_ERROR_NOT_FOUND, "curvature, view, base");
+        assert_true(value == -7);
+        assert_int_equal(lobe_settings_get(filter, &settings, names[i], &value, NULL),
+                         LOBE_ERROR_NOT_FOUND);
+    }
 }
 
 int main(void) {

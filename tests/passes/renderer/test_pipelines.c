@@ -1,10 +1,14 @@
-// Pipelines depend on which features a scene has, not on its values: when a host changes values
-// from frame to frame, nothing is compiled, and what the device keeps does not grow.
+// Pipelines depend on which features a scene has, not on its values or a user's numbers: when these
+// change from frame to frame, nothing is compiled, and what the device keeps does not grow.
 
 #include "tests/passes/support/fixture.h"
 
+#include <stdio.h>
 #include <string.h>
 
+#include "passes/filters/filter.h"
+#include "scenes/mesh/shape.h"
+#include "scenes/scene/scene.h"
 #include "tests/engine/support/vulkan_faults.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -80,10 +84,100 @@ static void features_make_pipelines(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Knobs
+
+/// A textured sphere, and a plane that is seen near and far at once: whatever the bias, some pixel
+/// sees level 0 of the maps.
+static lobe_scene *curved_scene(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.metallic = 0.5f;
+    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.5, 11));
+    material.metallic_roughness_map = scene_add_map(scene, random_map(64, 64, 0.1, 0.9, 12));
+    scene_add_square(scene, &material, 1, NULL);
+    lobe_mesh mesh;
+    uint32_t sphere;
+    assert_int_equal(scenes_shape_sphere(12, 24, 2, 1, NULL, &mesh), LOBE_OK);
+    assert_int_equal(scenes_add_mesh(scene, &mesh, NULL, &sphere), LOBE_OK);
+    const float scaled[16] = {0.4f, 0, 0, 0, 0, 0.4f, 0, 0, 0, 0, 0.4f, 0, 0.5f, 0.2f, 0.2f, 1};
+    assert_int_equal(scenes_add_instance(scene, sphere, 0, scaled, NULL), LOBE_OK);
+    scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 2);
+    scene_add_sun(scene, (double[]){0, 1, -3}, 2);
+    scene_end(scene);
+    scene->camera = (lobe_camera){.eye = {0.5f, 0.2f, 0.9f},
+                                  .up = {0, 1, 0},
+                                  .vertical_field_of_view = 0.9f,
+                                  .near_plane = 0.01f};
+    return scene;
+}
+
+/// A choice that would otherwise suit the material's values; NULL: none.
+static const char *fixed_choice(const char *filter) {
+    return strcmp(filter, "moments") == 0 ? "bins=6"
+           : strcmp(filter, "lobes") == 0 ? "subdivision=2"
+                                          : NULL;
+}
+
+/// Draws with a hundred values of a number over its range; gives how many pictures differ from
+/// the one before.
+static int drag(fixture *f, const char *filter, const lobe_knob *knob) {
+    char assignment[64];
+    picture_request request = {.filter = filter, .width = 12, .height = 8, .samples = 1};
+    request.settings[0] = assignment;
+    request.settings[1] = fixed_choice(filter);
+    int different = 0;
+    uint64_t last = 0;
+    for (int i = 0; i < 100; i++) {
+        snprintf(assignment, sizeof assignment, "%s=%.9g", knob->name,
+                 knob->minimum + (knob->maximum - knob->minimum) * i / 99);
+        lobe_frame frame = draw(f, &request);
+        const uint64_t hash = image_hash(&frame.radiance);
+        different += i > 0 && hash != last;
+        last = hash;
+        lobe_frame_free(&frame);
+    }
+    return different;
+}
+
+static void check_number(fixture *f, const lobe_filter *filter, const filter_knob *knob) {
+    const char *name = lobe_filter_name(filter);
+    picture_request request = {.filter = name, .width = 12, .height = 8, .samples = 1};
+    request.settings[0] = fixed_choice(name);
+    lobe_frame frame = draw(f, &request);
+    lobe_frame_free(&frame);
+    faults.pipelines = 0;
+    const int different = drag(f, name, &knob->description);
+    if (faults.pipelines)
+        fail_msg("%s: %d pipelines for a hundred values of %s", name, faults.pipelines,
+                 knob->description.name);
+    // What C alone reads is of light from an environment, which this scene does not have.
+    if (knob->feeds.route != KNOB_HOST && different < 5)
+        fail_msg("%s: a hundred values of %s make %d different pictures", name,
+                 knob->description.name, different + 1);
+}
+
+static void numbers_make_no_pipelines(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = curved_scene();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const lobe_filter *filter = lobe_filter_get(i);
+        const filter_knob *knob;
+        for (size_t j = 0; (knob = passes_filter_knob(filter, j)); j++)
+            if (knob->description.kind == LOBE_KNOB_NUMBER)
+                check_number(f, filter, knob);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_make_no_pipelines),
         cmocka_unit_test(features_make_pipelines),
+        cmocka_unit_test(numbers_make_no_pipelines),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

@@ -27,7 +27,10 @@ int main() {
     if (lobe_filter_find("lobes", nullptr, &filter) != LOBE_OK)
         return 1;
     lobe_settings_default(filter, &settings);
-    std::printf("%s %g\\n", lobe_version(), lobe_settings_get(filter, &settings, "epsilon0"));
+    double epsilon0 = 0;
+    if (lobe_settings_get(filter, &settings, "epsilon0", &epsilon0, nullptr) != LOBE_OK)
+        return 1;
+    std::printf("%s %g\\n", lobe_version(), epsilon0);
 }
 """
 

@@ -8,30 +8,31 @@
 
 static const char *const shapes[] = {"round", "square", NULL};
 
-static const lobe_knob count_knob = {.name = "count",
-                                     .kind = LOBE_KNOB_INTEGER,
-                                     .minimum = 1,
-                                     .maximum = 8,
-                                     .initial = 2,
-                                     .sweep = "1,2,4"};
-static const lobe_knob shape_knob = {.name = "shape",
-                                     .kind = LOBE_KNOB_CHOICE,
-                                     .maximum = 1,
-                                     .choices = shapes,
-                                     .sweep = "round,square"};
-static const lobe_knob still_knob = {.name = "still", .maximum = 1};
-static const lobe_knob wrong_knob = {.name = "wrong", .maximum = 1, .sweep = "0.5,2"};
+static const filter_knob count_knob = {.description = {.name = "count",
+                                                       .kind = LOBE_KNOB_INTEGER,
+                                                       .minimum = 1,
+                                                       .maximum = 8,
+                                                       .initial = 2,
+                                                       .sweep = "1,2,4"}};
+static const filter_knob shape_knob = {.description = {.name = "shape",
+                                                       .kind = LOBE_KNOB_CHOICE,
+                                                       .maximum = 1,
+                                                       .choices = shapes,
+                                                       .sweep = "round,square"}};
+static const filter_knob still_knob = {.description = {.name = "still", .maximum = 1}};
+static const filter_knob wrong_knob = {
+    .description = {.name = "wrong", .maximum = 1, .sweep = "0.5,2"}};
 
-static const lobe_knob bright_knob = {.name = "bright",
-                                      .kind = LOBE_KNOB_INTEGER,
-                                      .maximum = 9,
-                                      .sweep = "0,7",
-                                      .sweep_with = "shape=square",
-                                      .environment = true};
+static const filter_knob bright_knob = {.description = {.name = "bright",
+                                                        .kind = LOBE_KNOB_INTEGER,
+                                                        .maximum = 9,
+                                                        .sweep = "0,7",
+                                                        .sweep_with = "shape=square",
+                                                        .environment = true}};
 
-static const lobe_knob *const good_knobs[] = {&count_knob, &still_knob, &shape_knob, &bright_knob,
-                                              NULL};
-static const lobe_knob *const bad_knobs[] = {&count_knob, &wrong_knob, NULL};
+static const filter_knob *const good_knobs[] = {&count_knob, &still_knob, &shape_knob, &bright_knob,
+                                                NULL};
+static const filter_knob *const bad_knobs[] = {&count_knob, &wrong_knob, NULL};
 static const lobe_filter good = {.name = "good", .knobs = good_knobs};
 static const lobe_filter bad = {.name = "bad", .knobs = bad_knobs};
 static const lobe_filter sampling = {.name = "sampling", .knobs = good_knobs, .supersamples = true};

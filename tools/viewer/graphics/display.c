@@ -64,7 +64,8 @@ static lobe_resource picture_of(const viewer_display *display, const viewer_side
 /// The meaning of a picture's numbers, by the knob "view", as in capture_write_png: a mixture has
 /// at most 8 lobes, a map of 4096 texels has 12 levels above the base.
 static uint kind_of(const viewer_side *side, float *maximum) {
-    const int view = (int)lobe_settings_get(side->filter, &side->settings, "view");
+    double view = 0;
+    (void)lobe_settings_get(side->filter, &side->settings, "view", &view, NULL); // all have it
     *maximum = view == 1 ? 8.0f : 12.0f;
     if (side->output != VIEWER_RADIANCE)
         return DISPLAY_COLOUR;

@@ -1,9 +1,15 @@
 // The shading of the test's own filter: a material shines in the mean colour of its map, whatever
-// its normals, times what the knob "gain" says.
+// its normals, times the knob "gain", with red and blue exchanged where the knob "order" says so.
 
 #include "shading/unfiltered_maps.glsl"
 
-layout(constant_id = 100) const float GAIN = 0.0;
+layout(constant_id = 100) const bool SHINES = false;
+layout(constant_id = 200) const bool REVERSED = false;
+
+layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+    float padding;
+    float gain;
+};
 
 layout(set = 0, binding = 60, std140) uniform own_block { vec4 mean_colour; };
 
@@ -23,7 +29,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
-    return GAIN * mean_colour.rgb;
+    return SHINES ? gain * (REVERSED ? mean_colour.bgr : mean_colour.rgb) : vec3(0.0);
 }
 
 float fetch_occlusion(surface_point surface) {

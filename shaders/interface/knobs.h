@@ -1,0 +1,25 @@
+#ifndef INTERFACE_KNOBS_H
+#define INTERFACE_KNOBS_H
+
+#include "types.h"
+
+// The numbers among the knobs, in uniform blocks (std140): another value compiles nothing. Each
+// member is named by the entry of its knob (passes/filters/knob.h), and by nothing else in C.
+//
+// Those that several filters have. A filter without such a knob reads 0.
+struct shared_knobs {
+    float curvature;  // factor of the macro-surface's curvature; 0: ignored
+    float level_bias; // added to the MIP level
+    float padding_0;
+    float padding_1;
+};
+INTERFACE_SIZE(shared_knobs, 16)
+INTERFACE_OFFSET(shared_knobs, level_bias, 4)
+
+// Those of one filter are in a struct in the filter's own header, which its shader declares so:
+//   layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+//       lobes_knobs filter_knobs;
+//   };
+#define FILTER_KNOB_BINDING 11
+
+#endif
