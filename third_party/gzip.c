@@ -11,7 +11,7 @@ typedef struct gzip_job {
     z_stream stream;
     uint8_t *bytes; // unpacked so far
     size_t size, room, maximum;
-    size_t left; // packed bytes that zlib has not been told of
+    size_t left; // packed bytes not yet passed to zlib
     library_memory *memory;
     const char *cause;
 } gzip_job;

@@ -7,10 +7,10 @@
 
 #include "third_party/library_memory.h"
 
-/// PNG through libpng and JPEG through libjpeg-turbo, from memory to RGBA. No call prints, exits
-/// or jumps out of itself, whatever the bytes are; none allocates more than a few rows beside
-/// what it is given and what the library takes for a progressive or interlaced image. libpng takes
-/// that from `memory`, which says where it has run out; libjpeg cannot be told where from.
+/// PNG through libpng and JPEG through libjpeg-turbo, from memory to RGBA. Whatever the bytes are,
+/// no call prints, exits or jumps out. Beyond what the library needs for a progressive or
+/// interlaced image, only a few rows are allocated. libpng uses `memory`, which also records
+/// whether it ran out; libjpeg has no allocator interface.
 
 #define IMAGE_CODEC_MESSAGE_SIZE 256
 
@@ -19,7 +19,7 @@ typedef struct image_codec_extent {
     bool sixteen_bits;      ///< a channel; else 8 or fewer
 } image_codec_extent;
 
-/// Reads the header alone. False: `message` says why.
+/// Reads only the header. False: `message` says why.
 bool third_party_png_measure(const void *bytes, size_t size, library_memory *memory,
                              image_codec_extent *extent, char message[IMAGE_CODEC_MESSAGE_SIZE]);
 bool third_party_jpeg_measure(const void *bytes, size_t size, image_codec_extent *extent,

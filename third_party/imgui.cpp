@@ -22,7 +22,7 @@ void show_name(const char *name) {
     ImGui::SetNextItemWidth(-1);
 }
 
-/// Widgets go by their names, which are shown already.
+/// Identifies a widget by its name, which is shown already.
 struct hidden_name {
     explicit hidden_name(const char *name) {
         ImGui::PushID(name);
@@ -50,15 +50,14 @@ void append_batch(const ImDrawList *list, const ImDrawCmd &command, const ImVec2
     frame_batches.push_back(batch);
 }
 
-/// The font that is built in, at whole pixels.
+/// The built-in font, at a whole number of pixels.
 void set_font(float scale) {
     ImFontConfig font;
     font.SizePixels = static_cast<float>(static_cast<int>(13 * scale + 0.5f));
     ImGui::GetIO().Fonts->AddFontDefault(&font);
 }
 
-/// The window tells sizes and places in units of its own, of which pixels may be a part: here all
-/// are pixels.
+/// Converts the window's sizes and positions, whose units may be larger than pixels, to pixels.
 void go_by_pixels() {
     ImGuiIO &io = ImGui::GetIO();
     const ImVec2 pixels = io.DisplayFramebufferScale;
@@ -86,7 +85,7 @@ void set_style(float scale) {
 bool imgui_open(GLFWwindow *window, float scale) try {
     ImGui::CreateContext();
     ImGuiIO &io = ImGui::GetIO();
-    io.IniFilename = nullptr; // nothing is kept from one run to the next
+    io.IniFilename = nullptr; // do not save the layout between runs
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     set_font(scale);
     set_style(scale);

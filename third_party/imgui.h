@@ -9,11 +9,11 @@
 extern "C" {
 #endif
 
-/// Panels of Dear ImGui, which is C++: their widgets are declared anew in each frame, and say at
-/// once whether the user changed something. There is one set of panels at a time, of one window.
-/// Drawing is the caller's business: a frame ends as triangles.
+/// A C interface to the panels of Dear ImGui: widgets are declared again in each frame, and return
+/// whether the user changed something. There is one set of panels at a time, for one window. A
+/// frame ends as triangles, which the caller draws.
 
-/// The window of GLFW whose mouse and keys the panels hear of.
+/// The GLFW window whose mouse and keys the panels receive.
 struct GLFWwindow;
 
 /// A corner of a triangle.
@@ -23,36 +23,36 @@ typedef struct imgui_vertex {
     uint32_t colour;              ///< R, G, B, A from the lowest byte on; sRGB, straight alpha
 } imgui_vertex;
 
-/// Triangles that are cut by one rectangle.
+/// Triangles with a common clip rectangle.
 typedef struct imgui_batch {
     uint32_t first, count; ///< vertices; three a triangle
     float clip[4];         ///< left, top, right, bottom in pixels
 } imgui_batch;
 
-/// Starts the panels. `scale`: of text and widgets, 1 for 96 dots an inch. Callbacks that the
-/// window has go on being called. False: out of memory.
+/// Starts the panels. `scale`: of text and widgets, 1 for 96 dots an inch. The window's own
+/// callbacks are still called. False: out of memory.
 bool imgui_open(struct GLFWwindow *window, float scale);
 void imgui_close(void);
 
-/// Between frames: text and widgets of another scale. False: out of memory.
+/// Changes the scale of text and widgets; call between frames. False: out of memory.
 bool imgui_rescale(float scale);
 
 /// The font's picture, one byte of coverage a texel; lives until imgui_rescale or imgui_close.
 const uint8_t *imgui_font(uint32_t *width, uint32_t *height);
 
 void imgui_begin_frame(void);
-/// Each frame that was begun must be ended.
+/// Each frame that is begun must be ended.
 void imgui_end_frame(void);
-/// The triangles of the frame that was ended last, valid until the next one is. Returns how many
+/// The triangles of the last frame that ended, valid until the next one ends. Returns the number of
 /// batches.
 size_t imgui_triangles(const imgui_vertex **vertices, size_t *vertex_count,
                        const imgui_batch **batches);
 
-/// The mouse is over a panel, or holds something of one.
+/// Whether the mouse is over a panel or drags part of one.
 bool imgui_takes_mouse(void);
-/// In a frame: the pointer looks like what can be dragged to the left and to the right.
+/// Within a frame: shows the pointer for dragging left and right.
 void imgui_show_drag_pointer(void);
-/// A number is being typed.
+/// Whether a number is being typed.
 bool imgui_takes_keys(void);
 
 // ---------------------------------------------------------------------------------------------
@@ -67,10 +67,10 @@ void imgui_begin_note(const char *name, const float place[2], float width);
 /// pixels.
 void imgui_begin_list(const char *name, const float place[2], float width, float maximum_height);
 void imgui_end_panel(void);
-/// Widgets until the end may have names that others have, too. Nested.
+/// Widgets until the end may reuse names from outside of it. May be nested.
 void imgui_begin_group(const char *name);
 void imgui_end_group(void);
-/// A heading by which the widgets below fold away; false: they are folded.
+/// A heading that folds the widgets below it; false: they are folded.
 bool imgui_section(const char *title, bool open);
 
 void imgui_text(const char *text);       ///< broken into lines at the panel's edge
@@ -78,10 +78,10 @@ void imgui_faint_text(const char *text); ///< the same
 /// A line of a table: text to the left, and to the right.
 void imgui_line(const char *left, const char *right);
 void imgui_indented_line(const char *left, const char *right);
-/// A name, and beside it in a column what it means.
+/// A name and, in a column beside it, its meaning.
 void imgui_term(const char *name, const char *meaning);
 void imgui_space(void);
-/// What shows while the mouse rests on the widget before.
+/// A tooltip for the widget before.
 void imgui_tooltip(const char *text);
 
 bool imgui_button(const char *name);
@@ -89,7 +89,7 @@ bool imgui_checkbox(const char *name, bool *value);
 bool imgui_choice(const char *name, const char *const *choices, size_t count, size_t *index);
 bool imgui_number(const char *name, double minimum, double maximum, double *value);
 bool imgui_integer(const char *name, int minimum, int maximum, int *value);
-/// The next widget stands in the same line.
+/// Puts the next widget on the same line.
 void imgui_same_line(void);
 
 #ifdef __cplusplus

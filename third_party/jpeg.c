@@ -8,7 +8,7 @@
 
 #include <jerror.h>
 
-// A progressive image of more scans than this is built to waste time.
+// A progressive image with more scans than this is an attack on decoding time.
 #define JPEG_MAXIMUM_SCANS 500
 
 typedef struct jpeg_job {
@@ -34,7 +34,7 @@ static void on_error(j_common_ptr jpeg) {
     fail(jpeg->client_data, text);
 }
 
-// libjpeg fills up an image that ends early with grey and warns; other warnings are harmless.
+// If an image ends early, libjpeg pads it with grey and warns; other warnings are harmless.
 static void on_message(j_common_ptr jpeg, int level) {
     int code = jpeg->err->msg_code;
     if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))
@@ -85,7 +85,7 @@ static void read_texels(jpeg_job *job) {
     jpeg_finish_decompress(&job->jpeg);
 }
 
-// libjpeg reports errors by a long jump to here: `step` owns nothing.
+// libjpeg reports errors with a longjmp to here, so `step` must own nothing.
 static bool run(jpeg_job *job, void (*step)(jpeg_job *job)) {
     if (setjmp(job->failed))
         return false;

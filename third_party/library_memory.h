@@ -4,14 +4,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/// Where a library takes its memory from.
+/// The allocator that a library uses.
 typedef struct library_memory {
-    /// Makes a piece larger; `memory` NULL: gives a new one. Aligned for any type. NULL without
-    /// memory; the old piece is then as it was.
+    /// Like realloc: resizes a block, or allocates one if `memory` is NULL. Aligned for any type.
+    /// NULL if out of memory; the old block is then unchanged.
     void *(*resize)(void *user, void *memory, size_t size);
     void (*release)(void *memory); ///< NULL is fine
     void *user;                    ///< handed to `resize`
-    bool failed;                   ///< `resize` gave NULL once; libraries say so in many ways
+    bool failed; ///< `resize` returned NULL; libraries report this in various ways
 } library_memory;
 
 static inline void *library_memory_resize(library_memory *memory, void *piece, size_t size) {

@@ -41,7 +41,7 @@ class MemoryStream : public Imf::IStream {
     uint64_t size, position = 0;
 };
 
-// Makes each row of the image fall onto the same memory (a stride of 0).
+// Writes each row of the image to the same memory (a stride of 0).
 Imf::FrameBuffer one_row(const openexr_source &source, int left, std::vector<float> &row) {
     Imf::FrameBuffer buffer;
     for (int i = 0; i < 4; i++) {
@@ -69,7 +69,7 @@ void read_rows(const openexr_source &source) {
     }
 }
 
-// What the library says may quote the file: printable ASCII remains.
+// The library's message may quote the file: keep only printable ASCII.
 void copy_message(const char *from, char message[OPENEXR_MESSAGE_SIZE]) {
     std::snprintf(message, OPENEXR_MESSAGE_SIZE, "%s", from);
     for (; *message; message++) {
@@ -87,7 +87,7 @@ extern "C" bool third_party_openexr_read(const openexr_source *source,
         read_rows(*source);
         return true;
     } catch (const std::bad_alloc &) {
-        cause = "no memory to decode it";
+        cause = "out of memory";
     } catch (const std::exception &exception) {
         copy_message(exception.what(), message);
         return false;

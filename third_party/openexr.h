@@ -25,8 +25,8 @@ typedef struct openexr_source {
     void *user;
 } openexr_source;
 
-/// False: `message` says why (damaged, no memory), in printable ASCII; rows may have been placed
-/// before.
+/// False: `message` says why (damaged, out of memory), in printable ASCII; some rows may have been
+/// placed before.
 bool third_party_openexr_read(const openexr_source *source, char message[OPENEXR_MESSAGE_SIZE]);
 
 #ifdef __cplusplus

@@ -65,7 +65,7 @@ static void close_job(png_job *job) {
     job->memory->release(job->rows);
 }
 
-// libpng reports errors by a long jump to here: `step` owns nothing.
+// libpng reports errors with a longjmp to here, so `step` must own nothing.
 static bool run(png_job *job, void (*step)(png_job *job)) {
     if (setjmp(png_jmpbuf(job->png)))
         return false;

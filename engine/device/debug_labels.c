@@ -10,7 +10,7 @@ void engine_device_name(const lobe_device *device, VkObjectType type, uint64_t h
         .objectHandle = handle,
         .pObjectName = name,
     };
-    // A name is a help for people; without memory for it all goes on.
+    // Names only help people debug: failing to set one is harmless.
     (void)device->instance.api.vkSetDebugUtilsObjectNameEXT(device->vulkan, &information);
 }
 

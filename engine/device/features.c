@@ -6,8 +6,8 @@
 #define VULKAN_1_2 vulkan_1_2
 #define VULKAN_1_3 vulkan_1_3
 
-/// What lobe knows about: where Vulkan keeps it, its name, whether it is required, its use. The
-/// first group is part of every Vulkan 1.3 device.
+/// The features that lobe knows: the structure that holds it, its name, whether it is required, its
+/// use. Every Vulkan 1.3 device has the required ones.
 #define KNOWN_FEATURES(X)                                                                          \
     X(VULKAN_1_3, dynamicRendering, true, "raster passes without render pass objects")             \
     X(VULKAN_1_3, synchronization2, true, "barriers of the render graph")                          \
@@ -75,9 +75,9 @@ void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_CO
 }
 
 // ---------------------------------------------------------------------------------------------
-// What a host turned on
+// What a host enabled
 
-/// A structure that holds one known feature alone, in the place of Vulkan 1.2's or 1.3's.
+/// A structure that holds a single known feature, used instead of Vulkan 1.2's or 1.3's.
 typedef struct single_feature {
     VkStructureType type;
     size_t offset; ///< of its VkBool32 in lobe_vulkan_features
@@ -99,7 +99,7 @@ static const single_feature singles[] = {
 static void read_single(const VkBaseInStructure *structure, lobe_vulkan_features *features) {
     for (size_t i = 0; i < sizeof singles / sizeof *singles; i++)
         if (singles[i].type == structure->sType)
-            // One VkBool32 follows the head, in all of them alike.
+            // All of them have one VkBool32 after the header.
             memcpy((char *)features + singles[i].offset, structure + 1, sizeof(VkBool32));
 }
 

@@ -12,17 +12,17 @@
 
 #define ENGINE_FEATURE_COUNT 12
 
-/// Fills the list of what lobe knows about from what the device has. The device may be older than
-/// Vulkan 1.3: what its version lacks is absent.
+/// Lists the features that lobe knows and whether the device has them. The device may be older than
+/// Vulkan 1.3; features that its version lacks count as absent.
 void engine_features_query(const engine_instance_api *api, VkPhysicalDevice physical,
                            lobe_device_feature features[ENGINE_FEATURE_COUNT]);
 
-/// The same list from what a host turned on: a chain as for lobe_vulkan_device.
+/// The same list, from what a host enabled: a chain as in lobe_vulkan_device.
 void engine_features_read(const VkPhysicalDeviceFeatures2 *enabled,
                           lobe_device_feature features[ENGINE_FEATURE_COUNT]);
 
-/// The structures that enable all features of the list that are present, chained for
-/// VkDeviceCreateInfo.pNext; `enable` must stay where it is while they are used.
+/// Fills in structures that enable all features present in the list, chained for
+/// VkDeviceCreateInfo.pNext. They point to one another: `enable` must not move while in use.
 void engine_features_enable(const lobe_device_feature features[ENGINE_FEATURE_COUNT],
                             lobe_vulkan_features *enable);
 
@@ -32,7 +32,7 @@ lobe_result engine_extensions_fill(const engine_instance_api *api, VkPhysicalDev
                                    const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS],
                                    uint32_t *filled);
 
-/// The first that is required but absent; NULL where nothing is missing.
+/// Returns the first required feature that is absent; NULL if none is.
 const lobe_device_feature *
 engine_features_missing(const lobe_device_feature features[ENGINE_FEATURE_COUNT]);
 

@@ -18,9 +18,9 @@ static lobe_result check_host(const lobe_vulkan_device *import,
     if (!import->instance || !import->physical_device || !import->device || !import->queue)
         why = "instance, physical device, device and queue must be given";
     else if (!import->features)
-        why = "the features that were turned on must be given";
+        why = "the enabled features must be given";
     else if (!import->lock_queue != !import->unlock_queue)
-        why = "a callback that locks the queue goes with one that unlocks it";
+        why = "lock_queue and unlock_queue: give either both callbacks or neither";
     else if (parameters->select || parameters->validation || parameters->get_instance_proc_addr)
         why = "device, validation and loader are chosen by the host, not by the parameters";
     return why ? lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "imported device: %s", why)
@@ -48,7 +48,7 @@ static lobe_result check_queue(const lobe_vulkan_device *import, const lobe_devi
     return LOBE_OK;
 }
 
-/// What was turned on counts, not what the device could do.
+/// Uses the features that the host enabled, not those that the device offers.
 static void take_features(const lobe_vulkan_device *import, lobe_device *device) {
     lobe_device_feature *features = (lobe_device_feature *)device->information.features;
     engine_features_read(import->features, features);

@@ -42,7 +42,7 @@ lobe_result engine_extensions_fill(const engine_instance_api *api, VkPhysicalDev
         lobe_allocate(lobe_host_allocator(host), count, sizeof *extensions);
     if (!extensions)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "Vulkan: no host memory for a device's extensions");
+                              "out of memory listing a device's extensions");
     if (api->vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions) >= VK_SUCCESS)
         for (size_t i = 0; i < KNOWN_COUNT; i++)
             if (has_extension(extensions, count, known[i].name))
@@ -51,7 +51,7 @@ lobe_result engine_extensions_fill(const engine_instance_api *api, VkPhysicalDev
     return LOBE_OK;
 }
 
-/// Only what the helpers below ask of the host's instance; false where the loader is not found.
+/// Loads the instance functions for the helpers below; false if there is no loader.
 static bool load_functions(const lobe_vulkan_device *host, engine_instance_api *api) {
     return engine_loader_open(NULL, host->get_instance_proc_addr, api) == LOBE_OK &&
            engine_instance_api_load(NULL, host->instance, false, api) == LOBE_OK;
@@ -92,7 +92,7 @@ uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host) {
 // ---------------------------------------------------------------------------------------------
 // What is missing
 
-/// Lines added to a text that may be too short for them.
+/// Lines appended to a text buffer that may be too small for them.
 typedef struct line_list {
     char *text;
     size_t size, used;

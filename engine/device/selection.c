@@ -71,7 +71,7 @@ static void describe_driver(const VkPhysicalDeviceProperties *properties,
     if (driver->driverName[0])
         snprintf(information->driver, sizeof information->driver, "%s %s", driver->driverName,
                  driver->driverInfo);
-    else // a driver older than Vulkan 1.2 leaves the structure alone
+    else // drivers older than Vulkan 1.2 do not fill in the structure
         snprintf(information->driver, sizeof information->driver, "version %u",
                  properties->driverVersion);
 }
@@ -120,7 +120,7 @@ lobe_result engine_candidate_describe(const engine_instance_api *api, VkPhysical
     describe(api, candidate);
     return describe_features(api, candidate, lobe_host_allocator(host))
                ? LOBE_OK
-               : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': no host memory",
+               : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "device '%s': out of memory",
                                 candidate->information.name);
 }
 
@@ -148,7 +148,7 @@ static lobe_result describe_all(const engine_instance_api *api, const VkPhysical
     if (complete)
         return LOBE_OK;
     engine_candidates_free(candidates, count);
-    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no memory to list them");
+    return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "out of memory listing Vulkan devices");
 }
 
 lobe_result engine_candidates_list(const engine_instance *instance, const lobe_host *host,
@@ -212,7 +212,7 @@ static bool is_preferred(const engine_candidate *candidate, const engine_candida
     return rank(candidate->information.type) > rank(to->information.type);
 }
 
-/// The index that `select` is, of `count` devices; `count` where it is none.
+/// Reads `select` as the index of one of `count` devices; returns `count` if it is not one.
 static size_t index_in(const char *select, size_t count) {
     char *end;
     const unsigned long number = strtoul(select, &end, 10);
@@ -220,7 +220,7 @@ static size_t index_in(const char *select, size_t count) {
     return is_number && number < count ? number : count;
 }
 
-/// An index selects by position; anything else ("llvmpipe", "4090") by a part of the name.
+/// Matches an index by position and any other text ("llvmpipe", "4090") by part of the name.
 static bool matches(const engine_candidate *candidates, size_t count, size_t i,
                     const char *select) {
     if (!select)

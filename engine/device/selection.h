@@ -10,7 +10,7 @@
 
 #include "engine/device/instance.h"
 
-/// A device of this machine, used or not.
+/// A Vulkan device of this machine.
 typedef struct engine_candidate {
     VkPhysicalDevice physical;
     /// `features` is allocated; free with engine_candidates_free.
@@ -19,19 +19,19 @@ typedef struct engine_candidate {
     uint32_t timestamp_bits;
 } engine_candidate;
 
-/// Whether a queue family has both graphics and compute; if so, says how many bits its timestamps
-/// have.
+/// Whether a queue family has both graphics and compute; if so, gives the valid bits of its
+/// timestamps.
 bool engine_queue_family_serves(const engine_instance_api *api, VkPhysicalDevice physical,
                                 uint32_t family, uint32_t *timestamp_bits);
-/// The first that serves; UINT32_MAX (and no bits): none.
+/// Returns the first such family; UINT32_MAX (and 0 bits) if there is none.
 uint32_t engine_queue_family_find(const engine_instance_api *api, VkPhysicalDevice physical,
                                   uint32_t *timestamp_bits);
 
-/// Describes one device; `candidate->information.features` is to lobe_release.
+/// Describes one device. Release `candidate->information.features` with lobe_release.
 lobe_result engine_candidate_describe(const engine_instance_api *api, VkPhysicalDevice physical,
                                       const lobe_host *host, engine_candidate *candidate);
 
-/// Lists all devices. LOBE_ERROR_NO_DEVICE where there is none, LOBE_ERROR_OUT_OF_MEMORY.
+/// Lists all devices. Errors: LOBE_ERROR_NO_DEVICE (there is none), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result engine_candidates_list(const engine_instance *instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count);
 void engine_candidates_free(engine_candidate **candidates, size_t count);

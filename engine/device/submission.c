@@ -3,7 +3,7 @@
 #include "engine/device/vulkan_check.h"
 
 void engine_device_lock_queue(lobe_device *device) {
-    // Renderers of one device first settle who of them goes to the host.
+    // lobe's own threads queue up here, so that the host's callback is never nested.
     pthread_mutex_lock(&device->queue_mutex);
     if (device->import.lock_queue)
         device->import.lock_queue(device->import.user);
@@ -27,8 +27,8 @@ static void list_semaphores(const lobe_vulkan_semaphore *semaphores, uint32_t co
         };
 }
 
-/// That the device is lost is told once: whatever waits for it afterwards, to tear down what is
-/// left, finds the same.
+/// Logs the loss of the device once: every later wait, while things are torn down, fails the same
+/// way.
 static lobe_result check(lobe_device *device, VkResult code, const char *function,
                          const char *purpose) {
     const bool was_lost = atomic_exchange(&device->is_lost, code == VK_ERROR_DEVICE_LOST);
@@ -97,7 +97,7 @@ lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
 }
 
 lobe_result engine_device_wait_all(lobe_device *device) {
-    // The host may have submitted work of lobe's in command buffers of its own.
+    // The host may have submitted lobe's work in its own command buffers.
     if (device->imported)
         return engine_device_wait_queue(device);
     return engine_device_wait(device, device->submitted);

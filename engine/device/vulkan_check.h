@@ -9,12 +9,12 @@
 /// The enumerator's name, for example "VK_ERROR_DEVICE_LOST". Never NULL.
 const char *engine_vulkan_result_name(VkResult result);
 
-/// What a VkResult means to lobe's callers. Success codes that are not errors give LOBE_OK.
+/// Translates a VkResult for lobe's callers. All success codes give LOBE_OK.
 lobe_result engine_vulkan_result(VkResult result);
 
-/// Calls Vulkan and gives a lobe_result; where that is an error, logs one line with the
-/// expression and what it was for:
-/// `result = VULKAN_CHECK(&device->log, vkCreateImage(...), "image '%s'", name);`
+/// Calls Vulkan and returns a lobe_result. An error is logged as one line with the function and
+/// what it was called for: `result = VULKAN_CHECK(&device->host, device->api.vkCreateImage(...),
+/// "image '%s'", name);`
 #define VULKAN_CHECK(log, call, ...) engine_vulkan_check((log), (call), #call, __VA_ARGS__)
 
 lobe_result engine_vulkan_check(const lobe_host *host, VkResult result, const char *expression,

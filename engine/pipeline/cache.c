@@ -7,7 +7,7 @@
 #include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
 
-/// What stands before Vulkan's own data. Drivers need not survive damaged data, so it is checked.
+/// Precedes Vulkan's own data. Drivers may crash on damaged data, so lobe checks it.
 typedef struct cache_header {
     char magic[8];
     uint64_t size;     ///< bytes that follow
@@ -24,7 +24,7 @@ static uint64_t checksum_of(const uint8_t *data, size_t size) {
     return hash;
 }
 
-/// Whether Vulkan's data begin with the mark of this driver and device.
+/// Whether Vulkan's data has the header of this driver and device.
 static bool belongs_to(const lobe_device *device, const uint8_t *data, size_t size) {
     VkPipelineCacheHeaderVersionOne mark;
     VkPhysicalDeviceProperties properties;
@@ -43,7 +43,7 @@ static bool is_whole(const cache_header *header, const uint8_t *data, size_t siz
            header->checksum == checksum_of(data, size);
 }
 
-/// Gives Vulkan's part of a file's content, or NULL.
+/// Returns Vulkan's part of a file's content, or NULL if it is unusable.
 static const uint8_t *usable_part(const lobe_device *device, const uint8_t *content, size_t size,
                                   cache_header *header) {
     if (size < sizeof *header)
@@ -83,14 +83,14 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
     const uint8_t *data = found ? usable_part(device, content, size, &header) : NULL;
     if (found && !data)
         lobe_host_log(&device->host, LOBE_LOG_DEBUG,
-                      "pipeline cache '%s' is damaged or of another driver: it is replaced", file);
+                      "pipeline cache '%s' is damaged or from another driver; replacing it", file);
     cache->checksum = data ? header.checksum : 0;
     const lobe_result result = create_cache(device, data, data ? header.size : 0, cache);
     lobe_release(content);
     return result;
 }
 
-/// The file's new content, to lobe_release. NULL where there is none or no memory for it.
+/// Returns the file's new content, to lobe_release; NULL if there is none or out of memory.
 static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *size,
                            uint64_t *checksum) {
     size_t data_size = 0;

@@ -11,14 +11,15 @@
 typedef struct engine_pipeline_cache {
     VkPipelineCache vulkan;
     char *file;        ///< NULL: none
-    uint64_t checksum; ///< of what the file holds; 0: nothing of use
+    uint64_t checksum; ///< of the file's content; 0: unusable
 } engine_pipeline_cache;
 
-/// Starts from the file where it belongs to this driver and is whole; else empty. A file that is
-/// missing or of no use is no failure.
+/// Starts with the content of the file if that is intact and from this driver, else empty. A
+/// missing or unusable file is not an error.
 lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
                                          engine_pipeline_cache *cache);
-/// Writes the file where its content would change (a warning where that fails), then frees all.
+/// Writes the file if its content would change (logs a warning if that fails), then frees
+/// everything.
 void engine_pipeline_cache_destroy(lobe_device *device, engine_pipeline_cache *cache);
 
 #endif

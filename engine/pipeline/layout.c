@@ -58,7 +58,7 @@ static lobe_result merge_bindings(const lobe_host *host, const engine_shader *co
         most += shaders[i]->binding_count;
     pipeline->bindings = lobe_allocate(host->allocator, most, sizeof *pipeline->bindings);
     if (!pipeline->bindings)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': out of memory",
                               pipeline->name);
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < shaders[i]->binding_count; j++) {
@@ -90,7 +90,7 @@ static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipel
         lobe_allocate(device->host.allocator, pipeline->binding_count + 1, sizeof *bindings);
     if (!bindings)
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "pipeline '%s': no host memory", pipeline->name);
+                              "pipeline '%s': out of memory", pipeline->name);
     for (size_t i = 0; i < pipeline->binding_count; i++)
         bindings[i] = (VkDescriptorSetLayoutBinding){
             .binding = pipeline->bindings[i].binding,

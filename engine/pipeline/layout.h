@@ -7,9 +7,9 @@
 
 #define ENGINE_MAXIMUM_STAGES 2
 
-/// Merges what the stages of a pipeline bind and creates the Vulkan layouts for it: fills the
-/// members bindings, set_layout, layout and push_constant_*. `pipeline->name` must be set.
-/// What was made is destroyed by engine_pipeline_layout_destroy, after a failure too.
+/// Merges the bindings of a pipeline's stages and creates its Vulkan layouts: fills in bindings,
+/// set_layout, layout and push_constant_*. `pipeline->name` must be set. Destroy them with
+/// engine_pipeline_layout_destroy, even after a failure.
 /// LOBE_ERROR_SHADER: two stages disagree. LOBE_ERROR_LIMIT: push constants are too large.
 lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shader *const *shaders,
                                           size_t count, engine_pipeline *pipeline);

@@ -39,7 +39,7 @@ rasterisation_of(const engine_raster_parameters *parameters) {
     };
 }
 
-/// Vulkan writes depth only where it also tests it.
+/// Vulkan writes depth only if the depth test is on.
 static VkPipelineDepthStencilStateCreateInfo depth_of(const engine_raster_parameters *parameters) {
     return (VkPipelineDepthStencilStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
@@ -71,8 +71,8 @@ static uint32_t colour_count(const engine_raster_parameters *parameters) {
     return count;
 }
 
-/// What the fragment shader does not write keeps its content; a device without independent
-/// blending treats all attachments alike.
+/// Attachments that the fragment shader does not write keep their content, except that a device
+/// without independent blending must treat all attachments alike.
 static void fill_blending(const lobe_device *device, const engine_raster_parameters *parameters,
                           uint32_t outputs, VkPipelineColorBlendAttachmentState blends[COLOURS]) {
     const bool alike = !device->features.core.features.independentBlend;

@@ -3,7 +3,7 @@
 
 #include "engine/pipeline/pipeline.h"
 
-/// Creates the Vulkan pipeline of a draw. `pipeline` has its name, layout and output_locations;
+/// Creates the Vulkan pipeline for a draw. `pipeline` has its name, layout and output_locations;
 /// `fragment` may be NULL; `cache` may be null.
 /// LOBE_ERROR_UNSUPPORTED: the device cannot blend into an attachment's format.
 lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache cache,

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// Tells which pipelines frames may still need, without a reference for each: frames and pipelines
-/// are stamped by one clock, and a pipeline that was found last before the oldest frame in progress
-/// began belongs to none of them.
+/// Tracks which pipelines frames may still need, without counting references: frames and pipelines
+/// are stamped by one clock, and a pipeline last found before the oldest frame in progress began is
+/// used by none of them.
 
 /// A frame in progress, from before its first pipeline is found until the device has finished with
 /// it. All zero: none.
@@ -27,12 +27,12 @@ typedef struct engine_pipeline_uses {
 void engine_pipeline_uses_create(engine_pipeline_uses *uses);
 void engine_pipeline_uses_destroy(engine_pipeline_uses *uses);
 
-/// Starts a frame; one that is in progress starts again. `use` stays where it is until it ends.
+/// Starts a frame, or restarts one in progress. `use` must not move until it ends.
 void engine_pipeline_use_begin(engine_pipeline_uses *uses, engine_pipeline_use *use);
-/// Nothing happens where it is not in progress.
+/// Does nothing if it is not in progress.
 void engine_pipeline_use_end(engine_pipeline_uses *uses, engine_pipeline_use *use);
 
-/// The start of the oldest frame in progress; UINT64_MAX: there is none.
+/// Returns the start of the oldest frame in progress; UINT64_MAX if there is none.
 uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses);
 
 #endif

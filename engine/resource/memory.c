@@ -6,7 +6,7 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/resource/range_allocator.h"
 
-/// Large enough that blocks are few, small enough that a small scene does not claim much.
+/// Large enough to keep blocks few, small enough not to waste memory on a small scene.
 #define BLOCK_SIZE ((VkDeviceSize)32 << 20)
 
 struct engine_memory_block {
@@ -22,7 +22,7 @@ struct engine_memory_block {
 struct engine_memory {
     lobe_device *device;
     uint64_t limit;        ///< most bytes in blocks; 0: none
-    pthread_mutex_t mutex; ///< around all that follows
+    pthread_mutex_t mutex; ///< protects everything below
     VkPhysicalDeviceMemoryProperties properties;
     VkDeviceSize granularity;        ///< bufferImageGranularity
     VkDeviceSize maximum_allocation; ///< bytes
@@ -35,7 +35,7 @@ lobe_result engine_memory_create(lobe_device *device, uint64_t limit, engine_mem
     *memory = lobe_allocate(device->host.allocator, 1, sizeof **memory);
     if (!*memory)
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "device memory: no host memory to manage it");
+                              "device memory: out of memory");
     (*memory)->device = device;
     (*memory)->limit = limit;
     pthread_mutex_init(&(*memory)->mutex, NULL);
@@ -114,13 +114,13 @@ static uint32_t find_type(const engine_memory *memory, const engine_memory_reque
 }
 
 // ---------------------------------------------------------------------------------------------
-// How much may be taken
+// How much is available
 
 static uint64_t subtract(uint64_t from, uint64_t amount) {
     return from > amount ? from - amount : 0;
 }
 
-/// Bytes that this process may still take from a heap.
+/// Bytes that this process may still allocate from a heap.
 static uint64_t heap_room(const engine_memory *memory, uint32_t heap) {
     if (!memory->device->memory_budget)
         return subtract(memory->properties.memoryHeaps[heap].size, memory->allocated_of_heap[heap]);
@@ -151,13 +151,13 @@ static uint64_t maximum(uint64_t first, uint64_t second) {
 static lobe_result fail_without_room(const engine_memory *memory,
                                      const engine_memory_request *request, uint64_t room) {
     return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                          "'%s': %llu bytes of device memory wanted, %llu may be taken%s",
+                          "'%s' needs %llu bytes of device memory, only %llu are available%s",
                           request->name, (unsigned long long)request->requirements.size,
                           (unsigned long long)room, memory->limit ? " (limited)" : "");
 }
 
-/// A block of the usual size, but enough for the request, and where there is little room a small
-/// part of it: other kinds of memory need their blocks too.
+/// Chooses the usual size, or that of a larger request. When the heap is nearly full it takes only
+/// an eighth of the rest, because other memory types need blocks too.
 static lobe_result choose_block_size(const engine_memory *memory,
                                      const engine_memory_request *request, uint32_t type,
                                      VkDeviceSize *size) {
@@ -196,7 +196,7 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
 static lobe_result fail_host_memory(const engine_memory *memory,
                                     const engine_memory_request *request) {
     return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                          "'%s': no host memory to manage device memory", request->name);
+                          "'%s': out of memory managing device memory", request->name);
 }
 
 static lobe_result add_block(engine_memory *memory, const engine_memory_request *request,
@@ -246,7 +246,7 @@ static bool take_from_block(engine_memory *memory, engine_memory_block *block,
     return true;
 }
 
-/// A block for host access is mapped as a whole, so the two uses of one type are kept apart.
+/// Blocks for host access are mapped as a whole, so the two uses of one type are kept apart.
 static bool block_serves(const engine_memory_block *block, uint32_t type, bool linear,
                          engine_memory_place place) {
     return block->type == type && block->linear == linear &&
@@ -258,8 +258,8 @@ static lobe_result allocate(engine_memory *memory, const engine_memory_request *
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
         return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-                              "'%s': the device has no memory of the needed kind", request->name);
-    // Where tiled images and buffers may be neighbours they share blocks.
+                              "'%s': the device has no suitable memory type", request->name);
+    // With a granularity of 1, tiled images and buffers may share blocks.
     const bool linear = request->linear && memory->granularity > 1;
     for (engine_memory_block *block = memory->blocks; block; block = block->next) {
         if (!block_serves(block, type, linear, request->place))

@@ -8,13 +8,12 @@
 
 #include <lobe/device.h>
 
-/// Device memory, taken from Vulkan in blocks and handed out in pieces of them. Any thread may do
-/// so at any time.
+/// Device memory, allocated from Vulkan in blocks and handed out in pieces. Thread-safe.
 typedef struct engine_memory engine_memory;
 typedef struct engine_memory_block engine_memory_block;
 
 typedef enum engine_memory_place {
-    ENGINE_MEMORY_DEVICE,    ///< fastest for the device; the host does not touch it
+    ENGINE_MEMORY_DEVICE,    ///< fastest for the device; not accessible to the host
     ENGINE_MEMORY_UPLOAD,    ///< mapped and coherent, written by the host once
     ENGINE_MEMORY_READ_BACK, ///< mapped and coherent, cached where possible, read by the host
 } engine_memory_place;
@@ -23,8 +22,8 @@ typedef struct engine_memory_request {
     const char *name; ///< for the error line
     VkMemoryRequirements requirements;
     engine_memory_place place;
-    /// Buffers (and linear images) against optimally tiled images: the two never share a page of
-    /// bufferImageGranularity. A request that will hold both must keep that distance inside.
+    /// True for buffers and linear images, false for optimally tiled images: the two never share a
+    /// page of bufferImageGranularity. A request that will hold both must keep them that far apart.
     bool linear;
 } engine_memory_request;
 

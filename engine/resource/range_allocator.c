@@ -62,8 +62,8 @@ static size_t best_fit(const engine_range_allocator *allocator, uint64_t size, u
 }
 
 bool engine_range_reserve(engine_range_allocator *allocator) {
-    // n taken ranges leave at most n + 1 free ones between them, and one more for a moment while
-    // a range is given back: reserved now, so that giving back never needs memory.
+    // n taken ranges leave at most n + 1 free ones between them, and one more temporarily while
+    // a range is freed: reserve them now, so that freeing never needs memory.
     return reserve(allocator, allocator->taken_count + 3);
 }
 

@@ -7,28 +7,29 @@
 
 #include <lobe/allocator.h>
 
-/// Hands out ranges of a number line [0, size). Knows nothing of what they stand for.
+/// Hands out ranges of [0, size), whatever they stand for.
 typedef struct engine_range {
     uint64_t offset, size;
 } engine_range;
 
 typedef struct engine_range_allocator {
-    engine_range *free; ///< ordered, never touching each other, never empty
+    engine_range *free; ///< ordered, never adjacent, never empty
     size_t free_count, free_capacity;
     size_t taken_count; ///< ranges handed out
     uint64_t size;
 } engine_range_allocator;
 
-/// False without memory of the host, which `host` gives.
+/// False if out of memory.
 bool engine_range_allocator_create(const lobe_allocator *host, uint64_t size,
                                    engine_range_allocator *allocator);
 void engine_range_allocator_destroy(engine_range_allocator *allocator);
 
-/// Makes sure that the next range that is taken needs no memory of the host. False without it.
+/// Reserves host memory so that taking the next range cannot fail for lack of it. False if out of
+/// memory.
 bool engine_range_reserve(engine_range_allocator *allocator);
 
-/// Takes `size` > 0 at a multiple of `alignment` (a power of two) from the free range that is left
-/// with least. False where none is large enough or host memory is short; nothing changes then.
+/// Takes `size` > 0 at a multiple of `alignment` (a power of two) from the best-fitting free range.
+/// False, with nothing changed, if none is large enough or host memory runs out.
 bool engine_range_allocate(engine_range_allocator *allocator, uint64_t size, uint64_t alignment,
                            uint64_t *offset);
 

@@ -11,7 +11,7 @@
 #include "engine/resource/memory.h"
 
 /// Between the calls of lobe/device.h the image is in SHADER_READ_ONLY_OPTIMAL layout, its content
-/// visible to every later submission; whoever changes the layout puts it back. Usage: sampled,
+/// visible to every later submission; code that changes the layout must restore it. Usage: sampled,
 /// transfer source and destination.
 struct lobe_texture {
     lobe_device *device;
@@ -48,10 +48,10 @@ typedef struct engine_image_parameters {
     VkImageCreateFlags flags;
 } engine_image_parameters;
 
-/// Creates an optimally tiled two-dimensional image (named for the debugger) without memory, and
-/// says what memory it needs.
-/// Errors: LOBE_ERROR_LIMIT (extent, levels or layers above what the device allows),
-/// LOBE_ERROR_UNSUPPORTED (the device lacks the usage or sample count for the format).
+/// Creates an optimally tiled two-dimensional image (named for debuggers) without memory, and
+/// returns what memory it needs. Errors: LOBE_ERROR_LIMIT (extent, levels or layers above what the
+/// device allows), LOBE_ERROR_UNSUPPORTED (the device lacks the usage or sample count for the
+/// format).
 lobe_result engine_image_create(lobe_device *device, const engine_image_parameters *parameters,
                                 VkImage *image, VkMemoryRequirements *requirements);
 
@@ -67,13 +67,13 @@ typedef struct engine_view_parameters {
 lobe_result engine_view_create(lobe_device *device, const engine_view_parameters *parameters,
                                VkImageView *view);
 
-/// Creates a buffer without memory, and says what memory it needs.
+/// Creates a buffer without memory, and returns what memory it needs.
 /// Errors: LOBE_ERROR_LIMIT (size above what the device allows for one storage buffer).
 lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDeviceSize size,
                                  VkBufferUsageFlags usage, VkBuffer *buffer,
                                  VkMemoryRequirements *requirements);
 
-/// The same with memory of its own, bound. On failure both are all zero.
+/// Creates a buffer bound to its own memory. On failure both are all zero.
 lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, VkDeviceSize size,
                                         VkBufferUsageFlags usage, engine_memory_place place,
                                         VkBuffer *buffer, engine_allocation *allocation);

@@ -31,7 +31,7 @@ static VkSamplerAddressMode address_mode_of(lobe_wrap_mode mode) {
     }
 }
 
-/// The anisotropy that the device will use for the one asked for; 0: off.
+/// The requested anisotropy, limited to what the device supports; 0: off.
 static float offered_anisotropy(const lobe_device *device, float asked) {
     if (!(asked > 1) || !device->features.core.features.samplerAnisotropy)
         return 0;
@@ -74,7 +74,7 @@ lobe_result engine_sampler_cache_get(lobe_device *device, engine_sampler_cache *
         }
     engine_cached_sampler *added = lobe_allocate(device->host.allocator, 1, sizeof *added);
     if (!added)
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "sampler: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "sampler: out of memory");
     added->settings = offered;
     const lobe_result result = create(device, &offered, &added->sampler);
     if (result != LOBE_OK) {

@@ -5,7 +5,7 @@
 
 #include <lobe/graph.h>
 
-/// Samplers made so far, by their settings. All zero: none.
+/// Samplers by their settings. All zero: none.
 typedef struct engine_sampler_cache {
     struct engine_cached_sampler *samplers;
 } engine_sampler_cache;

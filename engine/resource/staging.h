@@ -8,12 +8,12 @@
 
 #include <lobe/device.h>
 
-/// Most bytes of mapped memory that one upload takes at a time; larger uploads go in several
-/// steps, so that a large texture does not need its size twice.
+/// Most bytes of mapped memory that an upload uses at a time; larger uploads take several steps, so
+/// that a large texture does not need twice its size.
 #define ENGINE_STAGING_STEP ((VkDeviceSize)16 << 20)
 
-/// Fills a buffer and makes the content visible to every later submission. Waits for the device.
-/// `data` NULL: zeroes.
+/// Fills a buffer (with zeros if `data` is NULL) and makes the content visible to every later
+/// submission. Waits for the device.
 lobe_result engine_upload_buffer(lobe_device *device, const char *name, VkBuffer buffer,
                                  VkDeviceSize size, const void *data);
 

@@ -55,7 +55,7 @@ static lobe_result create_view(lobe_texture *texture, VkImageViewType type, VkIm
     return engine_view_create(texture->device, &parameters, view);
 }
 
-/// All the ways in which shaders can look at it: graphs of several threads find them made.
+/// Creates the views that shaders need in advance: graphs of several threads may use the texture.
 static lobe_result create_views(lobe_texture *texture) {
     lobe_result result = create_view(texture, VK_IMAGE_VIEW_TYPE_2D, &texture->view);
     if (result == LOBE_OK)
@@ -75,7 +75,7 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
         lobe_release(*texture);
         *texture = NULL;
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "texture '%s': no host memory", name);
+                              "texture '%s': out of memory", name);
     }
     (*texture)->device = device;
     (*texture)->format = parameters->image->format;
@@ -114,7 +114,7 @@ void lobe_texture_destroy(lobe_texture **texture) {
     if (!*texture)
         return;
     lobe_device *device = (*texture)->device;
-    // A device that is lost has finished, too.
+    // On failure the device is lost, and has finished too.
     (void)engine_device_wait_all(device);
     device->api.vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
     device->api.vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);

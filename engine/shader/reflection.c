@@ -20,7 +20,7 @@ static lobe_result fail_spirv(const reflection *reflection) {
 }
 
 static lobe_result fail_memory(const reflection *reflection) {
-    return lobe_host_fail(reflection->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+    return lobe_host_fail(reflection->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': out of memory",
                           reflection->shader->name);
 }
 
@@ -99,7 +99,7 @@ static lobe_format format_of(SpvImageFormat format) {
     }
 }
 
-/// For blocks `readonly` and `writeonly` are on every member.
+/// In blocks, `readonly` and `writeonly` are decorations of every member.
 static bool block_is_decorated(const reflection *reflection,
                                const spvc_reflected_resource *resource, SpvDecoration decoration) {
     const SpvDecoration *decorations = NULL;
@@ -143,7 +143,7 @@ static void reflect_type(const reflection *reflection, const spvc_reflected_reso
         binding->type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
         spvc_type block =
             spvc_compiler_get_type_handle(reflection->compiler, resource->base_type_id);
-        // A block that is a runtime array alone has no size of its own: 0 stays.
+        // A block that holds only a runtime array has no fixed size: it stays 0.
         spvc_compiler_get_declared_struct_size(reflection->compiler, block, &binding->size);
         return;
     }
@@ -254,7 +254,7 @@ static lobe_result reflect_bindings(const reflection *reflection, spvc_resources
 }
 
 // ---------------------------------------------------------------------------------------------
-// All else
+// Everything else
 
 static void reflect_push_constants(const reflection *reflection, spvc_resources all) {
     const spvc_reflected_resource *found = NULL;

@@ -13,15 +13,15 @@
 typedef struct engine_shader_binding {
     const char *name; ///< of the variable; for blocks, of the block
     uint32_t binding;
-    uint32_t count; ///< array elements; 1 where it is no array
+    uint32_t count; ///< array elements; 1 if it is not an array
     /// UNIFORM_BUFFER, STORAGE_BUFFER, COMBINED_IMAGE_SAMPLER or STORAGE_IMAGE.
     VkDescriptorType type;
     VkShaderStageFlags stages;
     VkImageViewType view; ///< images: 2D, 2D_ARRAY, CUBE, CUBE_ARRAY or 3D
     bool multisampled;    ///< images
-    lobe_format format;   ///< storage images; NONE where the shader does not say or lobe has
+    lobe_format format;   ///< storage images; NONE if the shader does not say or lobe has
                           ///< no such format
-    bool reads, writes;   ///< what `readonly` and `writeonly` leave; samplers only read
+    bool reads, writes;   ///< as `readonly` and `writeonly` allow; samplers only read
     bool used;            ///< the entry point refers to it: a descriptor is needed
     size_t size;          ///< blocks: bytes, without a trailing runtime array
 } engine_shader_binding;
@@ -41,15 +41,14 @@ typedef struct engine_shader {
     uint32_t output_locations; ///< fragment: bit n is set where location n is written
 } engine_shader;
 
-/// A shader as the build embeds it: its words, and what they were made from, so that a build with
-/// hot reload can make them again.
+/// A shader as the build embeds it: its SPIR-V, and what that was compiled from, so that a build
+/// with hot reload can compile it again.
 typedef struct engine_shader_code {
     const char *name; ///< "shading/shading_lobes_aov.frag"
-    /// "shading/shading.frag", relative to the shader folder; NULL: there is none, the words are
-    /// all.
+    /// "shading/shading.frag", relative to the shader folder; NULL: there is only SPIR-V.
     const char *source;
     const char *definitions; ///< "AOV", separated by spaces
-    const char *substitute;  ///< what `#include "filter.glsl"` stands for; "" where nothing
+    const char *substitute;  ///< what `#include "filter.glsl"` stands for; "" if nothing
     const uint32_t *words;
     size_t size; ///< bytes
 } engine_shader_code;
@@ -57,28 +56,5 @@ typedef struct engine_shader_code {
 /// The shaders embedded in the library, from shaders/; ordered by name.
 extern const engine_shader_code engine_embedded_shaders[];
 extern const size_t engine_embedded_shaders_count;
-
-/// The shaders a device knows.
-typedef struct engine_shaders engine_shaders;
-
-/// Starts with the embedded shaders. `folder` is where their sources are; used for hot reload.
-lobe_result engine_shaders_create(lobe_device *device, const char *folder,
-                                  engine_shaders **shaders);
-void engine_shaders_destroy(engine_shaders **shaders);
-
-/// Makes the shaders of a further table known to one device, before those it knows already: for
-/// tests, whose shaders are no part of the library. The table is ordered by name (as strcmp does)
-/// and must outlive the device.
-lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
-                               const char *folder);
-
-/// How many of the shaders in use have a source that changed since they were compiled; 0 without
-/// hot reload.
-size_t engine_shaders_stale(lobe_device *device);
-
-/// Finds a shader by name, ready for use. It lives as long as the device; with hot reload another
-/// one, with another version, is given once its source has changed. LOBE_ERROR_SHADER where there
-/// is none of that name or its source does not compile.
-lobe_result engine_shader_find(lobe_device *device, const char *name, const engine_shader **shader);
 
 #endif

@@ -9,12 +9,12 @@
 
 #include "engine/base/text.h"
 
-/// Deep enough for any sensible nesting; ends files that include each other.
+/// Deep enough for any sensible nesting; stops files that include each other.
 #define MAXIMUM_DEPTH 16
 
 typedef struct source_file {
     char *path;
-    struct timespec changed; ///< all zero: the file was not there
+    struct timespec changed; ///< all zero: the file did not exist
     off_t size;
 } source_file;
 
@@ -46,7 +46,7 @@ static source_file look_at(char *path) {
 }
 
 static lobe_result fail_memory(const expansion *expansion) {
-    return lobe_host_fail(expansion->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': no host memory",
+    return lobe_host_fail(expansion->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': out of memory",
                           expansion->code->name);
 }
 
@@ -85,7 +85,7 @@ void engine_source_files_free(engine_source_files *files) {
 // ---------------------------------------------------------------------------------------------
 // Expanding includes
 
-/// The name in `#include "name"`, copied; false where the line is no such thing.
+/// Copies the name in `#include "name"`; false if the line is not an include.
 static bool parse_include(const char *line, size_t length, char name[PATH_MAX]) {
     char text[PATH_MAX];
     snprintf(text, sizeof text, "%.*s", (int)length, line);
@@ -99,7 +99,7 @@ static bool names_file(const char *folder, size_t length, const char *name, char
     return size < PATH_MAX && stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// Finds the file that an include means.
+/// Finds the file that an include refers to.
 static bool resolve(const expansion *expansion, const char *includer, const char *name,
                     char path[PATH_MAX]) {
     if (!strcmp(name, "filter.glsl") && expansion->code->substitute[0])

@@ -48,7 +48,7 @@ static lobe_result fail(const compilation *compilation, const char *messages) {
     return LOBE_ERROR_SHADER;
 }
 
-/// "AOV FAST" as "#define AOV\n#define FAST\n", to lobe_release. NULL without memory.
+/// "AOV FAST" as "#define AOV\n#define FAST\n", to lobe_release. NULL if out of memory.
 static char *preamble_of(const lobe_allocator *allocator, const char *definitions) {
     engine_text_builder text = {.bytes.allocator = allocator};
     for (const char *name = definitions; *name;) {
@@ -100,7 +100,7 @@ static lobe_result copy_words(const compilation *compilation, engine_shader_word
     uint32_t *copy = lobe_allocate(lobe_host_allocator(compilation->host), count, sizeof *copy);
     if (!copy)
         return lobe_host_fail(compilation->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "shader '%s': no host memory", compilation->code->name);
+                              "shader '%s': out of memory", compilation->code->name);
     glslang_program_SPIRV_get(compilation->program, copy);
     words->words = copy;
     words->count = count;
@@ -112,8 +112,8 @@ static lobe_result compile(compilation *compilation, const char *text, engine_sh
         preamble_of(lobe_host_allocator(compilation->host), compilation->code->definitions);
     if (!preamble)
         return lobe_host_fail(compilation->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "shader '%s': no host memory", compilation->code->name);
-    // Counted: safe beside a host program that uses the compiler, too.
+                              "shader '%s': out of memory", compilation->code->name);
+    // Reference-counted, so it is safe if the host uses the compiler as well.
     glslang_initialize_process();
     lobe_result result = parse(compilation, text, preamble);
     if (result == LOBE_OK)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "shaders/interface/atlas.h"
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering.h"

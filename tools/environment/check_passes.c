@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 
 extern const engine_shader_code environment_shaders[];
 extern const size_t environment_shaders_count;

@@ -8,7 +8,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "engine/shader/words.h"
 #include "third_party/imgui.h"
 #include "tools/viewer/camera.h"

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-#include "engine/shader/shader.h"
+#include "engine/pipeline/pipelines.h"
+#include "engine/shader/shaders.h"
 
 // ---------------------------------------------------------------------------------------------
 // Whether a resource fits a shader's variable

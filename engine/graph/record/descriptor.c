@@ -4,6 +4,7 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/graph/declare/declare.h"
 #include "engine/graph/store/store.h"
+#include "engine/pipeline/pipelines.h"
 
 static const VkDescriptorType types[] = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,

@@ -1,6 +1,7 @@
 #include "engine/graph/store/store.h"
 
 #include "engine/device/vulkan_check.h"
+#include "engine/pipeline/pipelines.h"
 
 static lobe_result create_commands(lobe_graph *graph, engine_graph_flight *flight) {
     lobe_device *device = graph->device;

@@ -10,7 +10,7 @@
 #include <lobe/graph.h>
 #include <lobe/vulkan.h>
 
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/pipelines.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/test_shaders.h"
 #include "tests/engine/support/vulkan_faults.h"

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "engine/device/device.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/pipelines.h"
 #include "engine/resource/resource.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/test_shaders.h"

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/device/device.h"
+#include "engine/resource/memory.h"
 #include "tests/engine/support/log_recorder.h"
 
 #define MEBIBYTE ((VkDeviceSize)1 << 20)

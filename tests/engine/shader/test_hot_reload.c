@@ -11,7 +11,7 @@
 
 #include "engine/device/device.h"
 #include "engine/shader/reflection.h"
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "engine/shader/words.h"
 #include "tests/engine/support/log_recorder.h"
 

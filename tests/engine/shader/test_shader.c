@@ -4,7 +4,7 @@
 
 #include "engine/device/device.h"
 #include "engine/shader/reflection.h"
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/test_shaders.h"
 

@@ -3,7 +3,7 @@
 
 #include <lobe/device.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 
 /// The shaders of tests/engine/shaders, embedded by the build.
 extern const engine_shader_code engine_test_shaders[];

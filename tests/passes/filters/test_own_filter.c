@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "passes/filters/filter.h"
 #include "passes/upload/material_maps.h"
 #include "tests/passes/support/picture.h"

@@ -6,7 +6,7 @@
 #include <lobe/device.h>
 #include <lobe/graph.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "tests/engine/support/cmocka_all.h"
 
 // The shaders of tests/shaders, embedded by the build.

@@ -209,7 +209,7 @@ def test_program_in_c_linked_statically():
 
 def test_hosts_with_vulkan_of_their_own():
     """Shared and static, beside libvulkan and beside a volk; and neither is asked for by lobe."""
-    source = Path(__file__).with_name("vulkan_host.c")
+    source = ROOT / "tests/engine/device/vulkan_host.c"
     static = FOLDER / "static"
     check("-lvulkan" not in flags(static, "--static", "--libs"), "lobe asks for libvulkan")
     for kind, folder, options in (("shared", TARGET, []), ("static", static, ["--static"])):

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 #include "third_party/imgui.h"
 #include "tools/viewer/shaders/display.h"
 #include "tools/viewer/shaders/panel.h"

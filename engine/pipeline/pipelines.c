@@ -1,4 +1,4 @@
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/pipelines.h"
 
 #include <string.h>
 
@@ -10,6 +10,7 @@
 #include "engine/pipeline/layout.h"
 #include "engine/pipeline/raster.h"
 #include "engine/resource/sampler.h"
+#include "engine/shader/shaders.h"
 
 #define STATE_WORDS (6 + ENGINE_MAXIMUM_COLOUR_ATTACHMENTS)
 
@@ -17,7 +18,7 @@
 typedef struct pipeline_key {
     const engine_shader *shaders[ENGINE_MAXIMUM_STAGES]; ///< NULL: none
     uint32_t state[STATE_WORDS];                         ///< raster only
-    lobe_specialisation *specialisation;                 ///< only what the shaders have
+    lobe_specialisation *specialisation;                 ///< only constants that the shaders have
     size_t specialisation_count;
 } pipeline_key;
 
@@ -34,7 +35,7 @@ struct engine_pipelines {
     engine_pipeline_uses uses;
     cached_pipeline *pipelines; ///< the last found first
     uint32_t count;
-    lobe_specialisation *wanted; ///< of the key that is looked for
+    lobe_specialisation *wanted; ///< buffer for the key of the current search
     uint32_t wanted_capacity;
 };
 
@@ -62,11 +63,11 @@ static void set_constant(pipeline_key *key, lobe_specialisation value) {
 }
 
 static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
-    return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': no host memory",
+    return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "pipeline '%s': out of memory",
                           key->shaders[0]->name);
 }
 
-/// Orders the values by id; of several for one id the last counts.
+/// Orders the values by id; the last of several for one id counts.
 static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
                                        size_t count, pipeline_key *key) {
     engine_pipelines *pipelines = device->pipelines;
@@ -121,13 +122,13 @@ static lobe_result find_shader(lobe_device *device, const char *name, VkShaderSt
                                const engine_shader **shader) {
     const lobe_result result = engine_shader_find(device, name, shader);
     if (result == LOBE_OK && (*shader)->stage != stage)
-        return lobe_host_fail(&device->host, LOBE_ERROR_SHADER, "shader '%s' is of another stage",
+        return lobe_host_fail(&device->host, LOBE_ERROR_SHADER, "shader '%s' is for another stage",
                               name);
     return result;
 }
 
 // ---------------------------------------------------------------------------------------------
-// Specialisation as Vulkan wants it
+// Specialisation in Vulkan's form
 
 typedef struct specialisation {
     VkSpecializationInfo information;
@@ -157,7 +158,7 @@ static lobe_result create_specialisation(lobe_device *device, const pipeline_key
 }
 
 // ---------------------------------------------------------------------------------------------
-// Making
+// Creation
 
 static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
     device->api.vkDestroyPipeline(device->vulkan, cached->pipeline.pipeline, device->callbacks);
@@ -242,7 +243,7 @@ static lobe_result create_vulkan(lobe_device *device, const engine_raster_parame
     return result;
 }
 
-/// A key that does not change with the next one that is looked for; false without memory.
+/// Copies a key out of the search buffer; false if out of memory.
 static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, pipeline_key *kept) {
     const size_t size = key->specialisation_count * sizeof *key->specialisation;
     *kept = *key;
@@ -252,8 +253,8 @@ static bool keep_key(const lobe_allocator *allocator, const pipeline_key *key, p
     return kept->specialisation != NULL;
 }
 
-/// Makes room for one more, as far as frames in progress allow. They are in the order of their
-/// last use: what comes after the first that may go may go, too.
+/// Makes room for one more pipeline as far as frames in progress allow. The list is ordered by last
+/// use: everything after the first pipeline that may be destroyed may be destroyed too.
 static void evict(lobe_device *device) {
     engine_pipelines *pipelines = device->pipelines;
     if (pipelines->count < ENGINE_MAXIMUM_PIPELINES)
@@ -270,7 +271,7 @@ static void evict(lobe_device *device) {
     }
 }
 
-/// Makes the pipeline of a key.
+/// Creates the pipeline for a key.
 static lobe_result add(lobe_device *device, const engine_raster_parameters *raster,
                        const pipeline_key *key, const engine_pipeline **pipeline) {
     const lobe_allocator *allocator = device->host.allocator;
@@ -305,7 +306,7 @@ static lobe_result find_or_add(lobe_device *device, const engine_raster_paramete
 }
 
 // ---------------------------------------------------------------------------------------------
-// For others
+// Interface
 
 lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
                                     engine_pipelines **pipelines) {

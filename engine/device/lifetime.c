@@ -6,8 +6,9 @@
 #include "engine/device/instance.h"
 #include "engine/device/selection.h"
 #include "engine/device/vulkan_check.h"
-#include "engine/pipeline/pipeline.h"
-#include "engine/shader/shader.h"
+#include "engine/pipeline/pipelines.h"
+#include "engine/resource/memory.h"
+#include "engine/shader/shaders.h"
 
 // ---------------------------------------------------------------------------------------------
 // The steps of creation, in order
@@ -146,7 +147,7 @@ static void destroy_mutexes(lobe_device *device) {
 lobe_result engine_device_allocate(const lobe_device_parameters *parameters, lobe_device **device) {
     *device = lobe_allocate(lobe_host_allocator(parameters->host), 1, sizeof **device);
     if (!*device)
-        return lobe_host_fail(parameters->host, LOBE_ERROR_OUT_OF_MEMORY, "device: no host memory");
+        return lobe_host_fail(parameters->host, LOBE_ERROR_OUT_OF_MEMORY, "device: out of memory");
     create_mutexes(*device);
     if (parameters->host)
         (*device)->host = *parameters->host;
@@ -186,7 +187,7 @@ lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_de
 }
 
 static void destroy_vulkan(lobe_device *device) {
-    // Of a host's device, what lobe submitted is all that matters. One that is lost has finished.
+    // On a host's device, wait only for lobe's own submissions. A lost device has finished.
     if (!device->imported)
         device->api.vkDeviceWaitIdle(device->vulkan);
     else if (device->timeline)
@@ -239,7 +240,7 @@ lobe_result lobe_device_list(const lobe_device_parameters *parameters,
         goto cleanup;
     *devices = lobe_allocate(lobe_host_allocator(host), *count, sizeof **devices);
     if (!*devices) {
-        result = lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: no host memory");
+        result = lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "Vulkan devices: out of memory");
         goto cleanup;
     }
     for (size_t i = 0; i < *count; i++) {

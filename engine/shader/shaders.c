@@ -1,4 +1,4 @@
-#include "engine/shader/shader.h"
+#include "engine/shader/shaders.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +12,8 @@ typedef struct shader_table {
     struct shader_table *next;
     const engine_shader_code *codes;
     size_t count;
-    char *folder; ///< of the sources; NULL where none is known
-    void *owned;  ///< what `codes` points to; NULL where that outlives the device
+    char *folder; ///< of the sources; NULL if unknown
+    void *owned;  ///< what `codes` points to; NULL if that outlives the device
 } shader_table;
 
 typedef struct loaded_shader {
@@ -39,7 +39,7 @@ static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *
     if (!table || (folder && !(table->folder = lobe_copy_text(allocator, folder)))) {
         lobe_release(table);
         return lobe_host_fail(&shaders->device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "shaders: no host memory");
+                              "shaders: out of memory");
     }
     table->codes = codes;
     table->count = count;
@@ -73,7 +73,7 @@ static const shader_table *library_table(const engine_shaders *shaders) {
 // ---------------------------------------------------------------------------------------------
 // Loading
 
-/// Of the host's shaders there is no source: their words are what they are.
+/// The host's shaders have no source and never change.
 static lobe_result get_words(const engine_shaders *shaders, lobe_log_level level,
                              const engine_shader_folders *folders, const engine_shader_code *code,
                              engine_shader_words *words) {
@@ -116,15 +116,15 @@ static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
     return result;
 }
 
-/// Makes a shader of words; takes them over, in failure too.
+/// Creates a shader from its words and takes ownership of them, even on failure.
 static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
                         engine_shader_words *words, loaded_shader **result_shader) {
     lobe_device *device = shaders->device;
     loaded_shader *loaded = lobe_allocate(device->host.allocator, 1, sizeof *loaded);
     if (!loaded) {
         free_words(code, words);
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "shader '%s': no host memory", code->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': out of memory",
+                              code->name);
     }
     loaded->words = *words;
     loaded->code = code;
@@ -162,8 +162,8 @@ static lobe_result load_first(engine_shaders *shaders, const engine_shader_code 
     return load(shaders, code, &words, loaded);
 }
 
-/// Loads a shader whose source has changed. While the new source does not compile the old shader
-/// goes on, and the next try is when the source changes again.
+/// Reloads a shader whose source has changed. If it does not compile, the old shader stays in use
+/// until the source changes again.
 static lobe_result load_again(engine_shaders *shaders, const engine_shader_code *code,
                               const engine_shader_folders *folders, loaded_shader **loaded) {
     engine_shader_words words;
@@ -178,13 +178,13 @@ static lobe_result load_again(engine_shaders *shaders, const engine_shader_code 
 }
 
 // ---------------------------------------------------------------------------------------------
-// For others
+// Interface
 
 lobe_result engine_shaders_create(lobe_device *device, const char *folder,
                                   engine_shaders **shaders) {
     *shaders = lobe_allocate(device->host.allocator, 1, sizeof **shaders);
     if (!*shaders)
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "shaders: no host memory");
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "shaders: out of memory");
     (*shaders)->device = device;
     const lobe_result result =
         add_table(*shaders, engine_embedded_shaders, engine_embedded_shaders_count,
@@ -219,7 +219,7 @@ lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *co
     return result;
 }
 
-/// Name and words lie behind the code, in one piece of memory.
+/// Allocates the code with its words and name in one block.
 static engine_shader_code *copy_code(const lobe_allocator *allocator, const lobe_shader *shader) {
     const size_t name_size = strlen(shader->name) + 1;
     engine_shader_code *code = lobe_allocate(allocator, 1, sizeof *code + shader->size + name_size);
@@ -240,7 +240,7 @@ static void remove_last_table(engine_shaders *shaders) {
     lobe_release(gone);
 }
 
-/// Takes the code over, in failure too.
+/// Takes ownership of the code, even on failure.
 static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
     engine_shaders *shaders = device->shaders;
     lobe_result result = add_table(shaders, code, 1, NULL);
@@ -249,7 +249,7 @@ static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
         return result;
     }
     shaders->tables->owned = code;
-    // What is wrong with it is told here, not by the first pass that uses it.
+    // Report errors here, not in the first pass that uses it.
     const engine_shader *found;
     result = engine_shader_find(device, code->name, &found);
     if (result != LOBE_OK)
@@ -264,8 +264,8 @@ lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shade
                               shader->name ? shader->name : "");
     engine_shader_code *code = copy_code(device->host.allocator, shader);
     if (!code)
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "shader '%s': no host memory", shader->name);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "shader '%s': out of memory",
+                              shader->name);
     pthread_mutex_lock(&device->found_mutex);
     const lobe_result result = add_code(device, code);
     pthread_mutex_unlock(&device->found_mutex);
