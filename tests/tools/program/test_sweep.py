@@ -313,7 +313,7 @@ def test_a_choice_goes_by_the_environment():
     check(result.returncode == 0 and "1 of 1 choices" in result.stdout, report(result))
     for light in (["--no-lights", "--environment", "sky"], ["--environment", maps[1]]):
         result = picked(folder, *light)
-        check(result.returncode == 1 and "holds measurements of bumps in warm, bumps in cool, bumps"
+        check(result.returncode == 1 and "contains measurements of bumps in warm, bumps in cool, bumps"
               in result.stderr and "in environment" in result.stderr, report(result))
 
 
@@ -363,7 +363,7 @@ def test_interrupted_and_resumed_equals_undisturbed():
 def test_interrupted_in_the_first_scene():
     folder = fresh_folder("first")
     said = interrupt_at("bumps: reference", "bumps", "--json", folder / "a.json")
-    check("holds 0 of 1 scenes" in said, said)
+    check("has 0 of 1 scenes" in said, said)
     results = json.loads((folder / "a.json").read_text())
     check(results["complete"] is False and results["rows"] == [], str(results))
 
