@@ -27,7 +27,8 @@ typedef struct reference_plane_lobe {
 /// Layers of a map.
 uint32_t reference_moment_layers(const reference_moment_bins *partition);
 
-/// The logarithm of the chance that all points of a lobe are a component's, but for a constant.
+/// The logarithm, up to a constant, of the probability that all points of a lobe belong to a
+/// component.
 double reference_bin_likelihood(const struct moment_bin *bin, const double place[2],
                                 double variance);
 /// Two hats across the middle, at `distance` widths from it; and the cap between four of them.

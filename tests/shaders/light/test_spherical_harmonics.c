@@ -26,7 +26,7 @@ static void coefficients_of(const harness_arguments *at, double coefficients[REF
         coefficients[i] = coefficient(at, i);
 }
 
-// Of either sign but for the constant one, which is large enough that no sum is negative.
+// Of either sign, except the constant one, which is large enough to keep every sum positive.
 static void random_coefficients(uint64_t *random, harness_arguments *at) {
     at->a[3] = 8;
     for (int i = 0; i < 8; i++)

@@ -32,7 +32,7 @@ static void make_arguments(lobe_material_model model, lobe_distribution distribu
     }
 }
 
-/// The bell has the peak of the lobe, but for GGX of alpha^2 above 0.9.
+/// The bell has the peak of the lobe, except for GGX with alpha^2 above 0.9.
 static void check_lobe(lobe_material_model model, lobe_distribution distribution,
                        const harness_arguments *at, const float *value) {
     double parameter = at->a[0];

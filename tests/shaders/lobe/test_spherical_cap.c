@@ -42,7 +42,7 @@ static double depth(const harness_arguments *at, int column) {
     return reference_dot(centre, axis) - cos(at->a[3]);
 }
 
-/// Exactly the texels within are named, but for caps as large as a hemisphere, which name all.
+/// Exactly the texels inside are named; caps as large as a hemisphere name all.
 static void test_texels(void **state) {
     make_caps();
     harness_evaluate(state, "lobe/spherical_cap.comp", 0, arguments, COUNT, results);

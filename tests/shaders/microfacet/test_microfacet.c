@@ -153,7 +153,7 @@ static void test_weak_white_furnace(void **state) {
 }
 
 // Blinn-Phong and von Mises-Fisher are masked as if they were Beckmann (Walter et al. 2007, section
-// 5.2), which is no more than close: the smoother, the closer.
+// 5.2), which is approximate: the smoother, the closer.
 static void test_weak_white_furnace_of_borrowed_masking(void **state) {
     static const double angles[] = {0.01, 0.5, 1.0, 1.3};
     for (uint32_t distribution = LOBE_DISTRIBUTION_BLINN_PHONG;

@@ -118,9 +118,9 @@ class Window:
 
     def foretell(self, *lines):
         """What window_faults.c does from now on."""
-        told = FAULT.with_suffix(".new")
-        told.write_text("".join(f"{line}\n" for line in lines))
-        told.rename(FAULT)
+        changed = FAULT.with_suffix(".new")
+        changed.write_text("".join(f"{line}\n" for line in lines))
+        changed.rename(FAULT)
 
     def meets(self, line, *words):
         """Events during which a function of Vulkan fails, or monitors change."""

@@ -97,10 +97,10 @@ def test_filtered_light_is_kept_for_the_next_time():
     check(len(kept) == 1, f"{kept}")
     whole = kept[0].read_bytes()
     kept[0].write_bytes(whole[:-100])
-    result = draw("anew.png", "--cache", kept[0].parent, found=False)
+    result = draw("rebuilt.png", "--cache", kept[0].parent, found=False)
     check("will be replaced" in result.stderr, report(result))
     check(kept[0].read_bytes() == whole, "the damaged file was not replaced")
-    pictures = [png_read(folder / name) for name in ("plain.png", "found.png", "anew.png")]
+    pictures = [png_read(folder / name) for name in ("plain.png", "found.png", "rebuilt.png")]
     check(pictures[0] == pictures[1] == pictures[2], "pictures differ")
 
 

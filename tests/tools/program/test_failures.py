@@ -54,7 +54,7 @@ def test_output_with_too_long_a_name():
 
 
 def test_unwritable_output_is_told_before_work():
-    # A scene that does not exist would be the next thing to be told.
+    # A scene that does not exist would be the next error.
     fails("render", "no-such-scene", *DIRECT, "-o", "none/a.exr", says="none/a.exr")
     fails("bench", "no-such-scene", "--json", "none/a.json", says="none/a.json")
 

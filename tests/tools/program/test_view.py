@@ -37,7 +37,7 @@ def screen():
 
 def window():
     """One for most cases: starting takes longest. Its panel is hidden. What the validation layer
-    finds is told when it closes."""
+    finds is reported when it closes."""
     if "window" not in STATE:
         STATE["folder"] = fresh_folder("recorded")
         STATE["window"] = Window(screen(), "checkerboard", "--size", TEXT, "--samples", 2,
@@ -466,7 +466,7 @@ def test_saved_shaders_are_seen():
     check(largest_difference(seen(), swapped) == 0, "red and blue have not changed places")
     after = seen()
     save("shading/shading.frag", line.replace("value", "value.bgr"), "radiance_out = nothing;")
-    check(comes(lambda: "shading.frag:" in hot.said()), f"no mistake is told: {hot.said()}")
+    check(comes(lambda: "shading.frag:" in hot.said()), f"no error is shown: {hot.said()}")
     check(comes(lambda: seen() != after), "no mistake is shown")
     check(seen()[:SIZE[1] // 2] == after[:SIZE[1] // 2], "the old shader is gone")
     save("shading/shading.frag", "radiance_out = nothing;", line)
