@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks who includes whom: a folder may include only what is below it; Vulkan stays inside engine/
-and out of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes. Checks
-who allocates: in the library, everything but one file uses the host's allocator. Prints each line
-that breaks a rule and fails if there is one. Also fails if it does not find the faults of a small
-tree that breaks each rule."""
+and out of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes; what
+a filter has in a folder of its own stays there. Checks who allocates: in the library, everything but
+one file uses the host's allocator. Prints each line that breaks a rule and fails if there is one.
+Also fails if it does not find the faults of a small tree that breaks each rule."""
 
 import re
 import sys
@@ -33,8 +33,12 @@ OWNED = {
 # Vulkan, neither directly nor through our own headers.
 ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
 # Folders in which no file may include itself through others. A header and its source count as one.
-ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/", "passes/environment/",
-           "passes/filters/", "passes/maps/", "passes/renderer/", "scenes/", "tools/")
+ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/", "passes/", "scenes/", "tools/")
+# Files that may not include headers of the folders named, in the same library: the upload of a scene
+# knows no filter, and what a filter has in a folder of its own is the filter's alone.
+UNAWARE = {"passes/upload/": ("passes/environment/", "passes/filters/", "passes/maps/",
+                              "passes/renderer/")}
+PRIVATE = ("passes/filters/lobes/", "passes/filters/moments/")
 VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")
 
 # Functions of the C library that allocate or free memory, and where they may be called.
@@ -114,6 +118,15 @@ def check_room(root, path, public):
     return faults
 
 
+def check_private(relative, text):
+    """Headers that belong to others, among what a file of the library includes."""
+    forbidden = [folder for folder in PRIVATE if not relative.startswith(folder)]
+    for folder, others in UNAWARE.items():
+        forbidden += others if relative.startswith(folder) else ()
+    return [f"{relative} includes {name}: it may not know {folder}"
+            for _, name in INCLUDE.findall(text) for folder in forbidden if name.startswith(folder)]
+
+
 def include_graph(root, paths, public):
     """For each file of the tree, without its suffix, those that it includes."""
     graph = {}
@@ -156,7 +169,8 @@ def check_file(root, path, public):
     relative = path.relative_to(root).as_posix()
     folder = relative.split("/")[0]
     text = path.read_text()
-    faults = check_memory(relative, text) + check_room(root, path, public)
+    faults = (check_memory(relative, text) + check_room(root, path, public) +
+              check_private(relative, text))
     for quote, name in INCLUDE.findall(text):
         target = target_of(root, path, quote, name, public)
         if not allowed(folder, target):
@@ -195,6 +209,10 @@ FAULTY = {
     "engine/graph/cycle.c": ('#include "engine/graph/store/tie.h"', "includes itself"),
     "engine/graph/cycle.h": ("#include <stdint.h>", None),
     "engine/graph/store/tie.h": ('#include "engine/graph/cycle.h"', "includes itself"),
+    "passes/filters/lobes/part.h": ("#include <stdint.h>", None),
+    "passes/filters/lobes/whole.c": ('#include "passes/filters/lobes/part.h"', None),
+    "passes/renderer/curious.c": ('#include "passes/filters/lobes/part.h"', "may not know passes/"),
+    "passes/upload/curious.c": ('#include "passes/maps/map.h"', "may not know passes/maps/"),
     "passes/upward.c": ('#include "engine/resource/memory.h"', "may not know engine"),
     "passes/vulkan.c": ("#include <vulkan/vulkan.h>", "not for passes/"),
 }

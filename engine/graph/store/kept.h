@@ -12,7 +12,6 @@
 #include "engine/graph/plan/alias.h"
 #include "engine/graph/plan/dependency_graph.h"
 #include "engine/pipeline/use.h"
-#include "engine/pipeline/use.h"
 #include "engine/resource/resource.h"
 
 /// What a graph keeps between frames: Vulkan objects, their memory, and stamps of their content.
