@@ -7,7 +7,7 @@ import sys
 import zlib
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/tools/program"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/tools/program/support"))
 import screen  # noqa: E402
 
 WIDTH, HEIGHT = 960, 560
