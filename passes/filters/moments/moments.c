@@ -164,8 +164,8 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
 // ---------------------------------------------------------------------------------------------
 // Maps
 
-static void specialise_bins(const filter_context *context, const moment_partition *partition,
-                            bool colour, filtered_appearance *appearance) {
+static void specialise_bins(const moment_partition *partition, bool colour,
+                            filtered_appearance *appearance) {
     passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
     passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
 }
@@ -173,7 +173,7 @@ static void specialise_bins(const filter_context *context, const moment_partitio
 static moment_map build_moments(const filter_context *context, uint32_t material,
                                 const prepared_moments *prepared, filtered_appearance *appearance) {
     bool colour = has_bin_colour(context, &context->scene->materials[material]);
-    specialise_bins(context, &prepared->partition, colour, appearance);
+    specialise_bins(&prepared->partition, colour, appearance);
     return passes_moment_binning(context, material, &prepared->partition, format_of(context),
                                  colour, colour ? prepared->largest_colour : 1);
 }

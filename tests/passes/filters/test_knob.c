@@ -98,10 +98,10 @@ static uint32_t drawn_with(fixture *f, uint32_t id) {
     const lobe_graph *graph = lobe_renderer_graph(f->renderer);
     uint32_t value = 0;
     size_t count = 0;
-    for (uint32_t i = 0; i < graph->dependencies.pass_count; i++) {
-        if (strcmp(graph->passes[i]->name, "shading") != 0)
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        if (strcmp(graph->frame.passes[i]->name, "shading") != 0)
             continue;
-        const lobe_draw *drawn = &graph->passes[i]->first_command->draw;
+        const lobe_draw *drawn = &graph->frame.passes[i]->first_command->draw;
         for (size_t j = 0; j < drawn->specialisation_count; j++) {
             if (drawn->specialisation[j].id == id) {
                 value = drawn->specialisation[j].bits;
