@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "passes/filters/knob_values.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/camera.h"
 #include "passes/renderer/material_specialisation.h"

@@ -15,9 +15,9 @@
 // [last]          where bins have colours: mean of the diffuse colour
 #define MOMENT_MAXIMUM_BINS 6
 
-#define SPECIALISE_BINS        (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
-#define SPECIALISE_PARTITION   (SPECIALISE_FILTER + 33) // uint, PARTITION_...
-#define SPECIALISE_BIN_COLOUR  (SPECIALISE_FILTER + 34) // bool: bins have colours
+#define SPECIALISE_BINS       (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
+#define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 33) // uint, PARTITION_...
+#define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 34) // bool: bins have colours
 
 // Numbers of the filter's knobs (see knobs.h).
 struct moments_knobs {

@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "passes/filters/knob_values.h"
 #include "passes/filters/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/renderer/material_specialisation.h"

@@ -7,6 +7,7 @@
 #include "engine/graph/state.h"
 #include "engine/shader/shader.h"
 #include "passes/filters/filter.h"
+#include "passes/filters/knob_values.h"
 #include "passes/filters/shared_knobs.h"
 #include "passes/maps/filtered_maps.h"
 #include "tests/passes/support/picture.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "passes/filters/filter.h"
+#include "passes/filters/knob_values.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
 #include "tests/engine/support/vulkan_faults.h"

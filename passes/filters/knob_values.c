@@ -1,6 +1,5 @@
-#include "passes/filters/knob.h"
+#include "passes/filters/knob_values.h"
 
-#include "passes/filters/filter.h"
 #include "passes/filters/shared_knobs.h"
 #include "shaders/interface/knobs.h"
 

@@ -1,0 +1,27 @@
+#ifndef PASSES_FILTERS_KNOB_VALUES_H
+#define PASSES_FILTERS_KNOB_VALUES_H
+
+#include <lobe/graph.h>
+
+#include "passes/filters/filter.h"
+#include "passes/renderer/material_specialisation.h"
+
+/// The knob's value in this frame; its default where the filter does not have the knob. For a
+/// choice the index.
+double passes_knob_value(const filter_context *context, const filter_knob *knob);
+/// The same, of a choice or an integer.
+uint32_t passes_knob_choice(const filter_context *context, const filter_knob *knob);
+
+/// Sets the constant that one knob feeds: for passes that prepare maps.
+void passes_knob_specialise(const filter_context *context, const filter_knob *knob,
+                            specialisation_list *list);
+
+/// Sets the constants that the filter's knobs feed in the shading pass.
+void passes_knobs_specialise(const filter_context *context, specialisation_list *list);
+/// Uploads the numbers that the filter's knobs feed and binds them to the shading pass.
+void passes_knobs_bind(const filter_context *context, lobe_pass *pass);
+
+/// All knobs of a filter: its own, then the shared ones. NULL past the last.
+const filter_knob *passes_filter_knob(const lobe_filter *filter, size_t index);
+
+#endif
