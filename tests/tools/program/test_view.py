@@ -378,7 +378,7 @@ def test_surface_and_device_may_be_lost():
         window().do("key", "c", "key", "c", "key", "Home")
         said = window().said()[said:]
         check(seen() == before, f"{function}: looks other than before")
-        check(said.count("VK_ERROR_DEVICE_LOST") <= 2 and said.count("opened again") == 1, said)
+        check(said.count("VK_ERROR_DEVICE_LOST") <= 2 and said.count("reopening it") == 1, said)
     return None
 
 
