@@ -3,7 +3,8 @@
 
 #include <lobe/filter.h>
 
-/// Every value is one that its knob allows; else one line and LOBE_ERROR_INVALID_ARGUMENT.
+/// Checks every value against its knob. LOBE_ERROR_INVALID_ARGUMENT with one line for the first
+/// that is not allowed.
 lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings *settings,
                                   const lobe_host *host);
 

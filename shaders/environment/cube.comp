@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The six faces of an environment from its image: each texel is the mean radiance over its solid
-// angle, of many subsamples that are a quarter of the image's texels apart at most. A sun of two
-// texels keeps its energy to 2e-4, next to the poles to 5e-3.
+// Builds the six faces of an environment from its image. Each texel is the mean radiance over its
+// solid angle, from subsamples at most a quarter of an image texel apart. A sun of two texels keeps
+// its energy to 2e-4, next to the poles to 5e-3.
 
 #include "interface/environment.h"
 #include "lib/light/cube_texel.glsl"
@@ -22,7 +22,7 @@ layout(push_constant) uniform constants_block { environment_cube_constants const
 // half-width w. With w growing by 1/16 a row no row gains or loses more than 1/768 of its energy.
 const float TRANSITION_GROWTH = 1.0 / 16.0;
 
-// Moves a position so that bilinear interpolation has its transition between two rows in this width.
+// Moves a position so that bilinear interpolation between two rows blends over this width only.
 float position_between_rows(float position, float rows) {
     float boundary = round(position);
     float from_pole = min(boundary, rows - boundary);
@@ -30,8 +30,8 @@ float position_between_rows(float position, float rows) {
     return boundary + clamp(0.5 * (position - boundary) / half_width, -0.5, 0.5);
 }
 
-// Mean over the longitudes around a subsample, near the poles many columns, with weights that fall
-// to nothing at the neighbouring subsamples: however narrow a column is, none is missed.
+// Mean over the longitudes around a subsample, which are many columns near the poles. The weights
+// fall to zero at the neighbouring subsamples, so that no column is missed, however narrow.
 vec3 radiance_at_latitude(vec3 direction, float size) {
     vec2 extent = vec2(textureSize(image, 0));
     vec2 position = latitude_longitude(direction);
@@ -56,7 +56,7 @@ vec3 radiance_on_face(int face, vec2 point) {
     vec2 corner = place.origin.xy - abs(place.right_down.xy) - abs(place.right_down.zw);
     vec2 position =
         place.origin.xy + point.x * place.right_down.xy + point.y * place.right_down.zw;
-    // No texel of a neighbour on the image may come in.
+    // Texels of the neighbouring face on the image must not leak in.
     position = clamp(position, corner + 0.5, corner + float(constants.face_texels) - 0.5);
     if (constants.nearest != 0u)
         position = floor(position) + 0.5;
@@ -71,8 +71,9 @@ vec3 radiance(int face, vec2 point, float size) {
 
 const int LEAST_SUBSAMPLES = 4, POLAR_SUBSAMPLES = 6;
 
-// Seen from within, texels shrink towards the edges of a face, and need fewer subsamples of latitude
-// and longitude there; next to the poles, where rows have narrow transitions, they need more.
+// Seen from within, texels shrink towards the edges of a face, and need fewer subsamples of
+// latitude and longitude there; next to the poles, where rows have narrow transitions, they need
+// more.
 int subsample_count(int face, vec2 centre) {
     int count = int(constants.subsamples);
     if (constants.latitude_longitude == 0u)
@@ -85,10 +86,10 @@ int subsample_count(int face, vec2 centre) {
     return length(direction.xz) * shrinking < polar ? POLAR_SUBSAMPLES * count : count;
 }
 
-// Points of a texel in [0, 1]^2: a grid where the image has one just as fine, else a Fibonacci
-// lattice (Zaremba, 1966, Good Lattice Points, Discrepancy, and Numerical Integration). It goes on
-// from texel to texel as a grid does, but has no rows along which the image's own could fall in step
-// with it: sums over the hats of bilinear interpolation are then right to a thousandth.
+// Points of a texel in [0, 1]^2: a grid where the image has an equally fine one, otherwise a
+// Fibonacci lattice (Zaremba, 1966, Good Lattice Points, Discrepancy, and Numerical Integration).
+// The lattice continues from texel to texel as a grid does, but has no rows that could alias with
+// the image's: sums over the hats of bilinear interpolation are accurate to a thousandth.
 struct point_set {
     int count, step; // step: that of the lattice; 0: a grid
     int side;        // of the grid
@@ -118,7 +119,7 @@ void main() {
     vec2 low = vec2(2 * position.xy - size) / float(size);
     point_set set = points_for(subsample_count(position.z, low + 0.5 * texel));
     float spacing = texel * inversesqrt(float(set.count));
-    // Means are taken of differences to one of the values: a constant stays exactly what it is.
+    // Averages differences to one of the values, so that a constant is reproduced exactly.
     vec3 base = radiance(position.z, low + texel * point_at(set, 0), spacing);
     vec4 sum = vec4(0.0);
     for (int i = 0; i < set.count; ++i) {

@@ -1,16 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A microfacet distribution's albedo, for each cosine to the viewer and roughness: the integral of
-// what shading multiplies radiance by (lib/microfacet.glsl) over all directions of incidence above
+// A microfacet distribution's albedo for each cosine to the viewer and roughness: the integral of
+// the reflectance times cosine (lib/microfacet/microfacet.glsl) over all incoming directions above
 // the surface.
 //   x, y: reflectance is F_0 x + F_90 y, Schlick's Fresnel term being F_0 (1 - f) + F_90 f with
 //         f = (1 - <omega_i, omega_h>)^5;
-//   z:    mean of f over the cosine of incidence, which is what the Lambert part loses to F;
-//   w:    mean of x + y over the cosine to the viewer, times that cosine: the albedo of a roughness
-//         for even light. The same in all of a row.
+//   z:    mean of f weighted by the cosine of incidence: what the Lambert part loses to F;
+//   w:    mean of x + y weighted by the cosine to the viewer: the albedo for this roughness under
+//         uniform light. The same for a whole row.
 //
-// Quadrature, the same for all distributions: 384 half vectors, error below 3e-4 everywhere.
+// The quadrature is the same for all distributions: 384 half vectors, error below 3e-4 everywhere.
 
 #include "interface/directional_albedo.h"
 #include "lib/lobe/base_lobe.glsl"
@@ -18,7 +18,7 @@
 
 layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBUTION_GGX;
 
-// A row is a group.
+// One workgroup per row.
 layout(local_size_x = DIRECTIONAL_ALBEDO_SIZE) in;
 
 layout(set = 0, binding = 0) uniform writeonly image2D directional_albedo;
@@ -27,7 +27,7 @@ shared float row[DIRECTIONAL_ALBEDO_SIZE];
 
 const int RINGS = 48, AZIMUTHS = 8;
 
-// The midpoint rule on [0, 1] with points crowded at both ends, where the integrand may bend:
+// The midpoint rule on [0, 1] with points concentrated at both ends, where the integrand may bend:
 //   s = t^3 (10 - 15 t + 6 t^2)
 // x: a point, y: its weight.
 vec2 crowded_point(int i, int count) {
@@ -58,11 +58,12 @@ float fifth_power(float x) {
     return square * square * x;
 }
 
-// What half vectors of one ring reflect: parts of F_0 and of F_90, over the azimuth.
+// Reflection by the half vectors of one ring, integrated over the azimuth: the factors of F_0 and
+// F_90.
 //
-// Light from below the horizon is left out by ending at the azimuth beyond which there is no
-// other: cos(azimuth) = limit/across. With sin(azimuth/2) = m sin(tau), m being its largest, the
-// integrand is smooth and periodic in tau, and few points do.
+// The azimuth range ends where incoming light would be below the horizon: cos(azimuth) =
+// limit/across. With sin(azimuth/2) = m sin(tau), where m is its largest value, the integrand is
+// smooth and periodic in tau, so that few points suffice.
 vec2 reflected_by_ring(vec3 ring, float outgoing_cosine, float outgoing_sine, float parameter) {
     float across = outgoing_sine * ring.y;
     float limit = outgoing_cosine * (0.5 / ring.x - ring.x);
@@ -73,7 +74,7 @@ vec2 reflected_by_ring(vec3 ring, float outgoing_cosine, float outgoing_sine, fl
     for (int i = 0; i < AZIMUTHS; ++i) {
         float s = 0.5 - 0.5 * cos(PI / float(AZIMUTHS) * (float(i) + 0.5));
         float c = 1.0 - s;
-        // Of the azimuth by tau, both halves of the circle.
+        // Derivative of the azimuth by tau, for both halves of the circle.
         float weight = sqrt(m_squared * c / (c + (1.0 - m_squared) * s)) * 2.0 * PI /
                        float(AZIMUTHS);
         float facing = across * (1.0 - 2.0 * m_squared * s) + outgoing_cosine * ring.x;
@@ -101,7 +102,7 @@ vec2 specular_parts(float outgoing_cosine, float roughness) {
     return sum;
 }
 
-// Mean of (1 - <omega_i, omega_h>)^5 over directions of incidence as Lambert's law weights them:
+// Mean of (1 - <omega_i, omega_h>)^5 over incoming directions, weighted by Lambert's law:
 // <omega_i, omega_h> is the cosine of half the angle between omega_i and omega_o.
 float diffuse_part(float outgoing_cosine) {
     const int elevations = 16, azimuths = 16;
@@ -121,7 +122,7 @@ float diffuse_part(float outgoing_cosine) {
 }
 
 // With u the square root of the cosine: integral of 2 cos d cos = integral of 4 u^3 du, by the
-// trapezoidal rule. Divided by what it makes of 1.
+// trapezoidal rule, divided by the rule's result for 1.
 float mean_of_row() {
     float sum = 0.0, whole = 0.0;
     for (int i = 1; i < DIRECTIONAL_ALBEDO_SIZE; ++i) {

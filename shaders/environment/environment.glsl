@@ -15,12 +15,12 @@ layout(constant_id = SPECIALISE_ENVIRONMENT_GRID) const uint ENVIRONMENT_GRID = 
 layout(constant_id = SPECIALISE_ENVIRONMENT_BLENDED) const bool ENVIRONMENT_BLENDED = false;
 layout(constant_id = SPECIALISE_HORIZON) const uint HORIZON = HORIZON_CLIPPED;
 
-// Levels hold means over texels; the same without interpolation, and as an array of faces, to read
-// texels by their number.
+// Levels hold means over texels. The same cube is bound three times: without interpolation, with
+// it, and as an array of faces to read texels by index.
 layout(set = 0, binding = 23) uniform samplerCube environment_texels;
 layout(set = 0, binding = 24) uniform samplerCube environment_cube;
 layout(set = 0, binding = 25) uniform sampler2DArray environment_faces;
-// Levels hold the environment seen through broader and broader lobes.
+// Levels hold the environment filtered with broader and broader lobes.
 layout(set = 0, binding = 26) uniform samplerCube prefiltered_environment;
 layout(set = 0, binding = 27) uniform samplerCube prefiltered_environment_ggx;
 // The same levels of lobes twice as concentrated.
@@ -50,8 +50,8 @@ vec3 environment_mean(vec3 direction, float solid_angle) {
     return environment.intensity * textureLod(environment_cube, direction, level).rgb;
 }
 
-// What a lobe of half vectors is: its shape, and the kind and parameter of the base lobe where it is
-// one, DISTRIBUTION_VMF where it is a Gaussian.
+// A lobe of half vectors: its shape; for a base lobe also the kind and parameter, for a Gaussian
+// DISTRIBUTION_VMF.
 struct half_vector_distribution {
     direction_lobe shape;
     uint kind;
@@ -65,7 +65,7 @@ vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axi
                       mip_level(environment_width(), exponent)).rgb;
 }
 
-// Whether a round lobe is read from two cubes. Of GGX lobes there is but one.
+// Whether a round lobe is read from two cubes. For GGX lobes there is only one.
 bool is_blended(uint kind) {
     return ENVIRONMENT_BLENDED && kind != DISTRIBUTION_GGX;
 }
@@ -80,7 +80,7 @@ float finest_concentration(uint kind, float width) {
     return prefiltered_concentration(width, 0.0) * (is_blended(kind) ? 2.0 : 1.0);
 }
 
-// The environment through a round lobe.
+// Mean radiance over a round lobe.
 vec3 prefiltered_radiance(uint kind, vec3 direction, prefiltered_blend levels) {
     if (kind == DISTRIBUTION_GGX)
         return textureLod(prefiltered_environment_ggx, direction, levels.level).rgb;
@@ -91,10 +91,10 @@ vec3 prefiltered_radiance(uint kind, vec3 direction, prefiltered_blend levels) {
     return radiance;
 }
 
-// An elongated lobe is a row of round ones, of Gaussian weights: n at distances of
-// sqrt(12/(n + 1)) have a variance of one (to 7 %), and overlap without a ripple as long as they
-// are half as broad as they are apart. Those conditions say how many it takes, and how broad they
-// have to be where there are not as many.
+// An elongated lobe is approximated by a row of round ones with Gaussian weights: n of them at
+// distances of sqrt(12/(n + 1)) have a variance of one (to 7 %), and overlap without ripple as long
+// as each is at least half as broad as their distance. This determines how many are needed, and how
+// broad they must be if fewer are allowed.
 vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) {
     direction_lobe lobe = principal_lobe(incoming);
     float major = dot(lobe.first, lobe.first);
@@ -115,7 +115,7 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
         sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), levels);
         weights += weight;
     }
-    // Lobes too sharp for the finest level are, in part, the radiance itself.
+    // Lobes sharper than the finest level blend towards the unfiltered radiance.
     float unfiltered = count > 1.0 ? 0.0
                                    : radiance_share(finest_concentration(kind, width),
                                                     environment_width(), concentration);
@@ -123,7 +123,7 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
     return mix(sum / weights, radiance, unfiltered);
 }
 
-// Mean radiance over the incoming lobe that belongs to a lobe of half vectors.
+// Mean radiance over the lobe of incoming directions that corresponds to a lobe of half vectors.
 vec3 lobe_radiance(surface_point surface, half_vector_distribution lobe, direction_lobe incoming) {
     vec3 mean = ENVIRONMENT_METHOD == ENVIRONMENT_MIP
                     ? mip_radiance(surface, lobe, incoming.axis)

@@ -2,8 +2,8 @@
 #define ENVIRONMENT_INTEGRAL_GLSL
 
 // The exact integral over an environment: every texel of the cube (of the level that is bound, see
-// passes/environment/light.c) is a light in its direction.
-// Included after the filter, whose evaluation it goes through.
+// passes/environment/light.c) is treated as a directional light.
+// Included after the filter, whose functions evaluate each light.
 
 #include "environment/environment.glsl"
 #include "lib/light/cube_texel.glsl"
@@ -13,7 +13,7 @@ struct environment_texel {
     vec3 irradiance; // perpendicular to it
 };
 
-// Texel `index` of all six faces in order; none beyond them.
+// Texel `index`, counted through all six faces in order; no irradiance past the last one.
 environment_texel texel_light(surface_point surface, mat3 tangent_from_environment, int index) {
     int size = textureSize(environment_faces, 0).x;
     int face = index / (size * size);

@@ -3,14 +3,14 @@
 
 #include "interface/irradiance_harmonics.h"
 
-// Sums of harmonics over the invocations of a group, by halves: always in the same order, and
-// rounded log2(64) times only.
+// Sums of harmonics over the invocations of a group by repeated halving: always in the same order,
+// and with only log2(64) roundings.
 
 layout(local_size_x = HARMONICS_GROUP_SIZE) in;
 
 shared vec4 sums[HARMONICS][HARMONICS_GROUP_SIZE];
 
-// The group's sum goes to the first invocation's own. All invocations must call it.
+// Leaves the group's sum in the first invocation's values. All invocations must call it.
 void add_up_group(inout vec4 own[HARMONICS]) {
     uint local = gl_LocalInvocationID.x;
     for (int i = 0; i < HARMONICS; ++i)

@@ -3,7 +3,7 @@
 
 // Second step: the sum of all groups, and from radiance to irradiance. Ramamoorthi, Hanrahan, 2001,
 // Eq. 8: E_lm = A_l L_lm, with the window's factor already in A_l. The sum of all solid angles is
-// 4 pi but for rounding, which a constant environment need not show.
+// 4 pi up to rounding; dividing by it keeps that rounding out of a constant environment.
 
 #include "environment/irradiance_harmonics.glsl"
 #include "lib/number/constants.glsl"

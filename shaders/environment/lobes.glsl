@@ -39,19 +39,19 @@ half_vector_distribution round_half_vectors(vec3 axis, float concentration, vec3
         isotropic_lobe(axis, inversesqrt(max(concentration, 1e-2)), outgoing), DISTRIBUTION_VMF);
 }
 
-// A half vector of the lobe, and what it stands for: its weight (the weights' sum is not one), and
-// the solid angle around it.
+// A sample of the lobe: a half vector, its weight (weights are not normalised), and the solid angle
+// that it represents.
 struct half_vector_sample {
     vec3 half_vector;
     float weight;
     float solid_angle;
 };
 
-// Dupuy et al., 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, Algorithm 1:
-// a grid in units of standard deviations, on the plane that touches the sphere at the axis. Samples
-// see means over their cells, of variance 1/12, through linear interpolation, of 1/6 cells: with N
-// samples a side at this distance (to 1 %) their variance and that of the samples make one. For
-// N = 5 it is 0.85; Dupuy et al. took 0.9.
+// Dupuy et al., 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, Algorithm
+// 1: a grid in units of standard deviations, on the plane that touches the sphere at the axis. Each
+// sample reads the mean over its cell (variance 1/12 cells) with linear interpolation (variance 1/6
+// cells). With N samples a side, this spacing makes these variances and that of the samples add up
+// to one (to 1 %). For N = 5 it is 0.85; Dupuy et al. used 0.9.
 float grid_spacing() {
     return 6.37 / (float(ENVIRONMENT_GRID) + 2.52);
 }
@@ -91,7 +91,7 @@ half_vector_sample sample_of(half_vector_distribution lobe, uint j, uint k) {
                                          : gaussian_sample(lobe.shape, j, k);
 }
 
-// What a sample sees: the mean over the directions that its half vectors reflect.
+// The mean radiance over the directions that a sample's half vectors reflect.
 vec3 sample_radiance(surface_point surface, half_vector_sample point, vec3 incoming) {
     float jacobian = 4.0 * abs(dot(surface.outgoing, point.half_vector));
     return environment_mean(to_environment(surface, incoming), jacobian * point.solid_angle);
@@ -104,7 +104,7 @@ bool above_horizon(vec3 incoming) {
 // ---------------------------------------------------------------------------------------------
 // Half-vector lobes, of area one: the integral of rho(h) L(i) di = rho(h) L(i) 4 <o, h> dh
 
-// As many samples along each side of the grid; none: no light.
+// The sum over the samples of the grid; zero if none of them reflects light.
 vec3 sampled_half_vectors(surface_point surface, half_vector_distribution lobe, uint side) {
     vec3 sum = vec3(0.0);
     float weights = 0.0;
@@ -128,12 +128,13 @@ float mean_half_cosine(direction_lobe lobe, vec3 outgoing) {
     float spread = a * a + b * b;
     // A broad lobe's mean direction is shorter than one: R(kappa), 1 - 1/(2 kappa) - ... each way.
     float resultant = mean_resultant_length(1.0 / max(lobe_variance(lobe), 1e-8));
-    // No direction's height varies by more than that of all directions.
+    // The variance of a height is at most that over all directions.
     return mean_above_zero(resultant * dot(lobe.axis, outgoing), sqrt(min(spread, 1.0 / 3.0)));
 }
 
-// Steep slopes reflect below the horizon, and the others to all sides: where many are steep, no lobe
-// about what the mean slope reflects holds that, but samples do. [0, 1]: how much.
+// How much of the light is sampled, [0, 1]. Steep slopes reflect below the horizon, the others in
+// all directions: if many are steep, no lobe about the mean slope's reflection represents that, but
+// samples do.
 float share_of_wide_slopes(half_vector_distribution lobe) {
     if (lobe.kind != DISTRIBUTION_BECKMANN || ENVIRONMENT_METHOD != ENVIRONMENT_PREFILTERED)
         return 0.0;
@@ -160,9 +161,9 @@ vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) 
 // ---------------------------------------------------------------------------------------------
 // Microfacets, about a normal of their own
 
-// Where the lobe is broader than base lobes of this parameter, it is that by normals which point
-// apart. With both Gaussian, the mean normal of those that reflect about a half vector lies between
-// the axis and that: [0, 1].
+// A lobe is broader than base lobes of this parameter because the normals vary. If both are
+// Gaussian, the mean normal of the facets that reflect about a half vector lies between the axis
+// and the half vector. [0, 1]: how far.
 float spread_of_normals(direction_lobe lobe, float parameter) {
     float base = 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
     return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
@@ -194,11 +195,11 @@ vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, v
     return sum * (scattering_scale(f0, mean_cosine, parameter) / weights);
 }
 
-// Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, what is reflected of
-// a white environment, and the mean of the environment over the lobe.
+// Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, the reflection of a
+// white environment and the mean of the environment over the lobe.
 //
-// `parameter`: of the base lobes, by which they are masked. The white environment's albedo knows of
-// their own horizon, but not of the surface's.
+// `parameter` is that of the base lobes and determines masking. The albedo for a white environment
+// accounts for the base lobes' own horizon, but not for the surface's.
 vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                          float parameter) {
     if (sampled_by_grid())

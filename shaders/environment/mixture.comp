@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A cube filtered with GGX lobes, each of which is a mixture of von Mises-Fisher lobes of all
-// concentrations (see passes/environment/mixture.c): a sum over the cubes that were filtered with
-// those, whose levels lie at factors of two from one another.
+// Filters a cube with GGX lobes, each approximated by a mixture of von Mises-Fisher lobes of all
+// concentrations (see passes/environment/mixture.c): a weighted sum of the cubes filtered with
+// those lobes, whose concentrations are a factor of two apart.
 
 #include "interface/environment.h"
 #include "lib/light/cube_texel.glsl"

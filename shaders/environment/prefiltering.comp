@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A cube filtered with a von Mises-Fisher lobe about each texel's direction: the sum over all texels
-// of the source within the lobe's cap, weighted with their solid angles and divided by the sum of
-// the weights, so that a constant is kept.
+// Filters a cube with a von Mises-Fisher lobe about each texel's direction: sums all texels of the
+// source within the lobe's cap, weighted by the lobe and their solid angles, and divides by the sum
+// of the weights, so that a constant stays constant.
 
 #include "interface/environment.h"
 #include "lib/light/cube_texel.glsl"
@@ -16,12 +16,13 @@ layout(set = 0, binding = 1) uniform writeonly image2DArray target;
 
 layout(push_constant) uniform constants_block { environment_prefiltering_constants constants; };
 
-// The lobe is cut off where it has fallen to a thousandth of its peak, exp(-6.9): a thousandth of
-// its energy, too, is beyond, and of its L2 norm.
+// The lobe is cut off where it has fallen to a thousandth of its peak, exp(-6.9). What is cut off
+// is a thousandth of its energy, and of its L2 norm.
 const float CUT_OFF = 9.0;
 
-// Solid angle of a texel over that at the middle of a face, by the midpoint rule and the next term
-// of its series; `square`: 1/(x^2 + y^2 + 1) at the texel's centre. Off by 1e-5 on faces 16 wide.
+// Solid angle of a texel relative to one in the middle of a face, by the midpoint rule and the next
+// term of its series. `square`: 1/(x^2 + y^2 + 1) at the texel's centre. Error 1e-5 on faces 16
+// wide.
 float relative_solid_angle(float square, float extent) {
     return square * sqrt(square) *
            (1.0 + extent * extent / 24.0 * square * (9.0 - 15.0 * square));
@@ -54,8 +55,8 @@ vec4 filter_face(int face, vec3 direction, float concentration) {
     return sum;
 }
 
-// Variances of filters that follow one another add up. Linear interpolation between texels t apart
-// is one of t^2/6 along each axis, on average over where between the texels.
+// The variances of successive filters add up. Linear interpolation between texels t apart is a
+// filter of variance t^2/6 along each axis, averaged over positions between the texels.
 float remaining_concentration(ivec2 texel) {
     float interpolation =
         constants.interpolation * cube_texel_solid_angle(texel, int(constants.width)) / 6.0;

@@ -1,10 +1,10 @@
 #ifndef ENVIRONMENT_SAMPLE_GLSL
 #define ENVIRONMENT_SAMPLE_GLSL
 
-// One unbiased sample of the light that a base material reflects of the environment, for pictures
-// that are the mean of many: a direction drawn from the environment and one drawn from the
-// material, weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining Sampling
-// Techniques for Monte Carlo Rendering, Eq. 14).
+// One unbiased sample of the environment's light reflected by a base material, for pictures that
+// average many samples: one direction drawn from the environment and one from the material,
+// weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining Sampling Techniques
+// for Monte Carlo Rendering, Eq. 14).
 //
 // The environment is that of the exact integral: radiance is constant within a texel of level 0.
 
@@ -22,13 +22,13 @@ uint scrambled(uint value) {
     return (word >> 22u) ^ word;
 }
 
-// Powers of the roots of x^3 = x + 1 and x^4 = x + 1, times 2^32: two and three dimensions (Roberts,
-// 2018, The Unreasonable Effectiveness of Quasirandom Sequences).
+// Powers of the roots of x^3 = x + 1 and x^4 = x + 1, times 2^32: two and three dimensions
+// (Roberts, 2018, The Unreasonable Effectiveness of Quasirandom Sequences).
 const uint SEQUENCE_STEPS[5] =
     uint[5](3242174889u, 2447445414u, 3518319155u, 2882110345u, 2360945575u);
 
-// Number `dimension` of this sample, in [0, 1): its sequence begins elsewhere for each pixel and
-// pattern.
+// Number `dimension` of this sample, in [0, 1). Each pixel and pattern starts its sequence at
+// another place.
 float sample_number(uint dimension) {
     uint seed = scrambled(uint(gl_FragCoord.x) +
                           scrambled(uint(gl_FragCoord.y) +
@@ -52,7 +52,7 @@ vec3 face_texel(int face, ivec2 texel, int level) {
     return texelFetch(environment_faces, ivec3(texel, face), level).rgb;
 }
 
-// Luminance over the whole sphere. A level holds means, so that the last has all of it.
+// Luminance over the whole sphere, from the last level: levels hold means.
 float total_luminance() {
     float sum = 0.0;
     for (int face = 0; face < 6; ++face)
@@ -60,13 +60,14 @@ float total_luminance() {
     return sum * (2.0 * PI / 3.0);
 }
 
-// What a texel of a level sends, all of its children together.
+// Luminance of a texel of a level times its solid angle: the sum over its children.
 float texel_luminance(int face, ivec2 texel, int level) {
     int size = textureSize(environment_faces, level).x;
     return luminance(face_texel(face, texel, level)) * cube_texel_solid_angle(texel, size);
 }
 
-// Takes the first of two with the probability of its share, and makes the number a new one.
+// Picks the first of two with the probability of its share, and rescales the random number for
+// reuse.
 bool takes_first(float first, float second, inout float number) {
     float share = first / max(first + second, 1e-30);
     bool taken = number < share;
@@ -75,9 +76,9 @@ bool takes_first(float first, float second, inout float number) {
     return taken;
 }
 
-// Clarberg, Jarosz, Akenine-Moller, Jensen, 2005, Wavelet Importance Sampling: down the levels, each
-// time to one of four texels by what they send. The probability density is then the luminance over
-// that of the sphere.
+// Clarberg, Jarosz, Akenine-Moller, Jensen, 2005, Wavelet Importance Sampling: descends the levels,
+// each time to one of four texels in proportion to their luminance. The probability density is the
+// texel's luminance divided by that of the sphere.
 vec3 direction_from_environment(vec2 numbers) {
     int face = 0;
     float left = numbers.x * total_luminance();
@@ -115,9 +116,10 @@ vec3 texel_radiance(vec3 direction) {
 // ---------------------------------------------------------------------------------------------
 // The material
 
-// A half vector about `axis` from a base lobe, in proportion to D(h) <n, h> or rho(h).
+// The height 1 - cos above the axis of a half vector drawn from a base lobe in proportion to
+// D(h) <n, h> or rho(h).
 float half_vector_height(float parameter, float number) {
-    // 1 - cos, without its cancellation.
+    // Forms of 1 - cos without cancellation.
     switch (DISTRIBUTION) {
     case DISTRIBUTION_GGX: {
         float square = parameter * parameter * number / (1.0 - number);
@@ -170,7 +172,7 @@ vec3 direction_about(vec3 axis, float height, float angle) {
     return rotate_from_pole(axis, vec3(sine * cos(angle), sine * sin(angle), cosine));
 }
 
-// Half of the directions for Lambert's part, the others from one of the lobes.
+// Draws half of the directions for the Lambert part, the others from one of the lobes.
 vec3 direction_from_material(base_material base, vec3 outgoing, vec3 numbers) {
     float angle = 2.0 * PI * numbers.y;
     if (numbers.z < lambert_share()) {
@@ -182,7 +184,7 @@ vec3 direction_from_material(base_material base, vec3 outgoing, vec3 numbers) {
     vec3 halfway = direction_about(
         base_axis(base, lobe), half_vector_height(base_parameter(base, lobe), numbers.x), angle);
     float cosine = dot(outgoing, halfway);
-    // Facets that look away reflect nothing.
+    // Facets that face away reflect nothing.
     return cosine > 0.0 ? 2.0 * cosine * halfway - outgoing : vec3(0.0, 0.0, -1.0);
 }
 

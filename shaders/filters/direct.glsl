@@ -1,5 +1,5 @@
-// One unfiltered sample of the maps: what every filter is to average, and the sample of which the
-// reference takes many.
+// One unfiltered sample of the maps: what every filter should average, and the sample that the
+// reference averages many of.
 
 #include "shading/unfiltered_maps.glsl"
 

@@ -1,11 +1,11 @@
 // One anisotropic Beckmann lobe about any mean, masked, shadowed and projected as a displaced
 // surface is: Dupuy, Heitz, Iehl, Poulin, Neyret, Ostromoukhov 2013, Linear Efficient Antialiased
-// Displacement and Reflectance Mapping. What is behind the mean plane is dark, as it would be on
-// the surface that the maps stand for; a normal map's texels never hide each other.
+// Displacement and Reflectance Mapping. What is behind the mean plane is dark, as on the displaced
+// surface that the maps represent, although a normal map's own texels never hide each other.
 //
-// Base lobes join the covariance as they are over the plane of the mean normal, to first order. The
-// paper adds them over the surface's plane, where the lobe of a leaning footprint comes out too
-// narrow: 13 % too bright at 16 degrees. Narrow lobes are then those of the base material.
+// The covariance of the base lobes is added over the plane of the mean normal, to first order, so
+// that narrow lobes match the base material. The paper adds it over the surface's plane, which
+// makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees.
 
 #include "shading/slope_maps.glsl"
 #include "lib/microfacet/slope_masking.glsl"
@@ -66,8 +66,9 @@ vec4 facet_cosines(vec2 slope, vec3 incoming[4]) {
     return max(heights, 0.0) * inversesqrt(1.0 + dot(slope, slope));
 }
 
-// Algorithm 3: the sum of Eq. 23 over a grid of slopes, for each light by itself. With few lights
-// that is exact and no dearer than nine spherical harmonics of the irradiance, up to 9 % off.
+// Algorithm 3: the sum of Eq. 23 over a grid of slopes, separately for each light. For a few lights
+// that is exact and costs no more than nine spherical harmonics of the irradiance, whose error is
+// up to 9 %.
 vec4 facet_sums(slope_distribution facets, vec3 outgoing, vec3 incoming[4]) {
     vec4 sums = vec4(0.0);
     for (uint j = 0u; j < GRID; ++j) {
@@ -106,7 +107,7 @@ vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoin
                                height_above_slope(lobe.slopes.mean, outgoing));
 }
 
-// Half-vector lobes state what is seen of them themselves.
+// Half-vector lobes include their own masking.
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
     vec3 halfway = half_vector(incoming, outgoing);
     vec3 fresnel = vec3(0.0), sum;
@@ -174,8 +175,8 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     return reflect_microfacets(surface, half_vectors, frame.specular, width);
 }
 
-// Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Masking alone is counted, as
-// in Algorithm 2: what shadows the environment's light is not known.
+// Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Only masking is applied, as
+// in Algorithm 2: which of the environment's light is shadowed is unknown.
 vec3 lambert_slopes(appearance fetched, surface_point surface) {
     slope_distribution facets = fetched.lobe.facets;
     vec3 sum = vec3(0.0);

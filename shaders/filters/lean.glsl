@@ -1,10 +1,10 @@
-// One anisotropic Beckmann lobe a footprint, from moments of slopes: Olano, Baker 2010, LEAN
-// Mapping. Theirs has the lobe over the surface's plane. Here it lies over the plane of the mean
-// normal, and base lobes are added to it there, so that a footprint of one normal is exactly the
-// Beckmann distribution about it; where the normals' mean is the surface's, the two are the same.
+// One anisotropic Beckmann lobe for each footprint, from moments of slopes: Olano, Baker 2010, LEAN
+// Mapping. Their lobe is over the surface's plane. Here it is over the plane of the mean normal,
+// and base lobes are added there, so that a footprint with a single normal is exactly the Beckmann
+// distribution about it. Where the mean normal is the surface's, the two are the same.
 //
-// The frame is the one of all filters: masked as the base lobes, about the mean normal of the
-// texels that reflect.
+// The microfacet frame is that of all filters: masked like the base lobes, about the mean normal of
+// the texels that reflect.
 
 #include "shading/slope_maps.glsl"
 
@@ -47,15 +47,15 @@ vec3 reflecting_normal(appearance fetched, vec3 halfway) {
     return fetched.lobe.tangent_from_mean * normal_of_slope(texels);
 }
 
-// Texels of a normal map count alike, each with a distribution of projected area one about its own
-// normal. Their sum is the lobe, of area one, over the cosine to the normals of those that reflect:
-// for a single normal 1/cos^4, for sharp lobes about many normals 1/cos^3.
+// All texels of a normal map have the same weight, each with a distribution of projected area one
+// about its own normal. Their sum is the lobe, of area one, divided by the cosine to the reflecting
+// normals: 1/cos^4 for a single normal, 1/cos^3 for sharp lobes about many normals.
 float distribution_about(vec3 normal, vec3 halfway, float lobe) {
     return lobe / max(dot(normal, halfway), COSINE_MINIMUM);
 }
 
-// Its product with the incoming direction is the mean of the texels' cosines, where their slopes
-// and n_z are not correlated.
+// Its product with the incoming direction is the mean of the texels' cosines if their slopes and
+// n_z are uncorrelated.
 vec3 lambert_normal(slope_moments moments) {
     return vec3(-moments.mean, 1.0) * moments.mean_cosine;
 }

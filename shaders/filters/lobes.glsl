@@ -1,11 +1,11 @@
 // MIP-mapped mixtures of lobes: Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, Algorithm 1,
-// repaired: a cluster's vector is divided by its weight; the children of cluster i are 2i and
-// 2i + 1; the step from one lobe to four to eight is a blend and not a switch, which would make
+// with corrections: a cluster's vector is divided by its weight; the children of cluster i are 2i
+// and 2i + 1; the steps from one lobe to four and to eight blend, because a switch would make
 // highlights pop. Level 0 of the maps is the base material itself.
 //
-// The clusters are walked depth first, a fetch and a lobe at a time, so that a pixel pays for as
-// many as it needs: first the base lobes where level 0 has a share, then the footprint's one lobe,
-// then each sector and its halves.
+// Clusters are visited depth first, one fetch and one lobe at a time, so that a pixel only pays for
+// those it needs: first the base lobes if level 0 has a share, then the footprint's one lobe, then
+// each sector and its halves.
 
 #include "shading/filtered_maps.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
@@ -29,14 +29,14 @@ layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
-// Base lobes that are like the mixture's are walked with them, so that a pixel without level 0
-// does not pay for them.
+// Base lobes of the mixture's own kind are part of the walk, so that a pixel without level 0 does
+// not pay for them.
 bool base_in_walk() {
     return MODEL == MODEL_HALF_VECTOR_LOBES && ONE_HUE &&
            (BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF);
 }
 
-// Clusters with less of the footprint than this are left out.
+// Clusters with less of the footprint than this are skipped.
 const float LEAST_WEIGHT = 1e-5;
 
 // The one lobe of all sectors is walked first.
@@ -48,15 +48,15 @@ struct appearance {
     base_material filtered; // averaged over the footprint
     map_area area;
     float base_share;       // [0, 1]: how much of the appearance is level 0
-    float mixture_scale;    // what lobes' weights are multiplied by
-    float own_scale;        // and those of distributions of projected area one
+    float mixture_scale;    // factor of the lobes' weights
+    float own_scale;        // the same for distributions of projected area one
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
-    float complement;       // 1 - |r| of the footprint's one lobe, were it about the normals
-    float variance;         // of the macro-surface's normals, where the mixture is without them
+    float complement;       // 1 - |r| of the footprint's one lobe if it were about the normals
+    float variance;         // of the macro-surface's normals, unless the mixture includes it
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
     vec4 distributions; // the mixture at the half vectors of the lights gathered last
-    float spread;       // [0, 1]: part of the breadth that is normals pointing apart
+    float spread;       // [0, 1]: part of the breadth that is due to varying normals
     // Of the whole pixel.
     vec3 emission;
     float alpha;
@@ -85,10 +85,10 @@ struct walk {
 };
 
 mat3 mixture_frame(surface_point surface) {
-    // A mesh's mixtures are those of its front; behind, both they and the frame are reversed.
+    // Mixtures are built for a mesh's front; on the back, both they and the frame are reversed.
     mat3 world_from_front = front_side() ? surface.world_from_tangent : -surface.world_from_tangent;
     if (SPACE == SPACE_OBJECT) {
-        // Of a rotation and a uniform scale the transpose is the inverse but for the length.
+        // For a rotation with a uniform scale, the transpose is the inverse up to a factor.
         mat3 world_from_object =
             transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));
         mat3 frame = transpose(world_from_object) * world_from_front;
@@ -126,14 +126,13 @@ vec4 fetch_mean(map_area area, out float coverage) {
     }
     if (MEAN_LAYER != 0u)
         return fetch_layer(area, int(MEAN_LAYER)) / coverage;
-    // There is no such layer where all base lobes are equal and lie along their normals.
+    // There is no such layer if all base lobes are equal and along their normals.
     float complement = uniform_complement();
     return vec4(one.xyz / max(coverage * (1.0 - complement), LEAST_WEIGHT), complement);
 }
 
-// [0, 1]: how far the lobes of a cluster must be told apart. The measure is near 1 where one lobe
-// is enough: |r| as in the paper, or the part of the lobe's breadth that is the base lobes' own,
-// 1 / (1 + dispersion).
+// [0, 1]: how far a cluster must be refined. The measure is near 1 if one lobe is enough: |r| as in
+// the paper, or the base lobes' share of the lobe's breadth, 1 / (1 + dispersion).
 float refinement(float complement, float base_complement, float epsilon) {
     float measure = THRESHOLD == THRESHOLD_LENGTH
                         ? 1.0 - complement
@@ -141,8 +140,8 @@ float refinement(float complement, float base_complement, float epsilon) {
     return 1.0 - transition(measure, epsilon, filter_knobs.blend);
 }
 
-// Lobes about their texels' normals have their resultant from the mean layer, so that the one
-// lobe of all is fetched only where it is needed.
+// For lobes about their texels' normals the mean layer gives the resultant, so that the footprint's
+// one lobe is fetched only if needed.
 bool root_from_mean() {
     return MODEL == MODEL_MICROFACET && MEAN_LAYER != 0u && SUBDIVISION > 0u;
 }
@@ -161,8 +160,8 @@ lobe take_base_lobe(inout walk at, inout appearance fetched) {
     return result;
 }
 
-// Microfacets have distributions with tails that no von Mises-Fisher lobe has. As much of a lobe
-// keeps the shape as is the base lobes' own breadth and not the normals'.
+// Microfacet distributions have tails that no von Mises-Fisher lobe has. A lobe keeps this shape to
+// the extent that its breadth is the base lobes' and not the normals'.
 bool keeps_shape() {
     return MODEL == MODEL_MICROFACET && !BASE_AS_LOBE && DISTRIBUTION != DISTRIBUTION_VMF;
 }
@@ -171,7 +170,7 @@ float base_complement_share(float complement, float base_complement) {
     return clamp(base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
 }
 
-// The lobe of the next cluster; says which follows.
+// The lobe of the next cluster; moves the walk on.
 lobe take_cluster(inout walk at, inout appearance fetched) {
     bool one = at.sector == SECTOR_ALL;
     bool is_sector = !one && at.part == 0;
@@ -192,7 +191,7 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
                   (1.0 - refine) * moment.w;
     lobe result;
     result.axis = moment.xyz * inversesqrt(max(dot(moment.xyz, moment.xyz), 1e-30));
-    // One lobe or many: the surface's curvature widens them alike.
+    // The surface's curvature widens one lobe and many in the same way.
     float breadth = widened_complement(complement, fetched.variance);
     result.concentration = concentration_from_complement(breadth);
     result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
@@ -208,7 +207,7 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     at.sector_share = is_sector ? refine : at.sector_share;
     bool deeper = refine > 0.0;
     bool to_second = !one && at.part == 1;
-    // Past the one lobe come all sectors or nothing, past a sector its halves or the next.
+    // The one lobe is followed by all sectors or the end, a sector by its halves or the next one.
     bool next_sector = one || (is_sector && !deeper) || at.part == 2;
     at.sector = one && !deeper ? SECTOR_END : at.sector + (next_sector ? 1 : 0);
     at.part = to_second ? 2 : is_sector && deeper ? 1 : 0;
@@ -273,7 +272,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     walk at = start_walk(fetched);
     if (SUBDIVISION == 0u && !walks_base()) {
-        at.sector = SECTOR_ALL; // nothing to walk
+        at.sector = SECTOR_ALL; // only one cluster
         add_lobe(fetched, take_cluster(at, fetched), halfway);
         return;
     }
@@ -296,7 +295,7 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     float coverage;
     vec4 mean = fetch_mean(fetched.area, coverage);
     fetched.base_complement = mean.w;
-    // A mixture over a part of the texels stands for all of them.
+    // A mixture over some of the texels represents all of them.
     fetched.mixture_scale = (1.0 - fetched.base_share) / coverage;
     fetched.own_scale = fetched.mixture_scale;
     // A distribution of normals is normalised to projected area one, a lobe to area one.
@@ -306,7 +305,7 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.diffuse_normal = mean.xyz * fetched.mixture_from_tangent;
     // Lobes about normals: their resultant is the product of the normals' and the base lobes'.
     fetched.complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
-    // Over an atlas the mixtures have the macro-surface's normals already.
+    // Mixtures over an atlas already include the macro-surface's normals.
     fetched.variance = SPACE == SPACE_TANGENT ? isotropic_variance(surface.curvature) : 0.0;
     float breadth = widened_complement(fetched.complement, fetched.variance);
     fetched.spread = 1.0 - base_complement_share(breadth, mean.w);
@@ -340,9 +339,9 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-// The mean normal of the texels that reflect about `halfway`, for their cosines and masking. With
-// texels' normals and base lobes both about normal, of variances that add up to the mixture's, the
-// mean of the normals where their sum is given divides as the variances do.
+// The mean normal of the texels that reflect about `halfway`, for their cosines and masking. If the
+// texels' normals and the base lobes are both about Gaussian, with variances that add up to the
+// mixture's, the mean normal for a given sum divides it in the ratio of the variances.
 vec3 reflecting_normal(appearance fetched, vec3 halfway) {
     vec3 sum = mix(fetched.filtered.normal, halfway, fetched.spread);
     if (may_see_level_0(lobe_map()))
@@ -404,7 +403,7 @@ vec3 reflect_lobe(appearance fetched, surface_point surface, lobe one) {
     float mass = one.weight / von_mises_fisher_peak(one.concentration);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return mass * reflect_half_vectors(surface, round);
-    // Back from a projected area of one; GGX's tails are kept as in `moments`.
+    // Undoes the normalisation to projected area one; GGX's tails are kept as in `moments`.
     mass *= von_mises_fisher_projected_area(concentration_from_complement(fetched.base_complement));
     base_material frame = fetched.filtered;
     if (keeps_shape()) {
@@ -418,7 +417,7 @@ vec3 reflect_mixture(inout appearance fetched, surface_point surface) {
     vec3 sum = vec3(0.0);
     walk at = start_walk(fetched);
     if (SUBDIVISION == 0u && !walks_base()) {
-        at.sector = SECTOR_ALL; // nothing to walk
+        at.sector = SECTOR_ALL; // only one cluster
         return reflect_lobe(fetched, surface, take_cluster(at, fetched));
     }
     while (at.base_lobe < LOBE_COUNT || at.sector < SECTOR_END) {

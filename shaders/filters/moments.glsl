@@ -1,7 +1,7 @@
-// Moments of lobes in the Lambert plane, by bins. A material's lobes are shared out to a few bins
-// that fit them (see passes/filters/moments/partition.h); under a pixel each bin is a Gaussian of the
-// normals, convolved with the base lobe's own shape. Our own, after Olano, Baker 2010, LEAN
-// Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
+// Moments of lobes in the Lambert plane, in bins. A material's lobes are assigned to a few bins
+// fitted to them (see passes/filters/moments/partition.h). Under a pixel each bin is a Gaussian of
+// the normals, convolved with the base lobe's own shape. Developed here, after Olano, Baker 2010,
+// LEAN Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
 
 #include "shading/filtered_maps.glsl"
 #include "interface/moment_bins.h"
@@ -25,7 +25,7 @@ layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
 layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
 
-// What the bins come to for one light.
+// Sums over the bins for one light.
 struct light_sum {
     float distribution;
     vec3 normal;     // of the texels that reflect, weighted by their part of the distribution
@@ -57,7 +57,7 @@ struct plane_bin {
     float spread;   // half the trace of their covariance
     vec3 covariance; // (xx, yy, xy) of the lobe in the plane, base lobes included
     vec3 axis;      // the same as a direction
-    mat2 gain;      // the mean place of those that reflect moves so with the half vector's
+    mat2 gain;      // change of the reflecting lobes' mean place with that of the half vector
     plane_gaussian narrow, middle, wide;
     float own;           // [0, 1]: how much of the bin has the base lobe's exact shape
     float own_parameter; // of the base lobe as broad as the bin
@@ -83,8 +83,8 @@ mat2 inverse_of(vec3 covariance) {
     return mat2(covariance.y, -covariance.z, -covariance.z, covariance.x) / determinant;
 }
 
-// The base lobe's own shape, which no sum of Gaussians has exactly; as long as the normals' spread
-// is small beside it, it is the bin's shape too.
+// The base lobe's own shape, which no sum of Gaussians matches exactly. While the normals spread
+// little compared to it, the bin has this shape too.
 void keep_shape(inout plane_bin bin) {
     float variance = bin.variance + bin.spread;
     float own = bin.variance / variance;
@@ -144,14 +144,14 @@ void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 pla
     value = mix(value, bin.own_share * evaluate_own_shape(bin, halfway), bin.own);
     sum.distribution += value;
     sum.sharpness += value * bin.sharpness;
-    // With normals and base lobes both Gaussian, the normals of given half vectors are, too.
+    // If normals and base lobes are Gaussian, so are the normals for a given half vector.
     if (MODEL == MODEL_MICROFACET)
         sum.normal += value * direction_from_plane(bin.mean + bin.gain * d);
     if (BIN_COLOUR)
         sum.colour += value * bin.colour;
 }
 
-// What all bins say about the footprint: the mean direction of the lobes, and their sharpness.
+// Means over all bins of the footprint: mass, direction and sharpness of the lobes.
 struct bin_means {
     float mass;
     vec3 axis;
@@ -183,11 +183,11 @@ vec3 normal_from_axis(vec3 axis) {
 void add_to_means(inout bin_means means, plane_bin bin) {
     means.mass += bin.mass;
     means.sharpness += bin.mass * bin.sharpness;
-    // The mean of 1 - |q|^2 / 2 is that of the directions' third coordinate, exactly.
+    // The mean of 1 - |q|^2 / 2 is exactly the mean of the directions' third coordinate.
     means.axis += bin.mass * vec3(bin.axis.xy, bin.axis.z - bin.spread);
 }
 
-// The normals that the bins' means tell.
+// Sets the footprint's normals from the means of the bins.
 void take_means(inout appearance fetched, bin_means means) {
     float scale = 1.0 / max(means.mass, 1e-6);
     fetched.diffuse_normal = normal_from_axis(means.axis * scale);
@@ -212,7 +212,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     bin_means means = bin_means(0.0, vec3(0.0), 0.0);
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(fetched.area, i, surface.curvature);
-        // The lobes of a footprint have a mass of one at least.
+        // A footprint's lobes together have a mass of at least one.
         if (bin.mass <= filter_knobs.least_share)
             continue;
         add_to_means(means, bin);
@@ -228,8 +228,8 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     take_means(fetched, means);
 }
 
-// Colours of the footprint; where bins have their own, means of what each texel reflects, and not
-// what the means of its parameters would.
+// Colours of the footprint. Where bins have their own, these are means of the texels' reflection,
+// not the reflection of mean parameters.
 base_material footprint_material(surface_point surface, vec3 normal, map_area area) {
     if (!(MIXTURE && BIN_COLOUR))
         return filtered_material(surface, normal, area);
@@ -238,8 +238,8 @@ base_material footprint_material(surface_point surface, vec3 normal, map_area ar
     base.diffuse = fetch_moments(area, 3u * BINS).rgb * binning.range.largest.z;
     if (VERTEX_COLOUR)
         base.diffuse *= surface.colour.rgb;
-    base.specular = vec3(0.0); // the bins'
-    base.width = 1.0;          // likewise
+    base.specular = vec3(0.0); // each bin has its own
+    base.width = 1.0;          // each bin has its own
     return base;
 }
 
@@ -338,7 +338,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-// A bin as a lobe of half vectors: the covariance of its places, brought to the sphere.
+// A bin as a lobe of half vectors: the covariance of its places, mapped to the sphere.
 direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
     float x = sqrt(max(covariance.x, 1e-12));
     float shared_part = covariance.z / x;
@@ -347,9 +347,9 @@ direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
                           direction_step(bin.mean, vec2(0.0, y)));
 }
 
-// GGX keeps its long tails, however far normals spread its bins: without them metal is a
-// fifth more wrong (relative L1 of scratched metal in a courtyard 0.070 against 0.058, and no better with
-// both in proportion).
+// GGX keeps its long tails, however far the normals of a bin spread. Without them the error of
+// metal is a fifth larger (relative L1 of scratched metal in a courtyard: 0.070 instead of 0.058;
+// blending both in proportion is no better).
 vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
     bool tails = MODEL == MODEL_MICROFACET && distribution_kind() == DISTRIBUTION_GGX;
     half_vector_distribution half_vectors = half_vector_distribution(
@@ -360,7 +360,7 @@ vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 
                                parameter_of_plane_variance(DISTRIBUTION, bin.variance));
 }
 
-// A bin's part of the appearance: of microfacets as seen along the normal, where a lobe's mass is
+// A bin's share of the appearance. For microfacets as seen along the normal, where a lobe's mass is
 // more than one.
 float part_of_bin(plane_bin bin) {
     if (MODEL == MODEL_HALF_VECTOR_LOBES)

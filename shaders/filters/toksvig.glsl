@@ -1,11 +1,11 @@
-// The mean normal's length widens the lobes about it (Toksvig 2005, Mipmapping Normal Maps): what
-// normals that point apart leave of it stands for their variance. The Lambert part is linear in
-// the normal, and takes it as short as it is.
+// The mean normal's length widens the lobes about it (Toksvig 2005, Mipmapping Normal Maps): the
+// more the normals vary, the shorter their mean. The Lambert part is linear in the normal and uses
+// it unnormalised.
 //
-// Widths are averaged as concentrations. Variances 1/kappa would add up, but then the broadest
-// texels decide, and highlights lose their peaks; relative L2 error against 36 samples, with
-// concentrations and with variances: checkerboard 0.366, 0.641; photographed metal on a plane 0.266,
-// 0.643, rock 0.135, 0.180, bark 0.102, 0.152, brick 0.120, 0.135.
+// Widths are averaged as concentrations. Variances 1/kappa are what adds up, but averaging them
+// lets the broadest texels dominate, and highlights lose their peaks. Relative L2 error against 36
+// samples, with concentrations and with variances: checkerboard 0.366, 0.641; photographed metal on
+// a plane 0.266, 0.643, rock 0.135, 0.180, bark 0.102, 0.152, brick 0.120, 0.135.
 
 #include "shading/averaged_maps.glsl"
 

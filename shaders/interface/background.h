@@ -3,11 +3,11 @@
 
 #include "types.h"
 
-// How the picture's pixels look at the environment (push constants): the direction of a place in
-// clip space is centre + x right + y down, in the environment's space, of any length.
+// Directions of the picture's pixels (push constants): the direction at a position in clip space is
+// centre + x right + y down, in the environment's space, not normalised.
 struct background_constants {
     float4 centre; // w: factor of the radiance
-    float4 right;  // w: steradians of a pixel in the middle; 0: texels are shown as they are
+    float4 right;  // w: solid angle of a pixel in the middle; 0: texels are shown unfiltered
     float4 down;
 };
 INTERFACE_SIZE(background_constants, 48)

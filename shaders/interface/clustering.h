@@ -3,8 +3,8 @@
 
 #include "types.h"
 
-// Push constants of lobe_clustering, parameter_averaging and moment_binning. Loops over texels end
-// by them: by a uniform block, lavapipe would compile the shader again for every content of that.
+// Push constants of lobe_clustering, parameter_averaging and moment_binning. They bound the loops
+// over texels: with a uniform block instead, lavapipe would recompile the shader for each content.
 struct clustering_constants {
     uint width; // of the base maps, texels: the larger of the normal and the width map
     uint height;

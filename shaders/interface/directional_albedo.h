@@ -7,9 +7,9 @@
 // are roughness, each from 0 in the first texel's centre to 1 in the last one's. What its channels
 // hold is in shaders/environment/directional_albedo.comp.
 //
-// Between texels linear interpolation is off by up to 2e-3 (2e-4 root mean square) for cosines
-// above 0.02 and roughness above 0.05; of 32 x 32 texels by 6.4e-3. With columns even in the cosine
-// itself it would be 7.9e-3: reflection changes most near the horizon.
+// The error of linear interpolation between texels is at most 2e-3 (2e-4 root mean square) for
+// cosines above 0.02 and roughness above 0.05; with 32 x 32 texels it would be 6.4e-3. With columns
+// uniform in the cosine itself it would be 7.9e-3: reflection changes most near the horizon.
 #define DIRECTIONAL_ALBEDO_SIZE 64
 
 #endif

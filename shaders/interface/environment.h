@@ -28,15 +28,15 @@ struct environment_prefiltering_constants {
     uint width;        // texels along a face of the level to fill
     uint source_width; // texels along a face of what is filtered
     uint first_face;
-    // The lobe, as it shall be seen: of the radiance, through linear interpolation.
+    // The lobe that the result should represent: over the radiance, after linear interpolation.
     float concentration;
-    float source_variance; // with which the source was filtered before
-    float interpolation;   // 1: the result is interpolated when it is read; 0: it is not
+    float source_variance; // of the filter that the source already went through
+    float interpolation;   // 1: the result is read with interpolation; 0: without
 };
 INTERFACE_SIZE(environment_prefiltering_constants, 24)
 
 // environment_mixture: weights of lobes whose concentrations are 4 (sharpest), 2 (between) and 1
-// (lobes) times that of each level, from the one to fill on.
+// (lobes) times that of each level, from the level to fill on.
 #define ENVIRONMENT_LEVELS 12 // of cubes at most 2048 wide
 struct environment_mixture_constants {
     uint width;  // texels along a face of the level to fill

@@ -8,8 +8,8 @@
 struct environment_constants {
     float4 environment_from_world[3]; // rows of a rotation
     float intensity;                  // factor of the maps' radiance
-    uint sample_number;               // of the reference: which of a pixel's samples is drawn
-    uint pattern;                     // and which of its patterns
+    uint sample_number;               // reference: index of the pixel's sample
+    uint pattern;                     // reference: which sample pattern
     uint padding;
 };
 INTERFACE_SIZE(environment_constants, 64)
@@ -19,22 +19,22 @@ INTERFACE_OFFSET(environment_constants, pattern, 56)
 
 // uint, how the environment is integrated.
 #define SPECIALISE_ENVIRONMENT_METHOD 20
-// uint, [1, 8]: lobes that an elongated one is made of at most.
+// uint, [1, 8]: most round lobes that approximate an elongated one.
 #define SPECIALISE_ENVIRONMENT_PROBES 21
 // uint, [2, 8]: samples along each side of the grid of ENVIRONMENT_SAMPLED.
 #define SPECIALISE_ENVIRONMENT_GRID 22
-// uint, HORIZON_...: what becomes of the part of a lobe below the surface.
+// uint, HORIZON_...: treatment of the part of a lobe below the surface.
 #define SPECIALISE_HORIZON 23
 // bool: von Mises-Fisher lobes are blends of two cubes instead of two levels.
 #define SPECIALISE_ENVIRONMENT_BLENDED 28
-// bool: light that microfacets reflect more than once is made up for.
+// bool: light that microfacets reflect more than once is compensated for.
 #define SPECIALISE_MULTIPLE_SCATTERING 27
 
 #define ENVIRONMENT_EXACT       0
 #define ENVIRONMENT_MIP         1
 #define ENVIRONMENT_PREFILTERED 2
 #define ENVIRONMENT_SAMPLED     3
-#define ENVIRONMENT_REFERENCE   4 // one unbiased sample: only where many are averaged
+#define ENVIRONMENT_REFERENCE   4 // one unbiased sample, for pictures that average many
 
 #define HORIZON_IGNORED 0
 #define HORIZON_CLIPPED 1

@@ -3,7 +3,7 @@
 
 #include "types.h"
 
-// What all draws of a frame share (uniform block, std140).
+// Constants that all draws of a frame share (uniform block, std140).
 struct frame_constants {
     float4x4 world_to_clip;   // reversed depth; clip space as in lobe/graph.h
     float4x4 world_to_camera; // rotation only: x right, y up, z towards the viewer

@@ -6,7 +6,7 @@
 // Spherical harmonics of degree l and order m, l <= 2, |m| <= l: number l (l + 1) + m.
 #define HARMONICS 9
 
-// Irradiance from all around, by harmonics: what shades reads it as it is.
+// Irradiance from all directions, as harmonics; the shading pass reads this buffer directly.
 struct irradiance_harmonics {
     float4 coefficients[HARMONICS]; // RGB, W/m^2 where the radiance is W/(m^2 sr); w: 0
 };
@@ -24,7 +24,7 @@ INTERFACE_SIZE(irradiance_harmonics_constants, 4)
 
 // Push constants of irradiance_harmonics_sum.
 struct irradiance_harmonics_sum_constants {
-    float4 band_factors; // what radiance of degree 0, 1, 2 is multiplied by; w: 0
+    float4 band_factors; // factors of radiance of degree 0, 1, 2; w: 0
     uint count;          // groups of the first step
     uint padding_0;
     uint padding_1;

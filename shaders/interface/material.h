@@ -11,7 +11,7 @@
 #define MAP_WIDTH       2 // metallic-roughness, or the width of half-vector lobes
 #define MAP_SPECULAR    3
 #define MAP_EMISSIVE    4
-#define MAP_OCCLUSION   5 // where there is light from an environment
+#define MAP_OCCLUSION   5 // used with light from an environment
 #define MAP_COUNT       6
 
 // A material's constants (uniform block, std140). Which parts are read depends on the

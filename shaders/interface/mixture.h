@@ -4,7 +4,7 @@
 #include "specialisation.h"
 #include "types.h"
 
-// How a mixture of lobes lies in the layers of a map (see shaders/filters/lobes/clustering.comp).
+// Layers of a map of lobe mixtures (see shaders/filters/lobes/clustering.comp).
 //
 // [0]           one lobe for all texels: (sum r, coverage)
 // [1 .. 4]      one for each of four sectors, where the subdivision is 1 or more
@@ -22,9 +22,9 @@
 #define SPECIALISE_PROBES      (SPECIALISE_FILTER + 5) // uint, [1, 16]
 #define SPECIALISE_COLOUR_MAPS (SPECIALISE_FILTER + 6) // uint, bit MAP_...: filtered map exists
 #define SPECIALISE_MIXTURE     (SPECIALISE_FILTER + 7) // bool: there is a map of mixtures
-// uint, bit MAP_...: some pixel may see level 0 of the map.
+// uint, bit MAP_...: some pixel may use level 0 of the map.
 #define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 8)
-// uint, bit MAP_...: the map is as large as that of the lobes, and read at the same coordinates.
+// uint, bit MAP_...: the map has the same size and coordinates as that of the lobes.
 #define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 9)
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
 #define SPECIALISE_ONE_HUE (SPECIALISE_FILTER + 10)

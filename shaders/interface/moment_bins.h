@@ -4,8 +4,8 @@
 #include "specialisation.h"
 #include "types.h"
 
-// How moments of lobes in the Lambert plane lie in the layers of a map, and how lobes are shared
-// out to bins (see shaders/filters/moments/binning.comp).
+// Layers of a map of lobe moments in the Lambert plane, and how lobes are assigned to bins (see
+// shaders/filters/moments/binning.comp).
 //
 // With p the lobe's place in the plane, g its sharpness and m its mass, all scaled to [-1, 1] by
 // the material's own range (moment_range), bin b has
@@ -45,8 +45,8 @@ INTERFACE_OFFSET(moment_bin, shape, 16)
 typedef struct moment_bin moment_bin;
 #endif
 
-// What the values of a map are parts of. No specialisation constants: each material, and whatever
-// becomes of it, would need pipelines of its own.
+// The ranges that a map's values are relative to. Not specialisation constants, because each
+// material and each change of one would then need its own pipelines.
 struct moment_range {
     float4 place;   // x, y: middle of the places; z: half the width of their range
     float4 largest; // x: mass of a texel's lobes; y: sharpness; z: colour

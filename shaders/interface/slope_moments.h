@@ -4,8 +4,8 @@
 #include "specialisation.h"
 #include "types.h"
 
-// How moments of slopes lie in the layers of a map (see shaders/maps/slope_moments.comp). A slope
-// is that of the surface a normal stands on, (x, y) = -n_xy/n_z; E: the mean over texels.
+// Layers of a map of slope moments (see shaders/maps/slope_moments.comp). A slope is that of the
+// surface perpendicular to a normal, (x, y) = -n_xy/n_z. E: mean over texels.
 //
 // [0]  E[x], E[y], E[n_z], mean variance of the base lobes in slopes
 // [1]  E[x^2], E[y^2], E[xy], 0
@@ -15,9 +15,9 @@
 #define SLOPE_LAYER_SECOND 1
 #define SLOPE_LAYERS       2
 
-// Steepest slope that is kept: the tangent of 83 degrees. Directions nearer to the horizon, or
-// below it, count as that steep: their slopes tend to infinity, and so would all means that they
-// are in.
+// Steepest slope that is stored: the tangent of 83 degrees. Directions nearer to the horizon, or
+// below it, are clamped to it: their slopes tend to infinity, and so would every mean that includes
+// them.
 #define SLOPE_MAXIMUM 8.0
 
 // Push constants of slope_moments.

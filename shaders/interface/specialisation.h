@@ -1,8 +1,9 @@
 #ifndef INTERFACE_SPECIALISATION_H
 #define INTERFACE_SPECIALISATION_H
 
-// Identifiers of specialisation constants. What a material, a light set or a user does not need
-// is compiled out.
+// Identifiers of specialisation constants. Whatever the material, the lights or the user's choices
+// do not need is compiled out. Defaults in GLSL are those of the knobs in C, where a knob feeds the
+// constant.
 
 // The material.
 #define SPECIALISE_MODEL                0  // uint, MODEL_...
@@ -11,21 +12,21 @@
 #define SPECIALISE_MAPS                 3  // uint, bit MAP_...: the material has this map
 #define SPECIALISE_SECOND_COORDINATES   4  // uint, bit MAP_...: the map uses the second set
 #define SPECIALISE_DIFFUSE              5  // bool, half-vector lobes: there is a Lambert part
-#define SPECIALISE_NORMAL_CONCENTRATION 6  // bool, kappa_N is given
+#define SPECIALISE_NORMAL_CONCENTRATION 6  // bool, kappa_N is set
 #define SPECIALISE_ALPHA_MASK           7  // bool
 #define SPECIALISE_EMISSION             8  // bool
 #define SPECIALISE_VERTEX_COLOUR        9  // bool
-#define SPECIALISE_MIRRORED             10 // bool, the transform turns left into right
+#define SPECIALISE_MIRRORED             10 // bool, the transform mirrors
 #define SPECIALISE_METALLIC_MAP         11 // bool, the width map says where a microfacet is metal
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool
 #define SPECIALISE_SPOT_LIGHTS        18 // bool
-#define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters see together
-// The user.
+#define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters process together
+// The knobs of all filters.
 #define SPECIALISE_VIEW         24 // uint, VIEW_...
 #define SPECIALISE_BASE_AS_LOBE 25 // bool: base lobes are turned into von Mises-Fisher lobes first
-// A filter's own, see shaders/filters.
+// The first of a filter's own, see shaders/filters.
 #define SPECIALISE_FILTER 32
 
 #define MODEL_MICROFACET        0

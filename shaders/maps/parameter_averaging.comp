@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The finest level of the naive filter's map: normals and concentrations averaged like colours.
+// The finest level of the map of `mipmap`: normals and concentrations averaged like colours.
 // Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
 
 #include "maps/base_maps.glsl"

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The finest level of a map of slope moments, from the base maps: Olano, Baker 2010, LEAN Mapping,
-// section 3; Dupuy et al. 2013, section 4.1. All are means of powers, so that they stay right under
-// any linear filter. The variance of the base lobes, alpha^2/2 = 1/kappa, is kept apart from those
-// of the directions: masking and the mean normal of what reflects need the two apart.
+// section 3; Dupuy et al. 2013, section 4.1. All are means of powers, which stay correct under any
+// linear filter. The variance of the base lobes, alpha^2/2 = 1/kappa, is stored separately from
+// those of the directions, because masking and the mean reflecting normal need both.
 
 #include "maps/base_maps.glsl"
 #include "interface/slope_moments.h"

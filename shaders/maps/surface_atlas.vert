@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Lays a mesh out flat, over its own texture coordinates.
+// Draws a mesh flat, at its texture coordinates.
 
 #include "interface/atlas.h"
 #include "interface/vertex.h"

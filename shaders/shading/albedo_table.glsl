@@ -15,7 +15,7 @@ vec4 albedo_of(float cosine, float parameter) {
     return directional_albedo(directional_albedo_table, DISTRIBUTION, cosine, parameter);
 }
 
-// What to multiply reflectance by, lest light be lost that is reflected more than once.
+// Factor of reflectance that makes up for light reflected more than once.
 vec3 scattering_scale(vec3 f0, float cosine, float parameter) {
     return MULTIPLE_SCATTERING ? multiple_scattering_scale(albedo_of(cosine, parameter), f0)
                                : vec3(1.0);

@@ -1,8 +1,8 @@
 #ifndef AVERAGED_MAPS_GLSL
 #define AVERAGED_MAPS_GLSL
 
-// Fetching one mean normal and one mean width of a footprint, for filters that take them for those
-// of one texel.
+// Fetching one mean normal and one mean width of a footprint, for filters that shade with them as
+// if they were one texel's.
 
 #include "shading/filtered_maps.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
@@ -27,7 +27,7 @@ struct appearance {
     float level;
 };
 
-// What parameter_averaging.comp averages, of one texel; and back.
+// From a texel's width to the value that parameter_averaging.comp averages; and back.
 float averaged_width(base_material base) {
     return MODEL == MODEL_MICROFACET ? base_lobe_concentration(DISTRIBUTION, base.width)
                                      : base.width;
@@ -37,7 +37,7 @@ float width_from_average(float average) {
     return MODEL == MODEL_MICROFACET ? base_lobe_of_concentration(DISTRIBUTION, average) : average;
 }
 
-// The averages over the footprint: a normal of any length, and a width.
+// Averages over the footprint: a normal of length at most one, and a width.
 vec4 fetch_averages(map_area area, surface_point surface) {
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i)

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The environment, where nothing is in front of it.
+// Draws the environment where no surface covers it.
 
 #include "interface/background.h"
 #include "lib/light/environment_level.glsl"

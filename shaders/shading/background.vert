@@ -1,6 +1,6 @@
 #version 460
 
-// One triangle over the whole picture, as far away as can be.
+// One triangle over the whole picture, at infinite distance.
 
 layout(location = 0) out vec2 clip_position;
 

@@ -2,7 +2,7 @@
 #define BASE_MATERIAL_GLSL
 
 // A material at one point of its maps, and its reflectance: what `direct` and the reference
-// evaluate, and what all filters are to average.
+// evaluate, and what all other filters should average.
 
 #include "shading/albedo_table.glsl"
 #include "lib/number/angle.glsl"
@@ -22,14 +22,14 @@ struct base_material {
     float variance; // of normals under the pixel, which widens the lobes; 0: none
 };
 
-// A lobe's parameter with the spread of normals inside a texel.
+// A lobe's parameter, widened by the spread of normals inside a texel.
 float convolved(float parameter) {
     return NORMAL_CONCENTRATION
                ? convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration)
                : parameter;
 }
 
-// The material's constants times the texels of its maps, white where it has none.
+// The material's constants times the texels of its maps; a missing map counts as white.
 base_material assemble_material(surface_point surface, vec3 normal, vec4 base_colour, vec4 width,
                                 vec3 specular) {
     base_material base;
@@ -61,8 +61,8 @@ float widened_lobe_parameter(int i, base_material base) {
                              base.variance);
 }
 
-// Of microfacets. Their masking is widened too: facets that lean away hide each other, and at a
-// silhouette nothing else holds a broad distribution down.
+// For microfacets. Masking uses the widened distribution too: tilted facets hide each other, and at
+// a silhouette nothing else limits a broad distribution.
 float widened_width(base_material base) {
     return widened_parameter(DISTRIBUTION, base.width, base.variance);
 }
@@ -95,7 +95,7 @@ vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distributi
            microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
 }
 
-// All lobes with their colours, but for the specular map's.
+// All lobes with their colours, without the specular map.
 vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LOBE_COUNT; ++i) {
@@ -106,8 +106,8 @@ vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     return sum;
 }
 
-// Reflectance times cosine, for unit directions in the tangent frame. Nothing reaches a point
-// from below the macro-surface. `mean_normal` is the Lambert part's: as in evaluate_microfacets.
+// Reflectance times cosine, for unit directions in the tangent frame. No light arrives from below
+// the macro-surface. `mean_normal` is used for the Lambert part, as in evaluate_microfacets.
 vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
     if (incoming.z <= 0.0)
         return vec3(0.0);

@@ -19,7 +19,7 @@ layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
 layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
 layout(set = 0, binding = 21) uniform sampler2D occlusion_filtered;
 
-// By how much of its width a footprint may be longer than its probes cover.
+// How much longer than its probes cover a footprint may be, in widths.
 const float SLACK = 0.25;
 
 // Where and how widely a map is read.
@@ -34,7 +34,7 @@ uint probes_of(map_area area) {
     return PROBES > 1u ? area.probes : 1u;
 }
 
-// As many as the footprint is longer than wide.
+// As many probes as the footprint is times longer than wide.
 uint probes_needed(footprint pixel) {
     float length = pixel.major_axis / max(pixel.minor_axis, 1e-6 * pixel.major_axis);
     return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));
@@ -69,7 +69,7 @@ vec2 lobe_map_size() {
     return size;
 }
 
-// The lobes' footprint follows the normal map, or where there is none the width map.
+// The lobes' footprint uses the coordinates of the normal map, or of the width map without one.
 int lobe_map() {
     return has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH;
 }
@@ -82,7 +82,7 @@ vec2 probe_position(map_area area, uint probe) {
     return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
 }
 
-// `lobes`: the area of the lobes' map, which serves maps that are laid out like it.
+// `lobes`: the area of the lobes' map, reused for maps with the same layout.
 vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface,
                     map_area lobes) {
     if (!has_map(map))
@@ -111,7 +111,7 @@ vec3 filtered_emission(surface_point surface, map_area lobes) {
     return filtered_texel(MAP_EMISSIVE, emissive_map, emissive_filtered, surface, lobes).rgb;
 }
 
-// What part of the environment's light comes to the footprint.
+// The fraction of the environment's light that reaches the footprint.
 float fetch_occlusion(surface_point surface) {
     float texel = filtered_texel(MAP_OCCLUSION, occlusion_map, occlusion_filtered, surface,
                                  lobe_area(surface)).r;

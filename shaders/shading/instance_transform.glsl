@@ -12,7 +12,7 @@ vec3 transform_point(vec3 position) {
     return vec3(dot(instance.rows[0], p), dot(instance.rows[1], p), dot(instance.rows[2], p));
 }
 
-// Normals go by the cofactor matrix, det(M) M^-T, which exists for any M.
+// Normals are transformed by the cofactor matrix, det(M) M^-T, which exists for any M.
 vec3 transform_normal(vec3 normal) {
     vec3 r0 = instance.rows[0].xyz, r1 = instance.rows[1].xyz, r2 = instance.rows[2].xyz;
     vec3 n = vec3(dot(cross(r1, r2), normal), dot(cross(r2, r0), normal), dot(cross(r0, r1), normal));

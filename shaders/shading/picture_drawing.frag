@@ -1,6 +1,6 @@
 #version 460
 
-// A picture from the host's memory, rows from the top.
+// Draws a picture uploaded from host memory, rows from the top.
 
 layout(push_constant) uniform constants_block { uint width; };
 layout(set = 0, binding = 0, std430) readonly buffer picture_block { vec4 picture[]; };

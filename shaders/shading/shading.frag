@@ -1,21 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Shades a pixel under punctual lights, from the appearance that the filter fetches there. The
-// build makes one variant of this shader for each file in filters/. What such a file brings:
+// Shades a pixel under punctual lights from the appearance that the filter fetches. The build makes
+// one variant of this shader for each file in filters/. Such a file defines:
 //
 //   struct appearance                           with emission, alpha, normal, lobe_count, level
 //   appearance fetch_appearance(surface_point)  the appearance of the pixel's footprint
 //   void gather_lights(inout appearance, surface_point, vec3 incoming[4])
-//                                               prepares for up to LIGHTS_AT_ONCE directions,
-//                                               so that what is fetched serves them all
+//                                               prepares up to LIGHTS_AT_ONCE directions, so
+//                                               that all of them share the same fetches
 //   vec3 evaluate_appearance(appearance, surface_point, vec3 incoming, uint light)
 //                                               reflectance times cosine for one of those
 //
-// and, where ENVIRONMENT is defined, light comes from all sides as well:
+// and, if ENVIRONMENT is defined (light from all directions as well):
 //   vec3 reflect_environment(inout appearance, surface_point)
-//                                               radiance reflected of it
-//   float fetch_occlusion(surface_point)        how much of it comes to the footprint
+//                                               reflected radiance of the environment
+//   float fetch_occlusion(surface_point)        fraction of it that reaches the footprint
 
 #include "filter.glsl"
 #include "shading/punctual_lights.glsl"
@@ -33,7 +33,7 @@ vec3 incoming_direction(uint i, surface_point surface) {
     return light_direction(i, surface.world_position) * surface.world_from_tangent;
 }
 
-// Radiance from all lights, LIGHTS_AT_ONCE after LIGHTS_AT_ONCE.
+// Radiance from all lights, LIGHTS_AT_ONCE at a time.
 vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
     vec3 sum = vec3(0.0);
     uint count = light_count();
@@ -71,7 +71,7 @@ void main() {
     if (ALPHA_MASK && fetched.alpha < material.emissive.w)
         discard;
 
-    // Views of what it took to shade need the shading.
+    // Shades even for the views of lobes and levels, which count what shading used.
     vec3 value = vec3(0.0);
     if (DIRECTIONAL_LIGHTS || POINT_LIGHTS || SPOT_LIGHTS)
         value = reflected_radiance(fetched, surface);

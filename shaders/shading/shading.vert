@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Brings a mesh to the screen.
+// Transforms a mesh's vertices to clip space.
 
 #include "interface/frame.h"
 #include "interface/instance.h"

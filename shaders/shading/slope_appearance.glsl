@@ -1,14 +1,14 @@
 #ifndef SLOPE_APPEARANCE_GLSL
 #define SLOPE_APPEARANCE_GLSL
 
-// Shading from slope moments. Level 0 of the maps is the base material itself. What a file in
-// filters/ brings, the structure before it includes this one:
+// Shading from slope moments. Level 0 of the maps is the base material itself. A file in filters/
+// defines, the structure before it includes this file:
 //
 //   struct footprint_lobe                         what its lobe is made of
 //   footprint_lobe footprint_lobe_of(slope_moments)
 //   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
-//                                                 as gather_lights and evaluate_appearance
+//                                                 like gather_lights and evaluate_appearance
 
 #include "shading/slope_maps.glsl"
 
@@ -95,7 +95,7 @@ vec3 lobes_colour() {
 }
 
 #ifdef ENVIRONMENT
-// As evaluate_footprint, of the environment: what the filter brings.
+// Like evaluate_footprint, for light from the environment: defined by the filter.
 vec3 reflect_footprint(appearance fetched, surface_point surface);
 
 vec3 reflect_environment(appearance fetched, surface_point surface) {

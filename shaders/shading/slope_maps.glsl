@@ -15,12 +15,12 @@
 
 layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
 
-// What all slopes are multiplied by: the filter says.
+// Factor of all slopes: defined by the filter.
 float height_scale();
 
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
 
-// Of the directions in a footprint, and of the base lobes about them.
+// Moments of the directions in a footprint and of the base lobes about them.
 struct slope_moments {
     vec2 mean;
     vec3 covariance;     // (xx, yy, xy), of the directions alone
@@ -41,11 +41,11 @@ vec4 fetch_moment_layer(map_area area, int layer) {
     return sum / float(probes_of(area));
 }
 
-// Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor, second
-// ones by its square.
+// Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor,
+// second ones by its square.
 //
-// The surface's own curvature joins the slopes: about its normal, slopes are differences of
-// normals.
+// The covariance of the surface's own curvature is added: slopes about the normal are differences
+// of normals.
 slope_moments fetch_moments(map_area area, surface_point surface) {
     vec4 first = fetch_moment_layer(area, SLOPE_LAYER_FIRST);
     vec4 second = fetch_moment_layer(area, SLOPE_LAYER_SECOND);

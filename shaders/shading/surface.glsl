@@ -1,7 +1,7 @@
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
 
-// What rasterisation brings to a pixel, and the blocks all filters read.
+// The interpolated surface at a pixel, and the blocks that all filters read.
 
 #include "interface/frame.h"
 #include "interface/instance.h"
@@ -47,7 +47,7 @@ layout(location = 2) in vec4 interpolated_tangent;
 layout(location = 3) in vec4 interpolated_coordinates;
 layout(location = 4) in vec4 interpolated_colour;
 
-// A point of the macro-surface. Directions without a space in their name are in its tangent
+// A point of the macro-surface. Directions whose name does not mention a space are in its tangent
 // frame: x along the tangent, z along the interpolated normal.
 struct surface_point {
     vec3 world_position;
@@ -58,7 +58,7 @@ struct surface_point {
     vec4 coordinates_dy;
     vec4 colour;
     vec3 curvature; // covariance (xx, yy, xy) of the interpolated normals under the pixel, in the
-                    // plane of the tangent frame; zero where the knob curvature is 0
+                    // plane of the tangent frame; 0 if the knob curvature is 0
 };
 
 bool has_map(int map) {
@@ -69,11 +69,11 @@ bool front_side() {
     return gl_FrontFacing != MIRRORED;
 }
 
-// Beyond this variance a pixel holds a silhouette, where derivatives mean nothing.
+// A larger variance means that the pixel is at a silhouette, where derivatives are meaningless.
 const float CURVATURE_MAXIMUM = 0.1;
 
-// Covariance of the macro-surface's normal over the pixel's box: its change from pixel to pixel,
-// taken as linear; a box of width one has the variance 1/12.
+// Covariance of the macro-surface's normal over the pixel's box, assuming that it changes linearly
+// from pixel to pixel: a box of width one has the variance 1/12.
 vec3 normal_covariance(vec3 normal, mat3 world_from_tangent) {
     vec2 dx = (dFdx(normal) * world_from_tangent).xy;
     vec2 dy = (dFdy(normal) * world_from_tangent).xy;
@@ -101,7 +101,7 @@ surface_point read_surface() {
     return surface;
 }
 
-// Where a map is read: its texture coordinates, or with `one` 0 a difference of them.
+// Texture coordinates at which a map is read (`one`: 1), or a difference of them (`one`: 0).
 vec2 map_coordinates(int map, vec4 both_sets, float one) {
     vec2 set = (SECOND_COORDINATES & (1u << map)) != 0u ? both_sets.zw : both_sets.xy;
     vec3 row = vec3(set, one);

@@ -21,7 +21,7 @@ vec4 unfiltered_base_colour(surface_point surface) {
     return unfiltered_texel(MAP_BASE_COLOUR, base_colour_map, surface);
 }
 
-// glTF 2.0, section 3.9.3: of an occlusion map's texel, or a mean of them.
+// glTF 2.0, section 3.9.3, for a texel of the occlusion map or a mean of texels.
 float unoccluded(float texel) {
     return has_map(MAP_OCCLUSION) ? 1.0 + material.occlusion_strength * (texel - 1.0) : 1.0;
 }

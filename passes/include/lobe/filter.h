@@ -13,8 +13,8 @@
 extern "C" {
 #endif
 
-/// A filter is a way of filtering appearance: how maps are prepared, and how a pixel is shaded
-/// from them. All filters go through the same shading pass.
+/// A way of filtering appearance: how maps are prepared, and how a pixel is shaded from them. All
+/// filters go through the same shading pass.
 typedef struct lobe_filter lobe_filter;
 
 typedef enum lobe_knob_kind {
@@ -23,8 +23,8 @@ typedef enum lobe_knob_kind {
     LOBE_KNOB_CHOICE,  ///< one of `choices`; its value is the index
 } lobe_knob_kind;
 
-/// Something a user can set: the same list feeds the command line, the benchmark and the
-/// documentation.
+/// A parameter that a user can set. The command line, the viewer, the benchmark and the manual
+/// pages all use this description.
 typedef struct lobe_knob {
     const char *name;
     const char *summary; ///< one line
@@ -32,33 +32,33 @@ typedef struct lobe_knob {
     double minimum, maximum;    ///< numbers and integers
     double initial;             ///< default; for a choice the index
     const char *const *choices; ///< NULL-terminated; choices only
-    /// Values worth comparing, as a user would write them, with commas between: what a sweep of
-    /// the benchmark goes through. NULL: none but the default.
+    /// Values worth comparing, as a user would write them, separated by commas: a sweep of the
+    /// benchmark measures them. NULL: only the default.
     const char *sweep;
-    /// What must be set for those values to tell, "env=sampled"; NULL: nothing.
+    /// Assignment without which those values have no effect, such as "env=sampled"; NULL: none.
     const char *sweep_with;
-    /// Tells only in scenes that are lit by an environment: a sweep passes over it in all others.
+    /// Has an effect only in scenes lit by an environment; a sweep skips it in all others.
     bool environment;
 } lobe_knob;
 
-/// Most knobs a filter may have, the shared ones included.
+/// Largest number of knobs of a filter, including those that every filter has.
 #define LOBE_MAXIMUM_KNOBS 24
 
-/// The filters there are, in a fixed order.
+/// The number of filters; their order is fixed.
 LOBE_API size_t lobe_filter_count(void);
-/// NULL for an index out of range.
+/// NULL if the index is out of range.
 LOBE_API const lobe_filter *lobe_filter_get(size_t index);
-/// LOBE_ERROR_NOT_FOUND with a line that lists the filters there are. `host` may be NULL.
+/// LOBE_ERROR_NOT_FOUND with a line that lists all filters. `host` may be NULL.
 LOBE_API lobe_result lobe_filter_find(const char *name, const lobe_host *host,
                                       const lobe_filter **filter);
 
 LOBE_API const char *lobe_filter_name(const lobe_filter *filter);
 LOBE_API const char *lobe_filter_summary(const lobe_filter *filter); ///< one line
-LOBE_API const char *lobe_filter_paper(const lobe_filter *filter);   ///< the source, or ""
-/// True for the reference: it takes the mean of many samples of the unfiltered maps.
+LOBE_API const char *lobe_filter_paper(const lobe_filter *filter);   ///< its source, or ""
+/// True for the reference, which averages many samples of the unfiltered maps.
 LOBE_API bool lobe_filter_supersamples(const lobe_filter *filter);
 
-/// All knobs of a filter: its own, then those every filter shares.
+/// All knobs of a filter: its own, then those that every filter has.
 LOBE_API size_t lobe_filter_knob_count(const lobe_filter *filter);
 LOBE_API const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index);
 
@@ -70,7 +70,7 @@ typedef struct lobe_settings {
 /// Every knob at its default.
 LOBE_API void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings);
 /// Sets one knob from "NAME=VALUE". Errors: LOBE_ERROR_NOT_FOUND (no such knob; the line lists
-/// those there are), LOBE_ERROR_INVALID_ARGUMENT (no '=', not a number, out of range, not one of
+/// the filter's knobs), LOBE_ERROR_INVALID_ARGUMENT (no '=', not a number, out of range, not one of
 /// the choices; the line says what is allowed). `settings` is unchanged then.
 LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
                                        const char *assignment, const lobe_host *host);
@@ -78,7 +78,7 @@ LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings 
 /// the filter's knobs if it has none of that name; `value` is unchanged then.
 LOBE_API lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
                                        const char *name, double *value, const lobe_host *host);
-/// Writes a knob's value as the user would ("0.95", "camera") into `text`.
+/// Writes a knob's value as a user would ("0.95", "camera") into `text`.
 LOBE_API void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings,
                                   size_t knob, char *text, size_t size);
 

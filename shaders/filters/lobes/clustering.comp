@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The finest level of a map of lobe mixtures in tangent space, straight from the base maps: the
-// instant BRDF map of Xu et al. 2017 is one lobe a texel, so it needs no memory of its own; the
-// mixture begins where texels are averaged, at half the base maps' size.
+// The finest level of a map of lobe mixtures in tangent space, directly from the base maps: the
+// instant BRDF map of Xu et al. 2017 has one lobe per texel, so it needs no memory of its own. The
+// mixture starts where texels are averaged, at half the base maps' size.
 
 #include "interface/clustering.h"
 #include "filters/lobes/clustering.glsl"

@@ -5,7 +5,7 @@
 //
 // Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Each cluster j of a
 // subdivision keeps w_j r_j and, as a fourth channel, w_j: only these can be averaged further.
-// Texels that were left out (outside the atlas, facing away) add nothing to either, so that the
+// Texels that are left out (outside the atlas, facing away) add nothing to either, so that the
 // weights of a subdivision add up to the coverage.
 
 #include "maps/base_maps.glsl"
@@ -50,8 +50,8 @@ void add_normal(inout cluster_sums sums, vec3 normal, float weight) {
     sums.mean.xyz += weight * normal;
 }
 
-// 1 - |r| of each base lobe of a texel. Where widths do not vary this is a constant of the
-// dispatch, which the caller takes out of its loop over texels.
+// 1 - |r| of each base lobe of a texel. If widths do not vary, it is constant over the dispatch,
+// and the caller hoists it out of its loop over texels.
 void texel_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]) {
     for (int i = 0; i < LOBE_COUNT; ++i)
         complements[i] = mean_resultant_complement(base_concentration(i, width));

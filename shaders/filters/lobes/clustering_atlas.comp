@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The finest level of a map of lobe mixtures in object or camera space: as lobe_clustering, with
-// each texel's tangent frame from the mesh's surface atlas. What faces away from the camera is
-// left out (Xu et al. 2017, section 4, Generation of instant BRDF map).
+// The finest level of a map of lobe mixtures in object or camera space: like clustering.comp, with
+// each texel's tangent frame from the mesh's surface atlas. Texels that face away from the camera
+// are left out (Xu et al. 2017, section 4, Generation of instant BRDF map).
 
 #include "interface/clustering.h"
 #include "filters/lobes/clustering.glsl"

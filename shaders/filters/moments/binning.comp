@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The finest level of a map of lobe moments: every base lobe of the texels under a target texel
-// goes, as mass, place, second moments of the place and sharpness in the Lambert plane, to the
-// bins that it is a member of. All of these are sums, so that any linear filter of the map is that
-// of the lobes. The texels' own lobes are level 0; the map begins where texels are averaged.
+// adds its mass, place, second moments of the place and sharpness in the Lambert plane to the bins
+// that it belongs to. All of these are sums, so that filtering the map linearly filters the lobes.
+// The texels' own lobes are level 0; the map starts where texels are averaged.
 
 #include "maps/base_maps.glsl"
 #include "interface/clustering.h"
@@ -59,7 +59,7 @@ void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
         members[i] /= sum;
 }
 
-// Bin 0 has what is rough; the others share the rest by direction.
+// Bin 0 gets rough lobes; the others share the rest by direction.
 void share_hats(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
     bool rough = lobe.variance >= binning.hats.w;
     vec2 d = lobe.place - binning.hats.xy;

@@ -32,7 +32,7 @@ vec3 direction_step(vec2 place, vec2 step) {
 // map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With
 // c = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,
 //   c r r^T + (1/c) (I - r r^T) = I/c - (1/c - c) q q^T / |q|^2,   |q|^2 = 4 (1 - c).
-// Close to the rim it is that of c = 0.05, lest it have no bounds.
+// Near the rim it is that of c = 0.05, to keep it bounded.
 vec3 plane_distortion(vec2 place) {
     float square = dot(place, place);
     float c = max(1.0 - 0.25 * square, 0.05);
