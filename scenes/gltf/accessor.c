@@ -51,7 +51,7 @@ typedef struct element_range {
 // Finds `range->count` elements of a view. Divides instead of multiplying, so nothing overflows.
 static lobe_result open_range(const gltf_import *import, const element_range *range,
                               const char *what, const uint8_t **bytes, size_t *stride) {
-    size_t length, view_stride;
+    size_t length = 0, view_stride = 0;
     lobe_result result =
         scenes_gltf_open_view(import, range->view, what, bytes, &length, &view_stride);
     if (result != LOBE_OK)

@@ -91,7 +91,7 @@ lobe_result scenes_add_instance(lobe_scene *scene, uint32_t mesh, uint32_t mater
 
 lobe_result scenes_place_mesh(lobe_scene *scene, lobe_mesh *mesh, uint32_t material,
                               const lobe_host *host) {
-    uint32_t index;
+    uint32_t index = 0;
     const lobe_result result = scenes_add_mesh(scene, mesh, host, &index);
     return result != LOBE_OK ? result : scenes_add_instance(scene, index, material, NULL, host);
 }
