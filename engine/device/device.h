@@ -65,6 +65,8 @@ uint64_t engine_device_stamp(lobe_device *device);
 /// may be NULL. Only barriers order submissions. `host`: its semaphores; NULL: none.
 lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
                                  const lobe_vulkan_submission *host, uint64_t *value);
+/// The value that the timeline has reached, without waiting; 0 if the device does not say.
+uint64_t engine_device_finished(lobe_device *device);
 /// Waits until the timeline has reached `value`.
 lobe_result engine_device_wait(lobe_device *device, uint64_t value);
 /// Waits for all submissions.

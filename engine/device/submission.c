@@ -78,6 +78,13 @@ lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
     return check(device, submitted, "vkQueueSubmit2", "submission");
 }
 
+uint64_t engine_device_finished(lobe_device *device) {
+    uint64_t value = 0;
+    const VkResult result =
+        device->api.vkGetSemaphoreCounterValue(device->vulkan, device->timeline, &value);
+    return result == VK_SUCCESS ? value : 0;
+}
+
 lobe_result engine_device_wait_queue(lobe_device *device) {
     engine_device_lock_queue(device);
     const VkResult waited = device->api.vkQueueWaitIdle(device->queue);

@@ -106,6 +106,7 @@
     X(vkGetImageMemoryRequirements)                                                                \
     X(vkGetPipelineCacheData)                                                                      \
     X(vkGetQueryPoolResults)                                                                       \
+    X(vkGetSemaphoreCounterValue)                                                                  \
     X(vkMapMemory)                                                                                 \
     X(vkQueueSubmit2)                                                                              \
     X(vkQueueWaitIdle)                                                                             \

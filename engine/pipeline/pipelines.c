@@ -259,7 +259,8 @@ static void evict(lobe_device *device) {
     engine_pipelines *pipelines = device->pipelines;
     if (pipelines->count < ENGINE_MAXIMUM_PIPELINES)
         return;
-    const uint64_t oldest = engine_pipeline_uses_oldest(&pipelines->uses);
+    const uint64_t oldest =
+        engine_pipeline_uses_oldest(&pipelines->uses, engine_device_finished(device));
     cached_pipeline **link = &pipelines->pipelines;
     for (uint32_t n = 1; *link && (n < ENGINE_MAXIMUM_PIPELINES || (*link)->used >= oldest); n++)
         link = &(*link)->next;
@@ -339,6 +340,11 @@ void engine_pipelines_begin_use(lobe_device *device, engine_pipeline_use *use) {
 
 void engine_pipelines_end_use(lobe_device *device, engine_pipeline_use *use) {
     engine_pipeline_use_end(&device->pipelines->uses, use);
+}
+
+void engine_pipelines_end_use_after(lobe_device *device, engine_pipeline_use *use,
+                                    uint64_t submission) {
+    engine_pipeline_use_submitted(&device->pipelines->uses, use, submission);
 }
 
 static lobe_result find_compute(lobe_device *device, const engine_compute_parameters *parameters,

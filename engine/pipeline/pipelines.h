@@ -21,6 +21,9 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
 /// Begins and ends a frame in progress: pipelines found in between live until it ends.
 void engine_pipelines_begin_use(lobe_device *device, engine_pipeline_use *use);
 void engine_pipelines_end_use(lobe_device *device, engine_pipeline_use *use);
+/// Ends it as soon as the device's timeline has reached `submission`.
+void engine_pipelines_end_use_after(lobe_device *device, engine_pipeline_use *use,
+                                    uint64_t submission);
 
 /// Finds or creates the pipeline for these parameters. With hot reload, a new one is returned once
 /// a shader's source has changed. Outside of a frame in progress, the next call may evict it.

@@ -33,11 +33,23 @@ void engine_pipeline_use_end(engine_pipeline_uses *uses, engine_pipeline_use *us
     pthread_mutex_unlock(&uses->mutex);
 }
 
-uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses) {
+void engine_pipeline_use_submitted(engine_pipeline_uses *uses, engine_pipeline_use *use,
+                                   uint64_t submission) {
+    pthread_mutex_lock(&uses->mutex);
+    use->submission = submission;
+    pthread_mutex_unlock(&uses->mutex);
+}
+
+static bool is_finished(const engine_pipeline_use *use, uint64_t finished) {
+    return use->submission && use->submission <= finished;
+}
+
+uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses, uint64_t finished) {
     uint64_t oldest = UINT64_MAX;
     pthread_mutex_lock(&uses->mutex);
     for (const engine_pipeline_use *use = uses->first; use; use = use->next)
-        oldest = use->since < oldest ? use->since : oldest;
+        if (!is_finished(use, finished) && use->since < oldest)
+            oldest = use->since;
     pthread_mutex_unlock(&uses->mutex);
     return oldest;
 }

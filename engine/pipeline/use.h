@@ -14,6 +14,7 @@
 typedef struct engine_pipeline_use {
     struct engine_pipeline_use *next;
     uint64_t since;
+    uint64_t submission; ///< value of the device's timeline that ends it; 0: not known
     bool active;
 } engine_pipeline_use;
 
@@ -32,7 +33,13 @@ void engine_pipeline_use_begin(engine_pipeline_uses *uses, engine_pipeline_use *
 /// Does nothing if it is not in progress.
 void engine_pipeline_use_end(engine_pipeline_uses *uses, engine_pipeline_use *use);
 
-/// Returns the start of the oldest frame in progress; UINT64_MAX if there is none.
-uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses);
+/// Says which value of the device's timeline ends a frame: once that is reached, the frame no
+/// longer counts, even if nobody ever waits for it.
+void engine_pipeline_use_submitted(engine_pipeline_uses *uses, engine_pipeline_use *use,
+                                   uint64_t submission);
+
+/// Returns the start of the oldest frame in progress; UINT64_MAX if there is none. `finished`: the
+/// value that the device's timeline has reached.
+uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses, uint64_t finished);
 
 #endif

@@ -156,7 +156,7 @@ static void set_up(lobe_environment_maps *maps, lobe_device *device,
     maps->request = (environment_maps_request){
         .environment = &maps->shape,
         .size = parameters->size ? parameters->size : 256,
-        .parts = parameters->parts_a_submission,
+        .parts = parameters->parts_per_submission,
     };
     memcpy(maps->request.wanted, parameters->wanted, sizeof maps->request.wanted);
 }

@@ -71,8 +71,6 @@ void lobe_environment_turn(lobe_environment *environment, double degrees) {
     }
 }
 
-#include "scenes/environment/direction.h"
-
 bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
                                double position[2]) {
     const lobe_image *image = &environment->image;

@@ -12,7 +12,7 @@ struct clustering_constants {
 INTERFACE_SIZE(clustering_constants, 8)
 INTERFACE_OFFSET(clustering_constants, height, 4)
 
-// Push constants of lobe_clustering_atlas.
+// Push constants of filters/lobes/clustering_atlas.comp.
 struct atlas_constants {
     float4 rotation[3]; // rows: from the space of the atlas to that of the mixtures
     float4 eye;         // in the space of the atlas; w: 1 perspective (a position), 0 orthographic

@@ -205,7 +205,7 @@ static lobe_result prepare(measurement *m, bool between) {
             .size = m->findings->face,
             .wanted =
                 {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true, [LOBE_ENVIRONMENT_BETWEEN] = between},
-            .parts_a_submission = 1,
+            .parts_per_submission = 1,
             .progress = progress_part,
             .user = m->job->progress,
             .host = m->job->host,

@@ -63,7 +63,7 @@ static lobe_result prepare(const environment_request *request, environment_state
     lobe_environment_maps_parameters parameters = {
         .environment = state->environment,
         .size = request->face,
-        .parts_a_submission = 1,
+        .parts_per_submission = 1,
         .progress = progress_part,
         .user = &state->progress,
         .host = &state->host,

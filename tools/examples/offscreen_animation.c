@@ -46,7 +46,7 @@ typedef struct animation {
 } animation;
 
 /// `part` [0, 1] says how far along the animation is. Lights and cameras are read in every frame;
-/// of a material's change the renderer must be told.
+/// a changed material must be listed for the renderer.
 static lobe_result change_scene(animation *a, double part, lobe_camera *camera) {
     static const uint32_t first = 0;
     lobe_material *material = &a->scene->materials[first];

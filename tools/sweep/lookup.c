@@ -44,15 +44,6 @@ static bool is_of(const sweep_row *row, const char *scene, const char *filter) {
     return strcmp(row->scene, scene) == 0 && strcmp(row->filter, filter) == 0;
 }
 
-const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
-                                       const char *filter) {
-    for (size_t i = 0; i < results->row_count; i++) {
-        if (is_of(&results->rows[i], scene, filter) && results->rows[i].varied[0] == '\0')
-            return &results->rows[i];
-    }
-    return NULL;
-}
-
 static bool has_setting(const sweep_row *row, const sweep_setting *setting) {
     const char *value = sweep_row_value(row, setting->name);
     return value && strcmp(value, setting->value) == 0;

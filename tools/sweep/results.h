@@ -118,10 +118,6 @@ double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row)
 /// The value of a row's knob; NULL: it has no such knob.
 const char *sweep_row_value(const sweep_row *row, const char *knob);
 
-/// The row of a scene and filter at its defaults; NULL if there is none.
-const sweep_row *sweep_results_default(const sweep_results *results, const char *scene,
-                                       const char *filter);
-
 /// The row with exactly these settings, in any order; NULL if there is none.
 const sweep_row *sweep_results_row(const sweep_results *results, const char *scene,
                                    const char *filter, const sweep_setting *settings,

@@ -7,6 +7,7 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/graph/report.h"
 #include "engine/graph/store/store.h"
+#include "engine/pipeline/pipelines.h"
 
 /// Image copies start at multiples of the texel size; this is the largest.
 #define READ_BACK_ALIGNMENT 16
@@ -128,6 +129,8 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
     if (result != LOBE_OK)
         return result;
     flight->busy = true;
+    if (flight->submission)
+        engine_pipelines_end_use_after(graph->device, &flight->pipelines, flight->submission);
     engine_graph_stamp_retained(graph);
     return LOBE_OK;
 }

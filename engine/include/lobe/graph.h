@@ -160,7 +160,7 @@ typedef struct lobe_specialisation {
 } lobe_specialisation;
 
 typedef struct lobe_dispatch {
-    const char *shader; ///< "lobe_reduction.comp"
+    const char *shader; ///< for example "maps/level_reduction.comp"
     /// Invocations in each dimension, rounded up to whole groups of the shader's local size: the
     /// shader must check its bounds. 0 means 1.
     uint32_t threads[3];

@@ -51,7 +51,7 @@ typedef struct lobe_environment_maps_parameters {
     bool wanted[LOBE_ENVIRONMENT_MAP_COUNT]; ///< the radiance is always made
     /// Most parts of the work to do in one submission, so that the device can do other work in
     /// between; 0: all in one submission.
-    uint32_t parts_a_submission;
+    uint32_t parts_per_submission;
     /// An existing folder that caches filtered cubes, as OpenEXR files named after what they were
     /// made from: cubes that are found are not made, others are saved. A damaged or foreign file is
     /// replaced, with a notice. Logs a warning if the folder is not writable. Files may be removed

@@ -18,7 +18,8 @@ float isotropic_variance(vec3 covariance) {
     return 0.5 * (covariance.x + covariance.y);
 }
 
-// A lobe's own parameter (lib/base_lobe.glsl) with such normals, by 1/kappa' = 1/kappa + variance:
+// A lobe's own parameter (lib/lobe/base_lobe.glsl) with such normals, by
+// 1/kappa' = 1/kappa + variance:
 //   s' = s/(1 + s sigma^2), which is Toksvig, 2005, Eq. 2; the same in kappa;
 //   alpha'^2 = alpha^2 + 2 sigma^2 (Olano, Baker, 2010, LEAN Mapping: variances of slopes add).
 // Written so that the parameter is the same to the last bit where the variance vanishes. Alpha

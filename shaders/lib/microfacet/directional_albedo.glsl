@@ -4,9 +4,11 @@
 #include "interface/directional_albedo.h"
 #include "interface/specialisation.h"
 
-// The table that shaders/environment/directional_albedo.comp fills for one distribution, and what it is for.
+// The table that shaders/environment/directional_albedo.comp fills for one distribution, and what it
+// is for.
 
-// Roughness [0, 1] with this parameter: the inverse of microfacet_parameter (lib/base_lobe.glsl).
+// Roughness [0, 1] with this parameter: the inverse of microfacet_parameter
+// (lib/lobe/base_lobe.glsl).
 // Lobes broader than any material's count as roughness 1.
 float roughness_from_parameter(uint distribution, float parameter) {
     switch (distribution) {

@@ -10,7 +10,7 @@
 // Distributions D(h) of microfacet normals about n, per steradian, normalised so that the
 // projected area is one: integral over the hemisphere of D(h) <n, h> dh = 1. Zero below the
 // horizon.
-// All angles through |n - h|^2 (lib/angle.glsl): accurate for alpha from 1e-4 up.
+// All angles through |n - h|^2 (lib/number/angle.glsl): accurate for alpha from 1e-4 up.
 
 // Walter, Marschner, Li, Torrance, 2007, Microfacet Models for Refraction through Rough Surfaces,
 // Eq. 33, with tan^2 multiplied out:
@@ -57,7 +57,7 @@ float distribution_von_mises_fisher(vec3 normal, vec3 half_vector, float concent
                : 0.0;
 }
 
-// Any of them, by its own parameter (lib/base_lobe.glsl).
+// Any of them, by its own parameter (lib/lobe/base_lobe.glsl).
 float normal_distribution(uint distribution, vec3 normal, vec3 half_vector, float parameter) {
     switch (distribution) {
     case DISTRIBUTION_BECKMANN:

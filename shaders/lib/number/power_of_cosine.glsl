@@ -5,7 +5,8 @@
 #include "lib/number/exponential.glsl"
 
 // <a,b>^exponent for unit vectors, 0 below the horizon; exponent >= 0. For large exponents only
-// the neighbourhood of 1 counts, and there log <a,b> comes from |a - b|^2: see lib/angle.glsl.
+// the neighbourhood of 1 counts, and there log <a,b> comes from |a - b|^2: see
+// lib/number/angle.glsl.
 float power_of_cosine(vec3 a, vec3 b, float exponent) {
     float cosine = dot(a, b);
     // 1e-30: the logarithm of zero is not wanted even where its product is not used.

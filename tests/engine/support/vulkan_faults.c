@@ -219,6 +219,13 @@ WAITS(vkWaitSemaphores, (VkDevice device, const VkSemaphoreWaitInfo *wait, uint6
 WAITS(vkDeviceWaitIdle, (VkDevice device), (device))
 WAITS(vkQueueWaitIdle, (VkQueue queue), (queue))
 
+/// Its failure is no failure of lobe's: pipelines are kept for longer.
+FUNCTION(VkResult, vkGetSemaphoreCounterValue,
+         (VkDevice device, VkSemaphore semaphore, uint64_t *value), false) {
+    return faults.timeline_unknown ? faults.fault
+                                   : vkGetSemaphoreCounterValue(device, semaphore, value);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Functions of extensions, which libvulkan does not export
 

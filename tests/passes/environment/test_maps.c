@@ -183,7 +183,7 @@ static void making_can_be_stopped(void **state) {
         .environment = &environment,
         .size = SIZE,
         .wanted = {[LOBE_ENVIRONMENT_VON_MISES_FISHER] = true},
-        .parts_a_submission = 1,
+        .parts_per_submission = 1,
         .progress = three_times,
         .user = &calls,
         .host = &f->host,

@@ -299,9 +299,6 @@ static void rows_are_found(void **state) {
     (void)state;
     static const sweep_setting swapped[] = {{"base", "own"}, {"epsilon0", "0.5"}};
     static const sweep_setting others[] = {{"base", "own"}, {"epsilon0", "0.6"}};
-    assert_ptr_equal(sweep_results_default(&written, "cloth", "lobes"), &rows[0]);
-    assert_null(sweep_results_default(&written, "cloth", "direct"));
-    assert_null(sweep_results_default(&written, "dragon", "lobes"));
     assert_ptr_equal(sweep_results_row(&written, "cloth", "lobes", swapped, 2), &rows[1]);
     assert_null(sweep_results_row(&written, "cloth", "lobes", others, 2));
     assert_null(sweep_results_row(&written, "cloth", "lobes", swapped, 1));

@@ -1,4 +1,4 @@
-"""The results of a sweep, as tools/sweep_results.h describes them. `lobe report` has checked the
+"""The results of a sweep, as tools/sweep/results.h describes them. `lobe report` has checked the
 file: every member has its type."""
 
 from __future__ import annotations
