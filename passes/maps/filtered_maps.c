@@ -107,6 +107,8 @@ static bool is_like_lobes(const device_material *material, uint32_t map) {
 
 /// Bits of the maps whose level 0 some pixel may see. The normal map counts with the size of the
 /// lobes' grid.
+/// A constant, so that the others' level 0 is not fetched. Hence the bias or the camera compiles a
+/// pipeline where it crosses the limit of a map: once for each map at most while the bias grows.
 static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);

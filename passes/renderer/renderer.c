@@ -65,8 +65,8 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
                               "update: no scene is set");
     lobe_result result =
         passes_device_scene_update(renderer->device, renderer->scene, changes, &renderer->host);
-    if (result == LOBE_OK)
-        passes_filter_slots_update(renderer->slots, renderer->scene);
+    // Also after an error: it may have come when some materials were already changed.
+    passes_filter_slots_update(renderer->slots, renderer->scene);
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->reported_filter = NULL;
     if (result == LOBE_OK && changes->environment)
