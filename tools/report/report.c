@@ -14,8 +14,8 @@
 #include "tools/report/script.h"
 #include "tools/sweep/results.h"
 
-/// `lobe report` checks the results, reads their pictures and writes the file; a Python script
-/// draws the page.
+/// `lobe report` checks the results, reads their pictures and writes the page, which a Python
+/// script draws.
 typedef struct report_request {
     const char *results, *folder;
     const char *targets; ///< NULL: none
@@ -26,7 +26,7 @@ typedef struct report_request {
 // ---------------------------------------------------------------------------------------------
 // Making
 
-/// The script takes the pictures from its standard input.
+/// The script reads the pictures from its standard input.
 static lobe_result start_script(const report_request *request, report_script *script) {
     char width[16];
     snprintf(width, sizeof width, "%u", request->picture_width);
@@ -41,7 +41,7 @@ static lobe_result start_script(const report_request *request, report_script *sc
     return report_script_start(arguments, &request->host, script);
 }
 
-/// The page as text, to free() by the caller.
+/// Returns the page as text; the caller frees it with free().
 static lobe_result make_page(const report_request *request, char **text, size_t *size) {
     sweep_results results;
     report_script script;
@@ -62,7 +62,7 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-/// The folder may exist. One that was made is removed again where the page cannot be written.
+/// The folder may exist. One created here is removed again if the page cannot be written.
 static lobe_result write_page(const report_request *request, const char *text, size_t size) {
     bool made = mkdir(request->folder, 0777) == 0;
     if (!made && errno != EEXIST)
