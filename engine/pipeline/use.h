@@ -32,7 +32,7 @@ void engine_pipeline_use_begin(engine_pipeline_uses *uses, engine_pipeline_use *
 /// Does nothing if it is not in progress.
 void engine_pipeline_use_end(engine_pipeline_uses *uses, engine_pipeline_use *use);
 
-/// Returns the start of the oldest frame in progress; UINT64_MAX if there is none.
+/// Returns the start of the oldest frame in progress; UINT64_MAX if no frame is in progress.
 uint64_t engine_pipeline_uses_oldest(engine_pipeline_uses *uses);
 
 #endif

@@ -100,12 +100,12 @@ static int run(int argc, char **argv) {
          .letter = 'o',
          .kind = OPTION_TEXT,
          .argument = "DIR",
-         .summary = "folder that index.html is written to; made where it is not there",
+         .summary = "folder that index.html is written to; created if it does not exist",
          .target = &request.folder},
         {.name = "picture-width",
          .kind = OPTION_INTEGER,
          .argument = "PIXELS",
-         .summary = "wider pictures are reduced, and a part of each shown as it is",
+         .summary = "wider pictures are downscaled, with a part of each shown at full size",
          .target = &request.picture_width,
          .fallback = "320",
          .minimum = 16,
@@ -113,18 +113,19 @@ static int run(int argc, char **argv) {
         {.name = "targets",
          .kind = OPTION_TEXT,
          .argument = "FILE",
-         .summary = "limits of ratios between filters, as JSON: shows which are met",
+         .summary = "limits of ratios between filters, as JSON: show which are met",
          .target = &request.targets},
     };
     const option_table table = {
         .program = "lobe report",
         .operands = "RESULTS.json",
-        .summary = "Draws what 'lobe bench --sweep' measured as one HTML page that needs nothing\n"
-                   "else: for each scene the pictures with maps of their errors, error over time\n"
-                   "and over memory with the Pareto front, and the times of passes; means over\n"
-                   "the scenes; and the table of Xu et al. 2017 beside the same ratios here.\n"
-                   "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
-                   "python3-jinja2).",
+        .summary =
+            "Draws the results of 'lobe bench --sweep' as one self-contained HTML page: for\n"
+            "each scene the pictures with their error maps, error over time and over\n"
+            "memory with the Pareto front, and the times of passes; means over the\n"
+            "scenes; and the table of Xu et al. 2017 next to the same ratios here.\n"
+            "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
+            "python3-jinja2).",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

@@ -40,7 +40,7 @@ static lobe_result find_script(const lobe_host *host, char path[2 * PATH_MAX]) {
             return LOBE_OK;
     }
     return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
-                          "the script that draws reports is missing: neither %s%s nor %s is there",
+                          "the script that draws reports is missing: neither %s%s nor %s exists",
                           folder, places[0], path);
 }
 

@@ -133,8 +133,7 @@ static void set_side(const char *group, viewer_side *side, bool has_environment)
     imgui_begin_group(group);
     bool changed = choose_filter(side);
     changed |= set_knobs(side, false);
-    if (imgui_section(has_environment ? "Environment" : "Environment (there is none)",
-                      has_environment))
+    if (imgui_section(has_environment ? "Environment" : "Environment (none)", has_environment))
         changed |= set_knobs(side, true);
     side->stale |= changed;
     side->failed &= !changed;
@@ -237,7 +236,7 @@ static void show_path(viewer *v) {
     int frame = (int)v->path_frame;
     if (imgui_integer("frame", 0, (int)v->request->path_frames - 1, &frame))
         viewer_go_to(v, (uint32_t)frame);
-    imgui_tooltip("of the path, along which the camera is moved");
+    imgui_tooltip("of the path along which the camera moves");
     if (imgui_button(v->plays ? "pause" : "play"))
         v->plays = !v->plays;
     imgui_same_line();

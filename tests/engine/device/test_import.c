@@ -190,7 +190,7 @@ static void missing_features_are_told_in_words(void **state) {
     less.core.features.samplerAnisotropy = VK_FALSE; // not required
     assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, sizeof text), 2);
     assert_string_equal(text, "feature synchronization2 (barriers of the render graph)\n"
-                              "feature timelineSemaphore (knowing when a frame is done)");
+                              "feature timelineSemaphore (detecting when a frame is done)");
     // Cut, and without any room.
     assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, 20), 2);
     assert_string_equal(text, "feature synchroniza");

@@ -42,7 +42,7 @@ static viewer_shown choose_format(const viewer_device *device, VkSurfaceFormatKH
     }
     if (asked == VIEWER_SHOWN)
         *result = lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
-                                 "window: takes no pictures of 8 bits a channel");
+                                 "window: does not support images with 8 bits per channel");
     return asked == VIEWER_SHOWN ? VIEWER_FAILED : asked;
 }
 
