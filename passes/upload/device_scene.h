@@ -31,7 +31,7 @@ typedef struct device_material {
 
 typedef struct device_instance {
     uint32_t mesh, material;
-    bool mirrored; ///< the transform turns left into right
+    bool mirrored; ///< the transform mirrors
     /// The transform preserves angles: directions of the mesh can be rotated into the world's.
     bool keeps_angles;
     /// The texture coordinates of the lobes' grid stay within [0, 1] and do not overlap: each texel
