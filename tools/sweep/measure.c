@@ -19,7 +19,7 @@ typedef struct scene_run {
     const sweep_job *job;
     const lobe_scene *scene;
     const char *name; ///< in the results
-    lobe_host errors; ///< passes on errors only: a filter's warnings should appear once, not in every turn
+    lobe_host errors; ///< only errors pass: a filter's warnings should not repeat
     sweep_row *rows;
     row_times *times; ///< one per row
     lobe_image truth, truth_lobe_base;

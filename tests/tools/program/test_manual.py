@@ -64,7 +64,8 @@ def test_pages_are_shown_as_meant():
                   "[1, 4096] (default 64)", "half, float (default half)", "see 'lobe filters'"):
         check(words in render, f"no '{words}' in {render}")
     check("mean of (a - b)^2 / (b^2 + 0.01)" in compare, compare)
-    check("epsilon0 0.95 [0, 1] below this, one lobe becomes four" in shown(page("filters")), "knobs")
+    check("epsilon0 0.95 [0, 1] below this, one lobe becomes four" in shown(page("filters")),
+          "knobs")
     check("tablecloth a draped cloth" in shown(page("scenes")), "scenes")
     return None
 

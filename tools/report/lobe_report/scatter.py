@@ -50,8 +50,7 @@ class Scatter:
     y_title: str
     series: list[str]
     points: list[Point]
-    kinds: tuple[str, ...] = ()  # distinguished by the inside of a variation's mark; (): not
-    distinguished
+    kinds: tuple[str, ...] = ()  # shown by the inside of a variation's mark; (): not shown
 
 
 # Marks ----------------------------------------------------------------------------------------

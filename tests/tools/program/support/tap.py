@@ -15,7 +15,8 @@ def run(module):
             reason = function()
             skip = f" # SKIP {reason}" if reason else ""
             print(f"ok {number} - {name}{skip}", flush=True)
-        except Exception:  # any exception is a failed case, and the next one runs failed += 1
+        except Exception:  # any exception is a failed case, and the next one runs
+            failed += 1
             print(f"not ok {number} - {name}")
             for line in traceback.format_exc().splitlines():
                 print(f"# {line}")
