@@ -17,8 +17,8 @@ def main():
     library = Path(os.environ["MESON_INSTALL_DESTDIR_PREFIX"]) / sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         whole, archive = Path(folder) / "lobe.o", Path(folder) / library.name
-        # Groups (COMDAT) that C++ shares between objects are dissolved: the linker would discard
-        # ours for the host's, and with them the names that are local from here on.
+        # Dissolve COMDAT groups, which C++ shares between objects: the linker would discard ours in
+        # favour of the host's, and with them names that are local from here on.
         subprocess.run([linker, "-r", "--force-group-allocation", "--whole-archive", library,
                         "-o", whole], check=True)
         # Templates of the C++ library are not hidden.

@@ -3,10 +3,10 @@
 
 Each *.vert, *.frag and *.comp below the folder is a pass, named by its path
 ("maps/level_reduction.comp"). One that includes "filter.glsl" is compiled once for each file of
-filters/, which takes the place of that include. The macros ENVIRONMENT and AOV, where a pass tests
-for them, make variants without and with each: shading/shading.frag and filters/lobes.glsl give
-shading/shading_lobes.frag, shading/shading_lobes_environment.frag, and so on. The table says what
-each entry was made from, so that the library can compile it again at run time.
+filters/, which replaces that include. If a pass tests the macros ENVIRONMENT or AOV, it is compiled
+without and with each: shading/shading.frag and filters/lobes.glsl give shading/shading_lobes.frag,
+shading/shading_lobes_environment.frag, and so on. The table records the source of each entry, so
+that the library can recompile it at run time.
 """
 
 import argparse
@@ -34,7 +34,7 @@ class Shader:
 
 
 def variants(folder, path):
-    """The shaders that one source file stands for."""
+    """The shaders compiled from one source file."""
     text = path.read_text()
     filters = [""]
     if FILTER_INCLUDE.search(text):
@@ -55,7 +55,7 @@ def variants(folder, path):
 
 
 def run(shader, command):
-    """Raises with the command's own words where it fails."""
+    """Raises with the command's own output if it fails."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           check=False)
     if done.returncode != 0:
@@ -63,8 +63,8 @@ def run(shader, command):
 
 
 def compile_shader(tools, folder, includes, shader, scratch):
-    """Gives the SPIR-V words of one shader. The compiler is known to write invalid ones at times,
-    for a constant made of specialisation constants: they are looked at before a driver is."""
+    """Returns the SPIR-V words of one shader. The compiler sometimes generates invalid SPIR-V for
+    constants computed from specialisation constants, so it is validated before a driver sees it."""
     output = Path(scratch) / (shader.name + ".spv")
     substitutes = Path(scratch) / (shader.name + ".include")
     substitutes.mkdir(parents=True)
@@ -93,13 +93,13 @@ def table_text(table, shaders, codes):
         definitions = " ".join(shader.definitions)
         lines.append(f'    {{"{shader.name}", "{shader.source}", "{definitions}", '
                      f'"{shader.substitute}", words_{index}, sizeof words_{index}}},')
-    # C has no empty arrays: the entry that ends the table is not counted.
+    # C has no empty arrays: the last entry is a terminator and not counted.
     lines += ["    {0},", "};", f"const size_t {table}_count = {len(shaders)};", ""]
     return "\n".join(lines)
 
 
 def dependencies(folders):
-    """Every file, and every folder: adding or removing a file changes the folder's time."""
+    """All files and folders: adding or removing a file changes the folder's time."""
     found = [Path(__file__)]
     for folder in folders:
         found.append(folder)
@@ -135,7 +135,7 @@ def main():
     arguments = parse_arguments()
     folders = [arguments.folder.resolve(), *(path.resolve() for path in arguments.include)]
     sources = [path for path in sorted(folders[0].rglob("*")) if path.suffix in STAGES]
-    # The library finds them by halving.
+    # The library uses binary search.
     shaders = sorted((shader for path in sources for shader in variants(folders[0], path)),
                      key=lambda shader: shader.name)
     with tempfile.TemporaryDirectory() as scratch, \

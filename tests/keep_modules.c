@@ -1,5 +1,5 @@
-// Preloaded into sanitized tests: drivers and layers stay loaded to the end, so that a leak report
-// can name them and leaks.supp can tell their leaks from ours.
+// Preloaded into sanitized tests: keeps drivers and layers loaded until exit, so that leak reports
+// can name them and leaks.supp can distinguish their leaks from ours.
 
 int dlclose(void *module);
 

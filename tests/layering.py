@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: a folder may include only what is below it; Vulkan stays inside engine/
-and out of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes; what
-a filter has in a folder of its own stays there. Checks who allocates: in the library, everything but
-one file uses the host's allocator. Prints each line that breaks a rule and fails if there is one.
-Also fails if it does not find the faults of a small tree that breaks each rule."""
+"""Checks includes: a folder may include only what is below it; Vulkan stays inside engine/ and out
+of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes; what a filter
+has in its own folder stays there. Checks allocations: in the library, everything except one file
+uses the host's allocator. Prints each line that breaks a rule and fails if there is one. Also fails
+if it does not find the errors in a small tree that breaks each rule."""
 
 import re
 import sys
@@ -34,8 +34,8 @@ OWNED = {
 ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
 # Folders in which no file may include itself through others. A header and its source count as one.
 ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/", "passes/", "scenes/", "tools/")
-# Files that may not include headers of the folders named, in the same library: the upload of a scene
-# knows no filter, and what a filter has in a folder of its own is the filter's alone.
+# Files that may not include headers of the folders named, in the same library: uploading a scene
+# must not depend on filters, and what a filter has in its own folder is private to it.
 UNAWARE = {"passes/upload/": ("passes/environment/", "passes/filters/", "passes/maps/",
                               "passes/renderer/")}
 PRIVATE = ("passes/filters/lobes/", "passes/filters/moments/")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that no folder holds more files than a reader takes in at a glance. Files in subfolders do
-not count. Lists the folders that hold too many and fails if there is one.
+"""Checks that no folder contains more files than a reader can take in at a glance. Files in
+subfolders do not count. Lists the folders that hold too many and fails if there is one.
 
 Usage: rooms.py ROOT"""
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the names of the library. The shared library exports what the public headers declare and
-refers to no function of Vulkan; in each of the static libraries that it is made of, what other
-files can see has that library's prefix, so that it does not collide with a host's names.
+refers to no function of Vulkan; in each of the static libraries that it consists of, every external
+name has that library's prefix, so that it does not collide with a host's names.
 
 Usage: symbols.py ROOT NM SHARED-LIBRARY (PREFIX STATIC-LIBRARY)..."""
 
@@ -38,7 +38,7 @@ def check_vulkan():
 
 
 def check_prefixes(prefix, library):
-    """Names of C++ are apart from all of C."""
+    """C++ names cannot collide with C names."""
     allowed = re.compile(rf"{prefix}_|lobe_|_Z|DW\.ref\.")
     defined = names("--defined-only", "--extern-only", library)
     faults = [f"{Path(library).name}: {name} lacks the prefix {prefix}_"

@@ -34,7 +34,7 @@ static void release(voidpf user, voidpf piece) {
     ((library_memory *)user)->release(piece);
 }
 
-// Room for a piece more, and for the zero byte behind it.
+// Makes room for another chunk and a final zero byte.
 static bool grow(gzip_job *job) {
     if (job->room - job->size > PIECE)
         return true;

@@ -7,11 +7,11 @@
 
 #include "third_party/library_memory.h"
 
-/// Files packed by gzip (RFC 1952) through zlib, from memory to memory.
+/// Decompresses gzip files (RFC 1952) through zlib, from memory to memory.
 
 #define GZIP_MESSAGE_SIZE 128
 
-/// Whether the bytes begin as gzip's do.
+/// Whether the bytes begin like a gzip file.
 bool third_party_gzip_recognise(const void *bytes, size_t size);
 
 /// Unpacks all members of the file, one after the other. `*unpacked` comes from `memory`; a zero

@@ -12,7 +12,7 @@ namespace {
 std::vector<imgui_vertex> frame_vertices;
 std::vector<imgui_batch> frame_batches;
 
-// Names stand to the left, widgets to the right of them in one column.
+// Names are on the left, and widgets to the right of them in one column.
 constexpr float NAME_PART = 0.36f;
 
 void show_name(const char *name) {

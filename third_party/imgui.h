@@ -25,11 +25,11 @@ typedef struct imgui_vertex {
 
 /// Triangles with a common clip rectangle.
 typedef struct imgui_batch {
-    uint32_t first, count; ///< vertices; three a triangle
+    uint32_t first, count; ///< vertices; three per triangle
     float clip[4];         ///< left, top, right, bottom in pixels
 } imgui_batch;
 
-/// Starts the panels. `scale`: of text and widgets, 1 for 96 dots an inch. The window's own
+/// Starts the panels. `scale`: of text and widgets, 1 for 96 dots per inch. The window's own
 /// callbacks are still called. False: out of memory.
 bool imgui_open(struct GLFWwindow *window, float scale);
 void imgui_close(void);
@@ -37,7 +37,7 @@ void imgui_close(void);
 /// Changes the scale of text and widgets; call between frames. False: out of memory.
 bool imgui_rescale(float scale);
 
-/// The font's picture, one byte of coverage a texel; lives until imgui_rescale or imgui_close.
+/// The font's picture, one byte of coverage per texel; valid until imgui_rescale or imgui_close.
 const uint8_t *imgui_font(uint32_t *width, uint32_t *height);
 
 void imgui_begin_frame(void);
@@ -56,14 +56,14 @@ void imgui_show_drag_pointer(void);
 bool imgui_takes_keys(void);
 
 // ---------------------------------------------------------------------------------------------
-// Widgets. A name shows in front of its widget, and must differ within a section.
+// Widgets. A name is shown in front of its widget, and must be unique within a section.
 
-/// A panel at a place, of a size; pixels. A width of 0: as large as its content, but no higher than
-/// its height says. End it in any case.
+/// A panel with this position and size; pixels. A width of 0: as large as its content, but at most
+/// this high. Always end it.
 void imgui_begin_panel(const char *name, const float place[2], const float size[2]);
-/// A panel as high as its content, whose lower left corner is at a place; pixels.
+/// A panel as high as its content, with its lower left corner at this position; pixels.
 void imgui_begin_note(const char *name, const float place[2], float width);
-/// A panel as high as its content, but no higher than that, whose upper right corner is at a place;
+/// A panel as high as its content, up to a maximum, with its upper right corner at this position;
 /// pixels.
 void imgui_begin_list(const char *name, const float place[2], float width, float maximum_height);
 void imgui_end_panel(void);

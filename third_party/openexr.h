@@ -20,7 +20,7 @@ typedef struct openexr_source {
     int part;                ///< of scan lines or tiles; of several levels the finest is read
     const char *channels[4]; ///< full names, not subsampled; NULL: none, its numbers are 1
     /// Takes row `y`, in the file's own coordinates, from the top of the data window to its end:
-    /// four numbers a texel, over the window's width. Must not throw.
+    /// four numbers per texel, over the window's width. Must not throw.
     void (*place)(void *user, int y, const float *row);
     void *user;
 } openexr_source;

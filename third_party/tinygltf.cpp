@@ -47,9 +47,9 @@ struct Reading {
     const tinygltf::Model *model;
 };
 
-// tinygltf asks through the same callback for buffers, which come first in its order, and for
-// images, which we read ourselves and only when a material uses them. Where a file has nothing
-// between the two, nothing uses its images either, and it does no harm to read them.
+// tinygltf uses one callback for buffers, which come first, and for images, which we read ourselves
+// and only if a material uses them. If a file has nothing between the two, nothing uses its images,
+// and reading them does no harm.
 bool file_exists(const std::string &, void *user) {
     const tinygltf::Model &model = *static_cast<Reading *>(user)->model;
     return model.bufferViews.empty() && model.accessors.empty() && model.meshes.empty() &&
@@ -342,7 +342,7 @@ void convert_document(Document &content, gltf_document &view) {
 // ---------------------------------------------------------------------------------------------
 // Parsing
 
-// One line of what may be several, and may quote a whole data URI.
+// The first line of a message, which may have several and may quote a whole data URI.
 void copy_message(const std::string &from, char *message, size_t size) {
     std::string line = from.substr(0, from.find('\n'));
     if (line.empty())

@@ -12,8 +12,8 @@ extern "C" {
 /// glTF 2.0 through tinygltf, as plain C data.
 ///
 /// Numbers are as the file has them: indices may be out of range, sizes absurd, floats out of
-/// their bounds. An index of -1 stands for "none". Strings are never NULL. Everything belongs to
-/// the document.
+/// their bounds. An index of -1 means "none". Strings are never NULL. Everything belongs to the
+/// document.
 
 typedef struct gltf_buffer {
     const uint8_t *data;
@@ -194,7 +194,7 @@ typedef struct gltf_source {
     size_t size;
     bool binary;        ///< GLB
     const char *folder; ///< buffers' files are relative to it
-    /// Reads an external buffer; `path` is relative to where the process runs. NULL: parsing fails.
+    /// Reads an external buffer; `path` is relative to the working directory. NULL: parsing fails.
     /// `release` gets back what was read. Neither may throw.
     void *(*read)(void *user, const char *path, size_t *size);
     void (*release)(void *bytes);

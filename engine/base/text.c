@@ -25,7 +25,7 @@ void engine_text_add(engine_text_builder *builder, const char *format, ...) {
 }
 
 char *engine_text_finish(engine_text_builder *builder) {
-    engine_text_add(builder, "%s", ""); // so that even an empty text has its final zero
+    engine_text_add(builder, "%s", ""); // so that even an empty text has its terminator
     char *text = builder->failed ? NULL : (char *)builder->bytes.data;
     if (builder->failed)
         engine_bytes_free(&builder->bytes);

@@ -20,7 +20,7 @@ struct lobe_device {
     engine_instance instance;
     VkPhysicalDevice physical;
     VkDevice vulkan;
-    engine_device_api api; ///< all zero until the device is there
+    engine_device_api api; ///< all zero until the device is open
     VkQueue queue;         ///< graphics, compute and transfer; used only between lock and unlock
     pthread_mutex_t queue_mutex;
     bool imported;             ///< instance, device and queue are the host's

@@ -11,7 +11,7 @@
 #define KNOWN_FEATURES(X)                                                                          \
     X(VULKAN_1_3, dynamicRendering, true, "raster passes without render pass objects")             \
     X(VULKAN_1_3, synchronization2, true, "barriers of the render graph")                          \
-    X(VULKAN_1_2, timelineSemaphore, true, "knowing when a frame is done")                         \
+    X(VULKAN_1_2, timelineSemaphore, true, "detecting when a frame is done")                       \
     X(VULKAN_1_2, uniformBufferStandardLayout, true, "structures shared by C and GLSL")            \
     X(VULKAN_1_3, maintenance4, true, "group sizes set by specialisation")                         \
     X(VULKAN_1_3, shaderDemoteToHelperInvocation, true, "discarding fragments before derivatives") \

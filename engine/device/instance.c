@@ -143,7 +143,7 @@ static lobe_result create_messenger(const lobe_host *host, const engine_validati
                         "validation messages");
 }
 
-/// Looks for what the instance is to be created with.
+/// Finds the layers and extensions to create the instance with.
 static lobe_result check_loader(const lobe_host *host, const engine_instance_parameters *parameters,
                                 engine_instance *instance) {
     const engine_instance_api *api = &instance->api;

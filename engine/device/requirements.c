@@ -11,7 +11,7 @@
 // Extensions
 
 static const lobe_vulkan_extension known[] = {
-    {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME, "knowing how much memory may be taken", false},
+    {VK_EXT_MEMORY_BUDGET_EXTENSION_NAME, "detecting how much memory is available", false},
 };
 #define KNOWN_COUNT (sizeof known / sizeof *known)
 

@@ -31,7 +31,7 @@ uint32_t engine_queue_family_find(const engine_instance_api *api, VkPhysicalDevi
 lobe_result engine_candidate_describe(const engine_instance_api *api, VkPhysicalDevice physical,
                                       const lobe_host *host, engine_candidate *candidate);
 
-/// Lists all devices. Errors: LOBE_ERROR_NO_DEVICE (there is none), LOBE_ERROR_OUT_OF_MEMORY.
+/// Lists all devices. Errors: LOBE_ERROR_NO_DEVICE (none found), LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result engine_candidates_list(const engine_instance *instance, const lobe_host *host,
                                    engine_candidate **candidates, size_t *count);
 void engine_candidates_free(engine_candidate **candidates, size_t count);

@@ -3,7 +3,7 @@
 #include "engine/device/vulkan_check.h"
 
 void engine_device_lock_queue(lobe_device *device) {
-    // lobe's own threads queue up here, so that the host's callback is never nested.
+    // Serialises lobe's own threads, so that calls of the host's callback never overlap.
     pthread_mutex_lock(&device->queue_mutex);
     if (device->import.lock_queue)
         device->import.lock_queue(device->import.user);
@@ -27,8 +27,7 @@ static void list_semaphores(const lobe_vulkan_semaphore *semaphores, uint32_t co
         };
 }
 
-/// Logs the loss of the device once: every later wait, while things are torn down, fails the same
-/// way.
+/// Logs the loss of the device only once: every later wait, during destruction, fails the same way.
 static lobe_result check(lobe_device *device, VkResult code, const char *function,
                          const char *purpose) {
     const bool was_lost = atomic_exchange(&device->is_lost, code == VK_ERROR_DEVICE_LOST);

@@ -91,9 +91,9 @@ void engine_graph_reset_timestamps(lobe_graph *graph) {
                                                graph->frame.flight->timestamp_capacity);
 }
 
-/// On both sides of a pass, the timestamp waits for all commands so far. Otherwise the overlap of
-/// passes would count twice; and on a CPU driver, which executes commands one after the other,
-/// every pass would seem to take no time.
+/// The timestamps on both sides of a pass wait for all previous commands. Otherwise overlapping
+/// passes would count twice, and on a CPU driver, which executes commands one after the other,
+/// every pass would appear to take no time.
 void engine_graph_write_timestamp(lobe_graph *graph, uint32_t position, bool after) {
     if (can_time(graph))
         graph->device->api.vkCmdWriteTimestamp2(

@@ -90,7 +90,8 @@ lobe_result engine_pipeline_cache_create(lobe_device *device, const char *file,
     return result;
 }
 
-/// Returns the file's new content, to lobe_release; NULL if there is none or out of memory.
+/// Returns the file's new content, which the caller frees with lobe_release; NULL if there is none
+/// or memory runs out.
 static uint8_t *content_of(lobe_device *device, VkPipelineCache cache, size_t *size,
                            uint64_t *checksum) {
     size_t data_size = 0;

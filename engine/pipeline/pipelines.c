@@ -14,7 +14,7 @@
 
 #define STATE_WORDS (6 + ENGINE_MAXIMUM_COLOUR_ATTACHMENTS)
 
-/// What makes two requests the same pipeline.
+/// The key of a pipeline: requests with equal keys share it.
 typedef struct pipeline_key {
     const engine_shader *shaders[ENGINE_MAXIMUM_STAGES]; ///< NULL: none
     uint32_t state[STATE_WORDS];                         ///< raster only
@@ -24,7 +24,7 @@ typedef struct pipeline_key {
 
 typedef struct cached_pipeline {
     struct cached_pipeline *next;
-    uint64_t used; ///< by the clock of the uses, when it was last found
+    uint64_t used; ///< last lookup, by the clock of the uses
     pipeline_key key;
     engine_pipeline pipeline;
 } cached_pipeline;
@@ -33,7 +33,7 @@ struct engine_pipelines {
     engine_pipeline_cache cache;
     engine_sampler_cache samplers;
     engine_pipeline_uses uses;
-    cached_pipeline *pipelines; ///< the last found first
+    cached_pipeline *pipelines; ///< most recently used first
     uint32_t count;
     lobe_specialisation *wanted; ///< buffer for the key of the current search
     uint32_t wanted_capacity;
@@ -67,7 +67,7 @@ static lobe_result fail_memory(lobe_device *device, const pipeline_key *key) {
                           key->shaders[0]->name);
 }
 
-/// Orders the values by id; the last of several for one id counts.
+/// Sorts the values by id; if an id is repeated, the last value counts.
 static lobe_result fill_specialisation(lobe_device *device, const lobe_specialisation *values,
                                        size_t count, pipeline_key *key) {
     engine_pipelines *pipelines = device->pipelines;

@@ -4,9 +4,9 @@
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/use.h"
 
-/// Most pipelines that a device keeps: beyond it, it destroys those unused for longest that no
-/// frame in progress uses. Far more than one scene needs; it bounds what hours of changed settings
-/// leave.
+/// Maximum number of pipelines that a device keeps. Beyond it, the least recently used pipelines
+/// that no frame in progress uses are destroyed. Far more than one scene needs; it bounds what
+/// accumulates over hours of changing settings.
 #define ENGINE_MAXIMUM_PIPELINES 256
 
 /// The pipelines and samplers of a device.

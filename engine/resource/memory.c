@@ -21,7 +21,7 @@ struct engine_memory_block {
 
 struct engine_memory {
     lobe_device *device;
-    uint64_t limit;        ///< most bytes in blocks; 0: none
+    uint64_t limit;        ///< limit on the bytes in blocks; 0: none
     pthread_mutex_t mutex; ///< protects everything below
     VkPhysicalDeviceMemoryProperties properties;
     VkDeviceSize granularity;        ///< bufferImageGranularity

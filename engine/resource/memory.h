@@ -45,7 +45,7 @@ void engine_memory_destroy(engine_memory **memory);
 /// LOBE_ERROR_OUT_OF_MEMORY. On failure `*allocation` is all zero.
 lobe_result engine_memory_allocate(engine_memory *memory, const engine_memory_request *request,
                                    engine_allocation *allocation);
-/// Zeroes the allocation; one that is all zero is fine.
+/// Zeroes the allocation; an all-zero one is allowed.
 void engine_memory_free(engine_memory *memory, engine_allocation *allocation);
 
 void engine_memory_query(engine_memory *memory, lobe_device_memory *information);

@@ -7,7 +7,7 @@
 
 #include <lobe/allocator.h>
 
-/// Hands out ranges of [0, size), whatever they stand for.
+/// Allocates ranges of [0, size), in any unit.
 typedef struct engine_range {
     uint64_t offset, size;
 } engine_range;

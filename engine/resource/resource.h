@@ -37,7 +37,7 @@ struct lobe_buffer {
 };
 
 // ---------------------------------------------------------------------------------------------
-// Parts that textures, buffers and the graph's own resources are made of
+// Building blocks of textures, buffers and the graph's own resources
 
 typedef struct engine_image_parameters {
     const char *name;
@@ -49,8 +49,8 @@ typedef struct engine_image_parameters {
 } engine_image_parameters;
 
 /// Creates an optimally tiled two-dimensional image (named for debuggers) without memory, and
-/// returns what memory it needs. Errors: LOBE_ERROR_LIMIT (extent, levels or layers above what the
-/// device allows), LOBE_ERROR_UNSUPPORTED (the device lacks the usage or sample count for the
+/// returns its memory requirements. Errors: LOBE_ERROR_LIMIT (extent, levels or layers above what
+/// the device allows), LOBE_ERROR_UNSUPPORTED (the device lacks the usage or sample count for the
 /// format).
 lobe_result engine_image_create(lobe_device *device, const engine_image_parameters *parameters,
                                 VkImage *image, VkMemoryRequirements *requirements);
@@ -67,7 +67,7 @@ typedef struct engine_view_parameters {
 lobe_result engine_view_create(lobe_device *device, const engine_view_parameters *parameters,
                                VkImageView *view);
 
-/// Creates a buffer without memory, and returns what memory it needs.
+/// Creates a buffer without memory, and returns its memory requirements.
 /// Errors: LOBE_ERROR_LIMIT (size above what the device allows for one storage buffer).
 lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDeviceSize size,
                                  VkBufferUsageFlags usage, VkBuffer *buffer,
@@ -93,7 +93,7 @@ typedef struct engine_staging {
 /// read in place.
 lobe_result engine_staging_create(lobe_device *device, const char *name, VkDeviceSize size,
                                   engine_memory_place place, engine_staging *staging);
-/// The device must have finished with it. One that is all zero is fine.
+/// The device must have finished with it. All zero is allowed.
 void engine_staging_destroy(lobe_device *device, engine_staging *staging);
 
 #endif

@@ -8,8 +8,8 @@
 
 #include <lobe/device.h>
 
-/// Most bytes of mapped memory that an upload uses at a time; larger uploads take several steps, so
-/// that a large texture does not need twice its size.
+/// Maximum number of bytes of mapped memory that an upload uses at a time. Larger uploads take
+/// several steps, so that a large texture does not need twice its size.
 #define ENGINE_STAGING_STEP ((VkDeviceSize)16 << 20)
 
 /// Fills a buffer (with zeros if `data` is NULL) and makes the content visible to every later

@@ -41,14 +41,14 @@ typedef struct engine_shader {
     uint32_t output_locations; ///< fragment: bit n is set where location n is written
 } engine_shader;
 
-/// A shader as the build embeds it: its SPIR-V, and what that was compiled from, so that a build
-/// with hot reload can compile it again.
+/// A shader as the build embeds it: its SPIR-V, and the sources it was compiled from, so that a
+/// build with hot reload can recompile it.
 typedef struct engine_shader_code {
     const char *name; ///< "shading/shading_lobes_aov.frag"
     /// "shading/shading.frag", relative to the shader folder; NULL: there is only SPIR-V.
     const char *source;
     const char *definitions; ///< "AOV", separated by spaces
-    const char *substitute;  ///< what `#include "filter.glsl"` stands for; "" if nothing
+    const char *substitute;  ///< replaces `#include "filter.glsl"`; "" if nothing
     const uint32_t *words;
     size_t size; ///< bytes
 } engine_shader_code;

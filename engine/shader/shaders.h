@@ -22,8 +22,8 @@ lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *co
 size_t engine_shaders_stale(lobe_device *device);
 
 /// Finds a shader by name and loads it if needed. It lives as long as the device. With hot reload,
-/// a new shader with a new version is returned once its source has changed. LOBE_ERROR_SHADER:
-/// there is none of that name, or it does not compile.
+/// a new shader with a new version is returned once its source has changed. LOBE_ERROR_SHADER: no
+/// shader has that name, or it does not compile.
 lobe_result engine_shader_find(lobe_device *device, const char *name, const engine_shader **shader);
 
 #endif

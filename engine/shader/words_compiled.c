@@ -48,7 +48,8 @@ static lobe_result fail(const compilation *compilation, const char *messages) {
     return LOBE_ERROR_SHADER;
 }
 
-/// "AOV FAST" as "#define AOV\n#define FAST\n", to lobe_release. NULL if out of memory.
+/// "AOV FAST" as "#define AOV\n#define FAST\n"; the caller frees it with lobe_release. NULL if out
+/// of memory.
 static char *preamble_of(const lobe_allocator *allocator, const char *definitions) {
     engine_text_builder text = {.bytes.allocator = allocator};
     for (const char *name = definitions; *name;) {

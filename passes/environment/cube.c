@@ -4,7 +4,7 @@
 
 #include "shaders/interface/environment.h"
 
-// Least number of subsamples along a texel of the image.
+// Minimum number of subsamples along a texel of the image.
 #define SUBSAMPLES_PER_TEXEL 4
 
 /// The centre of each face of the cube, and the directions of its x and y, as Vulkan defines them.

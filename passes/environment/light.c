@@ -10,8 +10,8 @@
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 
-/// Most texels along a face that the exact integral sums up. Lavapipe silently ends the loops of a
-/// shader after 65535 iterations in total, and filters have loops of their own.
+/// Maximum number of texels along a face that the exact integral sums. Lavapipe silently ends the
+/// loops of a shader after 65535 iterations in total, and filters have loops of their own.
 #define EXACT_WIDTH 64
 
 static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
@@ -58,7 +58,7 @@ static void build_albedo(const filter_context *context, environment_light *light
     }
 }
 
-/// A placeholder for methods that use none.
+/// A placeholder cube for methods that use none.
 static lobe_resource no_harmonics(lobe_graph *graph) {
     struct irradiance_harmonics none = {0};
     return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);

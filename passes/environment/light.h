@@ -6,18 +6,18 @@
 #include "passes/renderer/material_specialisation.h"
 #include "shaders/interface/specialisation.h"
 
-/// What a renderer remembers of an environment's maps from frame to frame; all zero: nothing.
+/// What a renderer keeps of an environment's maps between frames; all zero: nothing.
 typedef struct environment_state {
     environment_maps_progress progress;
     environment_maps last; ///< of the last frame
     cached_cubes store;
-    bool reads_back; ///< the last frame reads back cubes that are to be saved
+    bool reads_back; ///< the last frame reads back cubes to save
 } environment_state;
 
 /// How one frame makes the environment's maps.
 typedef struct environment_work {
     environment_state *state;
-    uint32_t parts;    ///< most parts of the work to do in this frame; 0: all
+    uint32_t parts;    ///< maximum number of parts of the work in this frame; 0: all
     const char *cache; ///< folder of cached maps; NULL: none
     bool saves;        ///< adds missing maps to the cache
 } environment_work;

@@ -12,7 +12,7 @@
 
 typedef enum part_kind { PART_LOBES, PART_BETWEEN, PART_MIXTURE } part_kind;
 
-/// What one call of passes_environment_maps_declare works with.
+/// The state of one call of passes_environment_maps_declare.
 typedef struct declaration {
     lobe_graph *graph;
     const environment_maps_request *request;
@@ -102,7 +102,7 @@ static reduced_map declare_radiance(lobe_graph *graph, const environment_maps_re
     return cube;
 }
 
-/// This environment's cube if it is finished, otherwise the last environment's if there is one.
+/// This environment's cube if it is finished, otherwise the last environment's, if any.
 static void set_filtered_map(declaration *d, lobe_environment_map map, part_kind kind,
                              bool finished, const environment_maps_progress *progress,
                              environment_maps *maps) {
@@ -116,7 +116,7 @@ static void set_filtered_map(declaration *d, lobe_environment_map map, part_kind
     }
 }
 
-/// How many kinds of parts are needed, counted in their order: each needs those before it.
+/// The number of kinds of parts needed, in their order: each kind needs those before it.
 static uint32_t kinds_wanted(const environment_maps_request *request) {
     return request->wanted[LOBE_ENVIRONMENT_GGX]                ? 3
            : request->wanted[LOBE_ENVIRONMENT_BETWEEN]          ? 2

@@ -18,11 +18,11 @@ typedef struct environment_maps_request {
     bool wanted[LOBE_ENVIRONMENT_MAP_COUNT]; ///< the radiance is always made
     /// Filtered cubes from the cache, by lobe_environment_map; NULL: they are made.
     const cube_textures *cached;
-    /// Most parts of the work on filtered cubes to do in this frame; 0: all.
+    /// Maximum number of parts of the work on filtered cubes in this frame; 0: all.
     uint32_t parts;
 } environment_maps_request;
 
-/// What is kept from frame to frame; all zero: nothing was made yet.
+/// What is kept between frames; all zero: nothing was made yet.
 typedef struct environment_maps_progress {
     uint32_t size; ///< of the last frame
     uint32_t set;  ///< 0 or 1: filtered cubes alternate between two sets of images
@@ -31,8 +31,8 @@ typedef struct environment_maps_progress {
                                              ///< environment
 } environment_maps_progress;
 
-/// The cubes of a frame, to be sampled with linear interpolation. A cube is none (version 0) if it
-/// is not wanted or not finished.
+/// The cubes of a frame, to be sampled with linear interpolation. A cube that is not wanted or not
+/// finished has version 0.
 typedef struct environment_maps {
     lobe_resource cubes[LOBE_ENVIRONMENT_MAP_COUNT];
     uint32_t width[LOBE_ENVIRONMENT_MAP_COUNT], levels[LOBE_ENVIRONMENT_MAP_COUNT];

@@ -108,7 +108,7 @@ prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resour
                                                           .levels = count});
     for (uint32_t level = 0; level < count; level++) {
         filtered_source source = source_at(&sources, level);
-        source.variance = 0; // smooth on top of what was smoothed before
+        source.variance = 0; // in addition to the previous smoothing
         filtered_target target = {.level = level,
                                   .width = source.width / 2,
                                   .face_count = 6,

@@ -46,7 +46,7 @@ static void update_information(lobe_environment_maps *maps, const environment_ma
     memcpy(maps->information.levels, made->levels, sizeof made->levels);
 }
 
-/// Unfinished cubes are retained as they are.
+/// Unfinished cubes are retained unchanged.
 static void mark_outputs(lobe_graph *graph, const environment_maps *made) {
     for (uint32_t map = 0; map < LOBE_ENVIRONMENT_MAP_COUNT; map++) {
         if (made->cubes[map].version != 0)

@@ -1,7 +1,7 @@
 #include "passes/filters/filter.h"
 #include "shaders/interface/knobs.h"
 
-/// Off by default: this filter shows what one sample alone gives.
+/// Off by default: this filter shows what a single sample gives.
 static const filter_knob curvature_knob = {
     .description =
         {.name = "curvature",

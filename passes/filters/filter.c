@@ -29,7 +29,7 @@ lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe
         passes_append_name(names, sizeof names, passes_filter_table[i]->name);
     }
     *filter = NULL;
-    lobe_host_log(host, LOBE_LOG_ERROR, "no filter '%s'; there are %s", name, names);
+    lobe_host_log(host, LOBE_LOG_ERROR, "no filter '%s'; the filters are %s", name, names);
     return LOBE_ERROR_NOT_FOUND;
 }
 
@@ -56,7 +56,7 @@ void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler) {
     if (appearance->binding_count == FILTER_MAXIMUM_BINDINGS) {
         lobe_graph_fail(appearance->graph, LOBE_ERROR_LIMIT,
-                        "the filter binds '%s' after %d other resources, which is the most", name,
+                        "the filter binds '%s' after %d other resources, which is the limit", name,
                         FILTER_MAXIMUM_BINDINGS);
         return;
     }
@@ -68,7 +68,7 @@ void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, 
     if (appearance->specialisation_count == FILTER_MAXIMUM_SPECIALISATIONS) {
         lobe_graph_fail(appearance->graph, LOBE_ERROR_LIMIT,
                         "the filter sets specialisation constant %u after %d others, which is the "
-                        "most",
+                        "limit",
                         id, FILTER_MAXIMUM_SPECIALISATIONS);
         return;
     }

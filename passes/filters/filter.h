@@ -13,7 +13,7 @@
 
 /// What a filter built for one instance: inputs of its draw in the shading pass.
 typedef struct filtered_appearance {
-    lobe_graph *graph; ///< where a list that overflows is reported
+    lobe_graph *graph; ///< overflowing lists are reported here
     lobe_binding bindings[FILTER_MAXIMUM_BINDINGS];
     size_t binding_count;
     lobe_specialisation specialisation[FILTER_MAXIMUM_SPECIALISATIONS];
@@ -50,35 +50,35 @@ struct lobe_filter {
     const char *paper;
     /// File in shaders/filters that shades, without its ending.
     const char *shading;
-    const filter_knob *const *knobs; ///< its own, ended by NULL; NULL: none
+    const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material. Called in every frame, before `build`, for each
-    /// material that is drawn, so it must return at once where the slot still serves. `*slot` is
+    /// material that is drawn, so it must return at once if the slot is still valid. `*slot` is
     /// NULL at first, and again after the material or one of its maps has changed. Memory comes
-    /// from `context->host`. Logs nothing: a failure becomes the frame's, in one line. The slot is
-    /// left valid then, for `forget` or another try. NULL: the filter keeps nothing.
+    /// from `context->host`. Logs nothing: a failure fails the frame, with one line. The slot must
+    /// then still be valid for `forget` or another attempt. NULL: the filter keeps nothing.
     lobe_result (*prepare)(const filter_context *context, uint32_t material, void **slot);
-    /// Frees what `prepare` put into a slot; never called with NULL. Not NULL where there is a
+    /// Frees what `prepare` put into a slot; never called with NULL. Required if there is a
     /// `prepare`.
     void (*forget)(void *slot);
-    /// True where the maps depend on the instance (its mesh, its transform, the camera) and not
-    /// on the material alone. NULL: never.
+    /// True if the maps depend on the instance (its mesh, its transform, the camera), not only on
+    /// the material. NULL: never.
     bool (*for_each_instance)(const filter_context *context, size_t instance);
-    /// Adds the passes that build the maps of an instance's material, and says how they are read.
-    /// `prepared` is what `prepare` left in the slot. Mistakes of declaration stay in the graph.
+    /// Adds the passes that build the maps of an instance's material, and binds them to its draw.
+    /// `prepared` is what `prepare` left in the slot. The graph keeps errors in the declaration.
     /// NULL: the filter has no maps.
     void (*build)(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance);
-    /// What of a material the filter cannot represent, as a phrase for a warning; NULL: nothing.
+    /// What the filter cannot represent of a material, as a phrase for a warning; NULL: nothing.
     /// The pointer itself may be NULL.
     const char *(*ignores)(const lobe_material *material);
 };
 
-/// All filters, ended by NULL: the one place that lists them (passes/filters/table.c).
+/// All filters, NULL-terminated: the only list of them (passes/filters/table.c).
 extern const lobe_filter *const passes_filter_table[];
 
-// More than FILTER_MAXIMUM_... of either makes the frame fail.
+// More than FILTER_MAXIMUM_... of either fails the frame.
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler);
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);

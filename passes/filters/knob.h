@@ -6,7 +6,7 @@
 
 #include <lobe/filter.h>
 
-/// What takes a knob's value to the shader that shades.
+/// How a knob's value reaches the shading shader.
 typedef enum knob_route {
     KNOB_HOST,          ///< nothing: only C reads it, with passes_knob_value
     KNOB_CONSTANT,      ///< a specialisation constant: each value has its own pipeline
@@ -19,9 +19,9 @@ typedef struct knob_feed {
     uint32_t place; ///< identifier of the constant, or offset of the float in its struct
 } knob_feed;
 
-/// Initialisers of a knob's feed. Choices, and integers that bound loops, are constants: what is
-/// not chosen is compiled out, and lavapipe compiles a shader again at each draw whose loops are
-/// bounded by a uniform. Numbers, which users drag, are uniforms: another value compiles nothing.
+/// Initialisers of a knob's feed. Choices, and integers that bound loops, are constants: unused
+/// code is compiled out, and lavapipe recompiles a shader at every draw if a uniform bounds its
+/// loops. Numbers, which users drag, are uniforms: a new value compiles nothing.
 #define KNOB_FEEDS_CONSTANT(id)                                                                    \
     { KNOB_CONSTANT, (id) }
 #define KNOB_FEEDS_SHARED(member)                                                                  \
@@ -29,8 +29,8 @@ typedef struct knob_feed {
 #define KNOB_FEEDS_FILTER(structure, member)                                                       \
     { KNOB_FILTER_NUMBER, offsetof(struct structure, member) }
 
-/// A knob, and where its value goes. C code names the object to read the value, so that a knob that
-/// does not exist does not compile.
+/// A knob, and where its value goes. C code refers to the object to read the value, so that a
+/// misspelt knob does not compile.
 typedef struct filter_knob {
     lobe_knob description;
     knob_feed feeds; ///< all zero: KNOB_HOST

@@ -44,7 +44,7 @@ const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index) {
 // ---------------------------------------------------------------------------------------------
 // Values
 
-/// Where the knob's value is in the settings; false where the filter does not have it.
+/// Finds the knob's index in the settings; false if the filter does not have it.
 static bool find_value(const lobe_filter *filter, const filter_knob *knob, size_t *index) {
     size_t own = own_knob_count(filter);
     for (*index = 0; *index < own; (*index)++)
@@ -82,7 +82,7 @@ void passes_knobs_specialise(const filter_context *context, specialisation_list 
             passes_specialise(list, knob->feeds.place, (uint32_t)context->settings->values[i]);
 }
 
-/// A block of floats as large as the shader's, which ends at a multiple of 16 bytes.
+/// A block of floats as large as the shader's, whose size is a multiple of 16 bytes.
 static void bind_numbers(const filter_context *context, knob_route route, size_t size,
                          const char *name, lobe_pass *pass) {
     float block[LOBE_MAXIMUM_KNOBS + 3] = {0};

@@ -6,13 +6,13 @@
 #include "passes/filters/filter.h"
 #include "passes/renderer/material_specialisation.h"
 
-/// The knob's value in this frame; its default where the filter does not have the knob. For a
-/// choice the index.
+/// The knob's value in this frame, or its default if the filter does not have the knob. For a
+/// choice, the index.
 double passes_knob_value(const filter_context *context, const filter_knob *knob);
-/// The same, of a choice or an integer.
+/// The same for a choice or an integer.
 uint32_t passes_knob_choice(const filter_context *context, const filter_knob *knob);
 
-/// Sets the constant that one knob feeds: for passes that prepare maps.
+/// Sets the constant that a knob feeds, for passes that prepare maps.
 void passes_knob_specialise(const filter_context *context, const filter_knob *knob,
                             specialisation_list *list);
 
@@ -21,7 +21,7 @@ void passes_knobs_specialise(const filter_context *context, specialisation_list 
 /// Uploads the numbers that the filter's knobs feed and binds them to the shading pass.
 void passes_knobs_bind(const filter_context *context, lobe_pass *pass);
 
-/// All knobs of a filter: its own, then the shared ones. NULL past the last.
+/// Knob `index` of a filter: its own, then the shared ones. NULL past the last.
 const filter_knob *passes_filter_knob(const lobe_filter *filter, size_t index);
 
 #endif

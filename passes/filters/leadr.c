@@ -7,7 +7,7 @@ static const char *const grids[] = {"3", "5", "7", NULL};
 
 static const filter_knob grid_knob = {
     .description = {.name = "grid",
-                    .summary = "slopes each way for which diffuse facets are summed up",
+                    .summary = "slopes in each direction over which diffuse facets are summed",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 2,
                     .initial = 1,
@@ -34,10 +34,10 @@ static const filter_knob *const knobs[] = {
 
 static const char *ignores(const lobe_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
-        return "its lobes become one, as wide as they are apart, in their mean colour; they are "
-               "taken to state their own masking";
+        return "its lobes are merged into one that covers their spread, in their mean colour; they "
+               "are assumed to include masking";
     if (material->distribution == LOBE_DISTRIBUTION_GGX)
-        return "a Beckmann lobe of equal width stands for GGX, whose tails are lost";
+        return "GGX becomes a Beckmann lobe of equal width, without its tails";
     return NULL;
 }
 

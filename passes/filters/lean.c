@@ -7,10 +7,10 @@ static const filter_knob *const knobs[] = {&passes_knob_probes, &passes_knob_bia
 
 static const char *ignores(const lobe_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES && material->lobe_count > 1)
-        return "its lobes become one, as wide as they are apart, in their mean colour";
+        return "its lobes are merged into one that covers their spread, in their mean colour";
     if (material->model == LOBE_MATERIAL_MICROFACET &&
         material->distribution == LOBE_DISTRIBUTION_GGX)
-        return "a Beckmann lobe of equal width stands for GGX, whose tails are lost";
+        return "GGX becomes a Beckmann lobe of equal width, without its tails";
     return NULL;
 }
 

@@ -42,7 +42,7 @@ const filter_knob passes_knob_environment = {
                     .maximum = 3,
                     .initial = 2,
                     .choices = methods,
-                    .sweep = "mip,sampled", // exact takes hours
+                    .sweep = "mip,sampled", // without exact, which takes hours
                     .environment = true},
 };
 const filter_knob passes_knob_reference_environment = {
@@ -65,7 +65,7 @@ const filter_knob passes_knob_environment_size = {
 };
 const filter_knob passes_knob_environment_probes = {
     .description = {.name = "env_probes",
-                    .summary = "prefiltered: most round lobes that stand for one elongated lobe",
+                    .summary = "prefiltered: largest number of round lobes per elongated lobe",
                     .kind = LOBE_KNOB_INTEGER,
                     .minimum = 1,
                     .maximum = 8,

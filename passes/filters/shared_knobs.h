@@ -3,16 +3,16 @@
 
 #include "passes/filters/knob.h"
 
-/// Knobs of every filter, listed after its own; ended by NULL.
+/// Knobs of every filter, listed after its own; NULL-terminated.
 extern const filter_knob *const passes_shared_knobs[];
 
 extern const filter_knob passes_knob_view, passes_knob_base;
-/// Of light from an environment.
+/// Knobs of environment light.
 extern const filter_knob passes_knob_environment, passes_knob_environment_size,
     passes_knob_environment_probes, passes_knob_environment_levels, passes_knob_environment_grid,
     passes_knob_environment_window, passes_knob_horizon, passes_knob_scattering;
 
-/// Stands for passes_knob_environment in filters that supersample. Its default is exact: each of
+/// Replaces passes_knob_environment in filters that supersample. Its default is exact: each of
 /// their samples takes one sample of the environment.
 extern const filter_knob passes_knob_reference_environment;
 

@@ -2,7 +2,7 @@
 
 typedef struct filter_slot {
     void *prepared;
-    uint32_t version; ///< of the material that it was prepared of
+    uint32_t version; ///< of the material that it was prepared for
 } filter_slot;
 
 struct filter_slots {
@@ -18,7 +18,7 @@ static void forget(const lobe_filter *filter, filter_slot *slot) {
     *slot = (filter_slot){0};
 }
 
-/// The slots of the context's filter, added where there are none yet. NULL: out of memory.
+/// The slots of the context's filter, added if missing. NULL: out of memory.
 static filter_slots *slots_of(filter_slots **first, const filter_context *context) {
     for (filter_slots *slots = *first; slots; slots = slots->next)
         if (slots->filter == context->filter)

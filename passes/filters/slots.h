@@ -3,17 +3,17 @@
 
 #include "passes/filters/filter.h"
 
-/// What filters prepared of a scene's materials: a slot for each filter and material, so that two
-/// filters that take turns (a split view, a benchmark) prepare each material once. A list with an
-/// entry for each filter that drew the scene and prepares anything; NULL: none did.
+/// What filters prepared for a scene's materials: a slot for each filter and material, so that two
+/// alternating filters (a split view, a benchmark) prepare each material once. A list with an entry
+/// for each filter that drew the scene and prepares anything; NULL: none did.
 typedef struct filter_slots filter_slots;
 
-/// Lets the context's filter prepare a material, and gives what it keeps of it; NULL: nothing.
+/// Lets the context's filter prepare a material, and returns what it keeps for it; NULL: nothing.
 /// Errors: those of the filter's `prepare`, LOBE_ERROR_OUT_OF_MEMORY; not logged.
 lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_context *context,
                                         uint32_t material, const void **prepared);
 
-/// Forgets what was prepared of materials that have changed since. `scene` is the one they were
+/// Forgets what was prepared for materials that have changed since. `scene` is the one they were
 /// prepared for.
 void passes_filter_slots_update(filter_slots *slots, const device_scene *scene);
 

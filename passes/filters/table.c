@@ -1,6 +1,6 @@
 #include "passes/filters/filter.h"
 
-// A line for each filter, in the order of `lobe filters`. Its entry is passes_filter_NAME.
+// One line per filter, in the order of `lobe filters`; each refers to passes_filter_NAME.
 #define FILTERS                                                                                    \
     FILTER(direct)                                                                                 \
     FILTER(mipmap)                                                                                 \

@@ -43,7 +43,7 @@ const filter_knob passes_knob_curvature = {
 const filter_knob passes_knob_storage = {
     .description = {.name = "storage",
                     .summary =
-                        "format of filtered maps: float16 halves memory, for kappa below some 200",
+                        "format of filtered maps: float16 halves memory; for kappa below about 200",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = storages,
@@ -93,7 +93,7 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
     const device_map *source = &material->maps[map];
     if (!source->use || source->width * source->height == 1)
         return false;
-    // The filter's own map holds the widths; what else the map may hold is metal.
+    // The filter's own map holds the widths; the map may also hold metalness.
     return map != MAP_WIDTH || material->metallic_varies;
 }
 

@@ -8,7 +8,7 @@
 void passes_filtered_maps_build(const filter_context *context, uint32_t material,
                                 filtered_appearance *appearance);
 
-/// The format of filtered maps that the knob "storage" asks for.
+/// The format of filtered maps that the knob "storage" selects.
 lobe_format passes_filtered_map_format(const filter_context *context);
 
 /// Trilinear, with the wrapping of the material's map.
@@ -16,12 +16,12 @@ lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32
 
 /// Knobs of all filters that read filtered maps: put them last in a filter's list.
 ///
-/// bias: a texel of a level, interpolated, spreads over twice its width, so that the level whose
-/// texels are as large as a pixel blurs more than the pixel's box does (variance 1/4 against 1/12).
-/// Half a level less is nearer: error of `lobes` against 64 samples at 640x360, bias 0 and -0.5:
-/// tablecloth 0.1365, 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
+/// bias: an interpolated texel spreads over twice its width, so the level whose texels are as large
+/// as a pixel blurs more than the pixel's box does (variance 1/4 against 1/12). Half a level less
+/// is closer: error of `lobes` against 64 samples at 640x360, bias 0 and -0.5: tablecloth 0.1365,
+/// 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
 ///
-/// curvature: 1 is the variance that the interpolated normals have under the pixel's box.
+/// curvature: 1 is the variance of the interpolated normals under the pixel's box.
 extern const filter_knob passes_knob_probes, passes_knob_bias, passes_knob_curvature;
 
 /// The format of maps of numbers that lie between 0 and 1, or are directions.

@@ -12,8 +12,8 @@
 void passes_base_maps_read(const filter_context *context, const device_material *material,
                            bool colours, lobe_pass *pass);
 
-/// Binds a map of a material's lobes to the shading, and counts its size. `map`: NULL where there
-/// is nothing to filter; a white texel stands for it then.
+/// Binds a map of a material's lobes to the shading, and counts its size. `map`: NULL if there is
+/// nothing to filter; a white texel is bound instead.
 void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
                           const reduced_map *map, lobe_format format,
                           filtered_appearance *appearance);
@@ -21,7 +21,7 @@ void passes_lobe_map_bind(const filter_context *context, uint32_t material, cons
 /// A map of numbers, in the format of the knob "storage", whose level 0 one compute pass makes from
 /// the base maps. Its push constants are the grid's width and height.
 typedef struct lobe_map_kind {
-    const char *content;  ///< what it holds, for its name
+    const char *content;  ///< what it holds; part of its name
     const char *pass;     ///< name of the pass
     const char *shader;   ///< of the pass
     const char *binding;  ///< of the map, in that shader and in shading
@@ -33,7 +33,7 @@ typedef struct lobe_map_kind {
 reduced_map passes_lobe_map(const filter_context *context, uint32_t material,
                             const lobe_map_kind *kind);
 
-/// The whole `build` of a filter with one such map: makes it where the material's lobes vary, binds
+/// A complete `build` for a filter with one such map: makes it if the material's lobes vary, binds
 /// it, and adds the filtered colour maps.
 void passes_lobe_map_build(const filter_context *context, size_t instance,
                            const lobe_map_kind *kind, filtered_appearance *appearance);

@@ -4,7 +4,7 @@
 
 #include "passes/renderer/camera.h"
 
-/// The least depth of the instance's bounds along the view axis.
+/// The smallest depth of the instance's bounds along the view axis.
 static float nearest_depth(const filter_context *context, size_t index) {
     const lobe_instance *instance = &context->scene->scene->instances[index];
     const lobe_mesh *mesh = &context->scene->scene->meshes[instance->mesh];
@@ -25,7 +25,7 @@ static float nearest_depth(const filter_context *context, size_t index) {
     return fmaxf(nearest, context->view.camera->near_plane);
 }
 
-/// The least side of a pixel at a depth: the root of the area it covers of a surface facing it.
+/// The smallest side of a pixel at a depth: the root of the area it covers of a surface facing it.
 static float pixel_size(const filter_context *context, float depth) {
     const lobe_camera *camera = context->view.camera;
     float height = (float)context->view.height;

@@ -4,8 +4,8 @@
 #include "passes/upload/material_lobes.h"
 
 /// The lobes of a small square of a material's maps, as a pixel's footprint may contain them.
-/// Filters try several precisions on a few patches and choose from the errors. More patches or
-/// directions than these do not change a choice.
+/// Filters try several precisions on a few patches and compare the errors. More patches or
+/// directions than these do not change the choice.
 enum { MATERIAL_PATCHES = 12, MATERIAL_PATCH_EXTENT = 24, MATERIAL_PATCH_DIRECTIONS = 48 };
 
 typedef struct material_patch {
@@ -14,7 +14,7 @@ typedef struct material_patch {
     size_t count;
 } material_patch;
 
-/// Patch `index` of MATERIAL_PATCHES. False where a map has a format that the host does not read.
+/// Patch `index` of MATERIAL_PATCHES. False if a map has a format that the host does not read.
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch);
 

@@ -32,7 +32,7 @@ static void environment_from_world(const lobe_environment *environment, const fl
     }
 }
 
-/// Moves the picture so that its pixels' centres become the samples.
+/// Moves the picture so that the samples are at its pixels' centres.
 static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
                            const vec3 down, vec3 centre) {
     float x = (1 - 2 * sample[0]) / (float)context->view.width;

@@ -4,7 +4,7 @@
 #include "passes/renderer/renderer.h"
 #include "passes/renderer/shading.h"
 
-/// How one submission reaches the device, and where its images go.
+/// How a frame is submitted, and where its images go.
 struct frame_delivery {
     const lobe_render_target *target;         ///< the host's images; NULL: our own
     const lobe_vulkan_submission *submission; ///< the host's; NULL: submit and wait
@@ -21,15 +21,15 @@ frame_delivery passes_delivery_of(const lobe_render_parameters *parameters);
 /// graph.
 lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
                                    shading_targets *imported);
-/// Puts imported images in the place of those in `targets`.
+/// Replaces the images in `targets` with the imported ones.
 void passes_delivery_replace(const shading_targets *imported, shading_targets *targets);
 
 /// Makes the graph compute an image of ours, and read it back if the delivery does.
 void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,
                                  lobe_resource resource);
 
-/// Executes the graph, or submits it as the host wants. When it was waited for, adds its times to
-/// the frame and saves maps of the environment that were read back.
+/// Executes the graph, or submits it as the host requests. If it waited for the frame, adds its
+/// times and saves maps of the environment that were read back.
 lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame);
 
 /// Copies an image that was read back. LOBE_ERROR_INVALID_ARGUMENT: the host's passes replaced it

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/// The first instance before `instance` whose maps also serve it; `instance` if there is none.
+/// The first instance before `instance` whose maps it can share; `instance` if there is none.
 static size_t instance_to_share_with(const filter_context *context, size_t instance) {
     const lobe_filter *filter = context->filter;
     if (filter->for_each_instance && filter->for_each_instance(context, instance))
@@ -16,7 +16,7 @@ static size_t instance_to_share_with(const filter_context *context, size_t insta
     return instance;
 }
 
-/// Without what the filter keeps of the material, nothing is built and the frame fails.
+/// Without what the filter keeps for the material, nothing is built and the frame fails.
 static void build_appearance(rendering *r, size_t instance, filtered_appearance *appearance) {
     const filter_context *context = &r->context;
     const uint32_t material = context->scene->instances[instance].material;

@@ -15,7 +15,7 @@ static_assert(LOBE_DISTRIBUTION_VMF == DISTRIBUTION_VMF, "one list of distributi
 void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
     if (list->count == MAXIMUM_SPECIALISATIONS) {
         lobe_graph_fail(list->graph, LOBE_ERROR_LIMIT,
-                        "specialisation constant %u comes after %d others, which is the most", id,
+                        "specialisation constant %u comes after %d others, which is the limit", id,
                         MAXIMUM_SPECIALISATIONS);
         return;
     }

@@ -8,14 +8,14 @@
 #define MAXIMUM_SPECIALISATIONS 96
 
 typedef struct specialisation_list {
-    lobe_graph *graph; ///< where an overflow is reported: the frame fails
+    lobe_graph *graph; ///< an overflow fails this graph's frame
     lobe_specialisation items[MAXIMUM_SPECIALISATIONS];
     size_t count;
 } specialisation_list;
 
 void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits);
 
-/// What the shaders compile out for a material: maps, lobes and features that it lacks.
+/// Sets the constants that compile out maps, lobes and features that a material lacks.
 void passes_material_specialise(const device_material *material, specialisation_list *list);
 
 #endif

@@ -4,7 +4,7 @@
 // ---------------------------------------------------------------------------------------------
 // Checks
 
-/// Whether the host wants something that a picture in many submissions cannot give.
+/// Whether the host requests something that is impossible in several submissions.
 static bool needs_one_submission(const lobe_render_host *host) {
     return host->add_passes || (host->target && host->target->depth) ||
            (host->submission && !host->target);
@@ -89,7 +89,7 @@ static lobe_result prepare(rendering *r) {
     return result;
 }
 
-/// Saves the cubes that a submitted frame read back, for which nobody has waited yet, and loads
+/// Saves the cubes that the last submitted frame read back, if that has not been done, and loads
 /// those that this frame needs.
 static lobe_result update_environment(rendering *r) {
     environment_state *state = r->environment.state;

@@ -39,7 +39,7 @@ void lobe_renderer_destroy(lobe_renderer **renderer) {
 }
 
 lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene) {
-    // A new graph: the former scene's retained maps must not be taken for maps of the new one.
+    // A new graph: the former scene's retained maps must not be mistaken for maps of the new one.
     lobe_graph_destroy(&renderer->graph);
     forget_scene(renderer);
     lobe_result result = lobe_graph_create(renderer->device, &renderer->graph);

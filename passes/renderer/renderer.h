@@ -13,12 +13,12 @@ struct lobe_renderer {
     device_scene *scene;                ///< NULL: none is set
     filtered_appearance *appearances;   ///< one per instance of the scene
     lobe_resource *filtered_images;     ///< one per image of the scene
-    filter_slots *slots;                ///< what filters prepared of the scene's materials
+    filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
 };
 
-/// What one call of lobe_renderer_render works with. `context` points into it: do not copy it.
+/// The state of one call of lobe_renderer_render. `context` points into it: do not copy it.
 typedef struct rendering {
     lobe_renderer *renderer;
     const lobe_render_parameters *parameters;
@@ -29,7 +29,7 @@ typedef struct rendering {
     uint32_t width, height; ///< pixels
 } rendering;
 
-/// Warns of materials that the filter cannot represent fully, once for each filter and scene.
+/// Warns about materials that the filter cannot fully represent, once per filter and scene.
 void passes_instance_maps_warn(const rendering *r);
 
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the

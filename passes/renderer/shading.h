@@ -14,7 +14,7 @@ typedef struct shading_targets {
     lobe_resource lobes_level;  ///< RG32_FLOAT; none without AOVs
     /// Draw over the contents of radiance and depth instead of clearing them.
     bool keep_radiance, keep_depth;
-    /// Leave radiance black where nothing is hit: the picture is blended over another later.
+    /// Leave radiance black where nothing is hit: the picture is later blended over another.
     bool without_background;
 } shading_targets;
 

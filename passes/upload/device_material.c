@@ -50,7 +50,7 @@ static lobe_result upload_image(lobe_device *device, device_scene *result, int32
         &result->images[index]);
 }
 
-/// Whether a metallic-roughness map has one metallic value; if so, gives it.
+/// Whether a metallic-roughness map has a single metallic value; if so, returns it.
 static bool metallic_is_constant(const lobe_image *image, float *metallic) {
     float first[4], texel[4];
     if (!passes_image_texel(image, 0, 0, first))

@@ -22,16 +22,16 @@ typedef struct device_material {
     lobe_buffer *map_constants;
     struct material_constants map_values; ///< what `map_constants` holds
     device_map maps[MAP_COUNT];
-    uint32_t map_bits;           ///< bit MAP_...: there is one
-    uint32_t second_coordinates; ///< bit MAP_...: it uses the second set
-    bool metallic_varies;        ///< the width map says where the material is metal
+    uint32_t map_bits;           ///< bit MAP_...: the material has one
+    uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
+    bool metallic_varies;        ///< the width map determines where the material is metal
     float metallic;              ///< its metallic factor, times the map's where that is constant
-    uint32_t version; ///< grows with each change of it or of its maps; 0: not on the device
+    uint32_t version; ///< increases with each change of it or its maps; 0: not on the device
 } device_material;
 
 typedef struct device_instance {
     uint32_t mesh, material;
-    bool mirrored; ///< the transform turns left into right
+    bool mirrored; ///< the transform mirrors
     /// The transform preserves angles: directions of the mesh can be rotated into the world's.
     bool keeps_angles;
     /// The texture coordinates of the lobes' grid stay within [0, 1] and do not overlap: each texel
@@ -39,7 +39,7 @@ typedef struct device_instance {
     bool is_atlas;
 } device_instance;
 
-/// How densely texture coordinates are laid out over a mesh: the least length in texture
+/// How densely texture coordinates are laid out over a mesh: the smallest length in texture
 /// coordinates (the root of their area) per metre (the root of the triangle's area) over all
 /// triangles, for both sets.
 typedef struct mesh_density {

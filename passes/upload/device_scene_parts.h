@@ -3,8 +3,8 @@
 
 #include "passes/upload/device_scene.h"
 
-/// The steps that creation and update of a device scene share, one for each part. Each also uploads
-/// what the part needs and the device does not have yet.
+/// The steps that creation and update of a device scene share, one per part. Each also uploads what
+/// the part needs and the device does not have yet.
 
 /// Describes a material from the scene and its maps, and stores its constants, in the buffers it
 /// has or in new ones. The material must have been checked.
@@ -18,7 +18,7 @@ lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *s
 /// Creates the texture of the scene's environment, if it has one.
 lobe_result passes_device_scene_upload_environment(lobe_device *device, device_scene *scene);
 
-/// LOBE_ERROR_MALFORMED where the mesh or the material does not exist.
+/// LOBE_ERROR_MALFORMED if the mesh or the material does not exist.
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host);
 /// Checks and uploads what the instance needs and the device does not have, then measures it.

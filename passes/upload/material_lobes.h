@@ -14,8 +14,8 @@ typedef struct material_lobe {
 /// The share of one lobe in a half-vector material's reflectance, by luminance [0, 1].
 float passes_material_lobe_share(const lobe_material *material, uint32_t lobe);
 
-/// Gives the lobes of a texel of the material's lobe_grid and returns their number, at most
-/// LOBE_MATERIAL_MAXIMUM_LOBES; 0 where a map has a format that the host does not read.
+/// Computes the lobes of a texel of the material's lobe_grid and returns their number, at most
+/// LOBE_MATERIAL_MAXIMUM_LOBES; 0 if a map has a format that the host does not read.
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
                                     uint32_t x, uint32_t y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);

@@ -7,26 +7,26 @@
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map);
 
-/// The texture of a material's map; one white texel where it has no such map.
+/// The texture of a material's map; one white texel if it has no such map.
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map);
 /// How a map's texels are read, without interpolation between levels.
 lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map);
 
-/// The grid of texels that a material's lobes come from: its normal and its width map, of which
-/// the coarser is read at the texels of the finer.
+/// The grid of texels that a material's lobes come from: its normal map and its width map; the
+/// coarser one is read at the texels of the finer one.
 typedef struct lobe_grid {
     /// The map whose texture coordinates and wrapping the grid has: the normal map, or the width
     /// map of a material without one.
     uint32_t map;
     const lobe_texture_use *use; ///< of that map; NULL: the material has neither
-    uint32_t width, height;      ///< texels: the larger of both maps; 0: there is neither
+    uint32_t width, height;      ///< texels: the larger of both maps; 0: neither exists
 } lobe_grid;
 
 lobe_grid passes_lobe_grid(const device_material *material);
 /// Whether lobes can differ from texel to texel, so that there is something to filter.
 bool passes_lobe_grid_varies(const lobe_grid *grid);
-/// Whether a map is laid over the surface as the grid is, whatever its number of texels.
+/// Whether a map has the same layout on the surface as the grid, whatever its number of texels.
 bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use);
 
 /// Reads a texel on the host as the device would, except that sRGB is not decoded: missing channels

@@ -114,11 +114,11 @@ lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
     return LOBE_ERROR_MALFORMED;
 }
 
-/// What is wrong with the environment; NULL: nothing.
+/// What is wrong with the environment; NULL if nothing.
 static const char *fault_of_environment(const lobe_environment *environment) {
     const lobe_image *image = &environment->image;
     if (!image->texels || image->format != LOBE_FORMAT_RGBA32_FLOAT)
-        return "is no image of four 32-bit floats";
+        return "is not an image of four 32-bit floats";
     if (!(environment->intensity >= 0) || !isfinite(environment->intensity))
         return "has an intensity that is negative or not finite";
     for (int i = 0; i < 3; i++) {
@@ -127,7 +127,7 @@ static const char *fault_of_environment(const lobe_environment *environment) {
         float square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
         float product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         if (!(fabsf(square - 1) < 1e-3f) || !(fabsf(product) < 1e-3f))
-            return "has a matrix that is no rotation";
+            return "has a matrix that is not a rotation";
     }
     const float *texels = image->texels;
     for (size_t i = 0; i < (size_t)image->width * image->height * 4; i++) {

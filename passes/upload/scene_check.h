@@ -4,7 +4,7 @@
 #include <lobe/scene.h>
 
 /// Checks of a scene from a host or a file before it is uploaded: the device itself checks nothing.
-/// The first fault is logged in one line, and LOBE_ERROR_MALFORMED returned.
+/// The first error is logged in one line, and LOBE_ERROR_MALFORMED is returned.
 
 /// Texels are finite.
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host);

@@ -4,14 +4,14 @@
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
 
-/// One update: what the host says has changed, and what follows from that.
+/// One update: what the host declared as changed, and what follows from that.
 typedef struct scene_update {
     lobe_device *device;
     device_scene *scene;
     const lobe_scene_changes *changes;
     const lobe_host *host;
-    bool *materials; ///< to upload again
-    bool *instances; ///< to measure again
+    bool *materials; ///< to reupload
+    bool *instances; ///< to remeasure
 } scene_update;
 
 // ---------------------------------------------------------------------------------------------
@@ -103,8 +103,8 @@ static bool uses_image(const device_material *material, uint32_t image) {
 static void mark_materials(scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     device_scene *scene = update->scene;
-    // An environment that appears or disappears takes the maps that only it needs (occlusion)
-    // along.
+    // Adding or removing the environment also adds or removes the maps that only it needs
+    // (occlusion).
     bool other_maps = changes->environment && !scene->environment != !scene->scene->environment;
     for (size_t m = 0; other_maps && m < scene->scene->material_count; m++)
         update->materials[m] = scene->materials[m].constants != NULL;

@@ -7,7 +7,7 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// What scenes made by code are put together with.
+/// Helpers for building scenes in code.
 
 /// One step of building: adds its part to the scene.
 typedef lobe_result (*builtin_step)(lobe_scene *scene, const lobe_host *host);

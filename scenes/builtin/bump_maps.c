@@ -11,8 +11,8 @@ enum { MAP_EXTENT = 1024, BUMP_COLUMNS = 32, BUMP_ROWS = 36 };
 static const double column_pitch = (double)MAP_EXTENT / BUMP_COLUMNS; // texels
 static const double row_pitch = (double)MAP_EXTENT / BUMP_ROWS;
 
-// Sine of the tilt at a bump's rim. A whole hemisphere would end in normals along the plane,
-// which neither eight bits nor a view from above shows.
+// Sine of the tilt at a bump's rim. A whole hemisphere would end in normals along the plane, which
+// neither eight bits nor a view from above can show.
 static const double rim_sine = 0.85;
 
 typedef struct bump {

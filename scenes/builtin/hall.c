@@ -7,8 +7,8 @@
 #include "scenes/scene/scene.h"
 
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 6 and section 5.2, has Crytek's Sponza
-// with floor and fabric of maps up to 2048 x 2048 texels. In its place stands a hall of our own: a
-// nave between two arcades, closed by a third, open to the sky, hung with banners.
+// with floor and fabric of maps up to 2048 x 2048 texels. It is replaced here by our own hall: a
+// nave between two arcades, closed by a third, open to the sky, and hung with banners.
 
 enum { BAYS = 10, END_BAYS = 3, BANNERS = 6 };
 

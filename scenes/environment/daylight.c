@@ -99,7 +99,7 @@ static double transmittance(double micrometres, double mass, double turbidity) {
 }
 
 // Outside the atmosphere: 128 klx (IES Lighting Handbook), the colour of a black body of 5778 K.
-// Each channel is dimmed like light at the middle of its band.
+// Each channel is attenuated like light at the middle of its band.
 static void set_sun(daylight *light, double turbidity) {
     static const double outside[3] = {128, 0.3263, 0.3357};
     static const double micrometres[3] = {0.61, 0.55, 0.465};

@@ -47,7 +47,7 @@ static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environ
     if (said == LOBE_EXR_CUBE || !may_be_latitude_longitude(image))
         return lobe_host_fail(
             host, LOBE_ERROR_UNSUPPORTED,
-            "%s: %u x %u texels are no environment of a known shape: latitude and "
+            "%s: %u x %u texels are not an environment of a known shape: latitude and "
             "longitude (2:1), columns and rows of six faces (1:6, 6:1), crosses "
             "(3:4, 4:3)",
             environment->name, image->width, image->height);

@@ -13,7 +13,7 @@
 #define TURBIDITY  3.0
 #define GROUND     0.2 // albedo
 
-// Sample points along the disc's radius and around it; each stands for the same area.
+// Sample points along the disc's radius and around it; each represents the same area.
 enum { DISC_POINTS = 96 };
 
 static vector3 disc_point(vector3 direction, vector3 x, vector3 y, double radius, int ring,
@@ -88,7 +88,7 @@ static sky_scale scale_of(const daylight *light) {
     return scale;
 }
 
-// Sample points of a texel along each axis, so that coarse images hold means of the sky, too.
+// Sample points of a texel along each axis, so that coarse images also hold means of the sky.
 static int points_of(const lobe_image *image) {
     const uint32_t points = 128 / image->height;
     return points < 1 ? 1 : points > 8 ? 8 : (int)points;

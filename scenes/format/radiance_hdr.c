@@ -33,7 +33,7 @@ bool scenes_radiance_hdr_recognise(const void *bytes, size_t size) {
     return size >= 2 && memcmp(bytes, "#?", 2) == 0;
 }
 
-// The next line without its line end; false if there is none.
+// The next line without its line end; false at the end of the header.
 static bool take_line(hdr_reader *reader, text_cursor *line) {
     const uint8_t *newline = memchr(reader->at, '\n', (size_t)(reader->end - reader->at));
     if (!newline)
@@ -133,7 +133,7 @@ static lobe_result read_resolution(hdr_reader *reader) {
         return lobe_host_fail(reader->host, LOBE_ERROR_LIMIT,
                               "%s: %u x %u texels exceed lobe's limit (%zu in all)", reader->name,
                               reader->length, reader->line_count, SCENE_IMAGE_MAXIMUM_TEXELS);
-    // However well it is packed, a line takes at least four bytes.
+    // However well it is compressed, a line takes at least four bytes.
     if ((uint64_t)(reader->end - reader->at) < 4 * (uint64_t)reader->line_count)
         return fail(reader, "ends early");
     return LOBE_OK;
@@ -221,7 +221,7 @@ static void rgb_of_xyz(double v[3]) {
 }
 
 static void place_texel(const hdr_reader *reader, const uint8_t *from, float *to) {
-    // A mantissa was truncated: take the middle of the interval it stands for (Ward 1991).
+    // A mantissa was truncated: take the middle of the interval that it represents (Ward 1991).
     const double step = from[3] ? ldexp(1, from[3] - (128 + 8)) : 0;
     double v[3];
     for (int i = 0; i < 3; i++)

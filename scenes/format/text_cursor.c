@@ -21,7 +21,7 @@ static bool next_is(text_cursor *cursor, char a, char b) {
     return found;
 }
 
-// The characters after a number may make it no number: "1.2.3", "12abc".
+// The characters after a number may make it invalid: "1.2.3", "12abc".
 static bool is_ended(const text_cursor *cursor) {
     if (cursor->at == cursor->end)
         return true;

@@ -16,7 +16,7 @@ void scenes_text_cursor_skip_space(text_cursor *cursor);
 bool scenes_text_cursor_take(text_cursor *cursor, char expected);
 
 /// Reads a decimal number after space: digits, optionally with a point and an exponent. False,
-/// without moving, if there is none or it is beyond the range of float.
+/// without moving, if there is no number or it is beyond the range of float.
 bool scenes_text_cursor_number(text_cursor *cursor, double *value);
 
 /// The same for a whole number in [0, maximum] without sign, point or exponent.

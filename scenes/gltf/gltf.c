@@ -11,9 +11,8 @@
 // ---------------------------------------------------------------------------------------------
 // From the file to the document
 
-// Failures to read buffer files, of which tinygltf only learns that they happened. The message is
-// held back until parsing has failed: tinygltf may take an image for a buffer, and that is no
-// failure.
+// Failures to read buffer files; tinygltf only learns that they happened. The message is held back
+// until parsing has failed: tinygltf may mistake an image for a buffer, which is not a failure.
 typedef struct buffer_reader {
     const char *path;
     const lobe_file_source *files;

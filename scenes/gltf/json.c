@@ -156,7 +156,7 @@ static bool read_hexadecimal(json_parser *parser, unsigned *code) {
     return true;
 }
 
-// No name in a schema has characters beyond ASCII: '?' stands for them.
+// No name in a schema has characters beyond ASCII: '?' replaces them.
 static bool read_escape(json_parser *parser, char *c) {
     static const char escapes[] = "\"\\/bfnrt", meanings[] = "\"\\/\b\f\n\r\t";
     unsigned code;

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-/// The contents of a material's image files, as far as their names tell.
+/// The contents of a material's image files, according to their names.
 typedef enum material_map {
     MATERIAL_MAP_ALBEDO,
     MATERIAL_MAP_NORMAL,         ///< +Y: OpenGL, or not stated

@@ -15,8 +15,8 @@
 // Used for maps that the folder lacks.
 static const float default_grey = 0.5f, default_roughness = 0.5f;
 
-// Files do not state the depth of their relief. If no normal map tells it, this is common for
-// stone.
+// Files do not state the depth of their relief. This value is common for stone; used if no normal
+// map determines it.
 static const float default_height_scale = 0.05f;
 
 typedef struct material_folder {
@@ -83,7 +83,7 @@ static lobe_result require_maps(const material_folder *folder) {
                           folder->path);
 }
 
-// "FOLDER/FILE", to lobe_release; NULL without memory.
+// "FOLDER/FILE"; the caller frees it with lobe_release. NULL if out of memory.
 static char *file_path(const material_folder *folder, material_map map) {
     const size_t size = strlen(folder->path) + strlen(folder->files[map]) + 2;
     char *path = lobe_allocate(lobe_host_allocator(folder->host), size, 1);
@@ -193,8 +193,8 @@ static lobe_result pack_separate(material_folder *folder) {
 static lobe_result add_roughness_and_metallic(material_folder *folder) {
     char *const *files = folder->files;
     folder->material.roughness = default_roughness;
-    // With nothing known of the material, metal is assumed: a grey surface shows its relief best
-    // so.
+    // If nothing is known about the material, metal is assumed, because it shows the relief of a
+    // grey surface best.
     folder->material.metallic = files[MATERIAL_MAP_ALBEDO] ? 0 : 1;
     if (files[MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC] || files[MATERIAL_MAP_METALLIC_ROUGHNESS])
         return add_packed(folder);

@@ -16,7 +16,7 @@ typedef struct picture_axes {
 
 /// Along one axis of the picture, all lines of sight lie between two planes through the eye. A
 /// point at (x, z), z forward, lies between them if |x - eye_x| <= t (z - eye_z), where t is the
-/// tangent of half the angle: hence low = max(x - t z) <= eye_x - t eye_z and eye_x + t eye_z <=
+/// tangent of half the angle: so low = max(x - t z) <= eye_x - t eye_z and eye_x + t eye_z <=
 /// min(x + t z) = high.
 typedef struct picture_extent {
     double tangent, low, high;
@@ -78,7 +78,7 @@ static void visit_points(picture_frame *frame, visit *visit) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// How near the eye may come
+// The closest position of the eye
 
 static void extend(picture_extent *extent, double x, double z) {
     extent->low = fmax(extent->low, x - extent->tangent * z);
@@ -103,7 +103,7 @@ static void approach(picture_frame *frame) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Where the eye is to the side, so that the free space on both sides is equal
+// The eye's sideways position, which leaves equal space on both sides
 
 static eye_range range_from(const picture_extent *extent, double eye) {
     return (eye_range){.low = extent->low + extent->tangent * eye,

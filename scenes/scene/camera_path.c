@@ -9,7 +9,7 @@
 // 64 and 8 times.
 static const double farthest = 6, middle = 3;
 
-// The path comes back from its farthest point at the speed it went there.
+// The path returns from its farthest point at the same speed.
 static double growth(double part) {
     double out = fmin(part, 0.5) * 2 * farthest;
     double back = fmax(part - 0.5, 0) * 2 * farthest;

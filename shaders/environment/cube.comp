@@ -71,7 +71,7 @@ vec3 radiance(int face, vec2 point, float size) {
 
 const int LEAST_SUBSAMPLES = 4, POLAR_SUBSAMPLES = 6;
 
-// Seen from within, texels shrink towards the edges of a face, and need fewer subsamples of
+// Seen from the centre, texels shrink towards the edges of a face, and need fewer subsamples of
 // latitude and longitude there; next to the poles, where rows have narrow transitions, they need
 // more.
 int subsample_count(int face, vec2 centre) {

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A microfacet distribution's albedo for each cosine to the viewer and roughness: the integral of
-// the reflectance times cosine (lib/microfacet/microfacet.glsl) over all incoming directions above
-// the surface.
+// The albedo of a microfacet distribution for each cosine to the viewer and each roughness: the
+// integral of the reflectance times cosine (lib/microfacet/microfacet.glsl) over all incoming
+// directions above the surface.
 //   x, y: reflectance is F_0 x + F_90 y, Schlick's Fresnel term being F_0 (1 - f) + F_90 f with
 //         f = (1 - <omega_i, omega_h>)^5;
 //   z:    mean of f weighted by the cosine of incidence: what the Lambert part loses to F;

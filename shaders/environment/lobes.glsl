@@ -50,8 +50,8 @@ struct half_vector_sample {
 // Dupuy et al., 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping, Algorithm
 // 1: a grid in units of standard deviations, on the plane that touches the sphere at the axis. Each
 // sample reads the mean over its cell (variance 1/12 cells) with linear interpolation (variance 1/6
-// cells). With N samples a side, this spacing makes these variances and that of the samples add up
-// to one (to 1 %). For N = 5 it is 0.85; Dupuy et al. used 0.9.
+// cells). With N samples per side, this spacing makes these variances and that of the samples add
+// up to one (to 1 %). For N = 5 it is 0.85; Dupuy et al. used 0.9.
 float grid_spacing() {
     return 6.37 / (float(ENVIRONMENT_GRID) + 2.52);
 }
@@ -128,13 +128,13 @@ float mean_half_cosine(direction_lobe lobe, vec3 outgoing) {
     float spread = a * a + b * b;
     // A broad lobe's mean direction is shorter than one: R(kappa), 1 - 1/(2 kappa) - ... each way.
     float resultant = mean_resultant_length(1.0 / max(lobe_variance(lobe), 1e-8));
-    // The variance of a height is at most that over all directions.
+    // The variance of a height is at most that of all directions.
     return mean_above_zero(resultant * dot(lobe.axis, outgoing), sqrt(min(spread, 1.0 / 3.0)));
 }
 
-// How much of the light is sampled, [0, 1]. Steep slopes reflect below the horizon, the others in
-// all directions: if many are steep, no lobe about the mean slope's reflection represents that, but
-// samples do.
+// The fraction of the light that is sampled, [0, 1]. Steep slopes reflect below the horizon, the
+// others in all directions: if many are steep, no lobe about the mean slope's reflection can
+// represent that, but samples can.
 float share_of_wide_slopes(half_vector_distribution lobe) {
     if (lobe.kind != DISTRIBUTION_BECKMANN || ENVIRONMENT_METHOD != ENVIRONMENT_PREFILTERED)
         return 0.0;

@@ -26,7 +26,7 @@ void main() {
     ivec2 group = ivec2(gl_WorkGroupID.xy);
     int face = int(gl_WorkGroupID.z), size = textureSize(source, 0).x;
 
-    // Level 1: an 8x8 block a group, four source texels an invocation.
+    // Level 1: an 8x8 block per group, four source texels per invocation.
     ivec2 position = 8 * group + local;
     vec4 mean = vec4(0.0);
     if (all(lessThan(position, imageSize(target_1).xy))) {

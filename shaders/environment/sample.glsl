@@ -27,8 +27,8 @@ uint scrambled(uint value) {
 const uint SEQUENCE_STEPS[5] =
     uint[5](3242174889u, 2447445414u, 3518319155u, 2882110345u, 2360945575u);
 
-// Number `dimension` of this sample, in [0, 1). Each pixel and pattern starts its sequence at
-// another place.
+// Number `dimension` of this sample, in [0, 1). Each pixel and pattern starts its sequence at a
+// different point.
 float sample_number(uint dimension) {
     uint seed = scrambled(uint(gl_FragCoord.x) +
                           scrambled(uint(gl_FragCoord.y) +

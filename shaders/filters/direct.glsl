@@ -1,5 +1,5 @@
-// One unfiltered sample of the maps: what every filter should average, and the sample that the
-// reference averages many of.
+// One unfiltered sample of the maps: what every filter should average. The reference averages many
+// of these.
 
 #include "shading/unfiltered_maps.glsl"
 

@@ -16,7 +16,7 @@ layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block
     leadr_knobs filter_knobs;
 };
 
-// Slopes each way of the grid, and how far it reaches, in standard deviations. Mean error over
+// Slopes along each axis of the grid, and its reach in standard deviations. Mean error over
 // random surfaces, views and lights: 2.4 %, 0.6 % and 0.3 %. (The paper's reach of 1.8 for 5 slopes
 // gives 1.3 %.)
 const uint GRID = 3u + 2u * GRID_CHOICE;
@@ -176,7 +176,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
 }
 
 // Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Only masking is applied, as
-// in Algorithm 2: which of the environment's light is shadowed is unknown.
+// in Algorithm 2: it is unknown which part of the environment's light is shadowed.
 vec3 lambert_slopes(appearance fetched, surface_point surface) {
     slope_distribution facets = fetched.lobe.facets;
     vec3 sum = vec3(0.0);

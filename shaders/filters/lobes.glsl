@@ -29,8 +29,8 @@ layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block
 
 layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
 
-// Base lobes of the mixture's own kind are part of the walk, so that a pixel without level 0 does
-// not pay for them.
+// Base lobes of the mixture's own kind are part of the traversal, so that a pixel without level 0
+// does not pay for them.
 bool base_in_walk() {
     return MODEL == MODEL_HALF_VECTOR_LOBES && ONE_HUE &&
            (BASE_AS_LOBE || DISTRIBUTION == DISTRIBUTION_VMF);
@@ -75,13 +75,13 @@ struct lobe {
     float own_weight;
 };
 
-// Where a walk is.
+// The state of a traversal.
 struct walk {
     int base_lobe;      // next base lobe
     int sector;         // next cluster: of this sector, [0, 4), SECTOR_ALL or SECTOR_END
     int part;           // 0: all of it; 1, 2: a half
-    float root_share;   // of the mixture, what sectors stand for
-    float sector_share; // of that, what the halves of the sector at hand stand for
+    float root_share;   // of the mixture, the share of the sectors
+    float sector_share; // of that, the share of the current sector's halves
 };
 
 mat3 mixture_frame(surface_point surface) {
@@ -170,7 +170,7 @@ float base_complement_share(float complement, float base_complement) {
     return clamp(base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
 }
 
-// The lobe of the next cluster; moves the walk on.
+// The lobe of the next cluster; advances the traversal.
 lobe take_cluster(inout walk at, inout appearance fetched) {
     bool one = at.sector == SECTOR_ALL;
     bool is_sector = !one && at.part == 0;
@@ -246,7 +246,7 @@ vec3 mixture_half_vector(appearance fetched, surface_point surface, vec3 incomin
     return fetched.mixture_from_tangent * half_vector(incoming, surface.outgoing);
 }
 
-// The half vectors of the lights at hand, in the mixtures' space.
+// The half vectors of the current lights, in the mixtures' space.
 struct light_directions {
     vec3 first, second, third, fourth;
 };
@@ -286,7 +286,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     }
 }
 
-// Prepares for the walk over the mixture.
+// Prepares the traversal of the mixture.
 void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.level = fetched.area.level;
     fetched.base_share =

@@ -1,5 +1,5 @@
-// The naive way: normals and concentrations are averaged like colours, and the averages are taken
-// for those of one texel (Xu et al. 2017, section 5.2, naive MIP-mapping).
+// The naive way: normals and concentrations are averaged like colours, and the averages are used as
+// if they were one texel's (Xu et al. 2017, section 5.2, naive MIP-mapping).
 
 #include "shading/averaged_maps.glsl"
 

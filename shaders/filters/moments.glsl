@@ -29,7 +29,7 @@ layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_con
 struct light_sum {
     float distribution;
     vec3 normal;     // of the texels that reflect, weighted by their part of the distribution
-    float sharpness; // of their base lobes, likewise
+    float sharpness; // of their base lobes, weighted in the same way
     vec3 colour;
 };
 

@@ -7,7 +7,7 @@
 // centre + x right + y down, in the environment's space, not normalised.
 struct background_constants {
     float4 centre; // w: factor of the radiance
-    float4 right;  // w: solid angle of a pixel in the middle; 0: texels are shown unfiltered
+    float4 right;  // w: solid angle of the middle pixel; 0: texels are shown unfiltered
     float4 down;
 };
 INTERFACE_SIZE(background_constants, 48)

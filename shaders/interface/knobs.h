@@ -3,8 +3,8 @@
 
 #include "types.h"
 
-// The numbers among the knobs, in uniform blocks (std140): another value compiles nothing. Each
-// member is named by the entry of its knob (passes/filters/knob.h), and by nothing else in C.
+// The numeric knobs, in uniform blocks (std140): a new value compiles nothing. In C, only the
+// knob's entry refers to its member (passes/filters/knob.h).
 //
 // Those that several filters have. A filter without such a knob reads 0.
 struct shared_knobs {

@@ -16,7 +16,7 @@
 
 #define SPECIALISE_SUBDIVISION (SPECIALISE_FILTER + 0) // uint, [0, 2]: finest level stored
 #define SPECIALISE_COARSEST    (SPECIALISE_FILTER + 1) // uint, [0, 1]: coarsest that can suffice
-#define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 2) // uint, layer of the mean; 0: there is none
+#define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 2) // uint, layer of the mean; 0: none
 #define SPECIALISE_SPACE       (SPECIALISE_FILTER + 3) // uint, SPACE_...
 #define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 4) // uint, THRESHOLD_...
 #define SPECIALISE_PROBES      (SPECIALISE_FILTER + 5) // uint, [1, 16]
@@ -31,8 +31,8 @@
 
 // Numbers of the filter's knobs (see knobs.h).
 struct lobes_knobs {
-    float epsilon0; // below it one lobe becomes four
-    float epsilon1; // below it one of four becomes two
+    float epsilon0; // below this, one lobe becomes four
+    float epsilon1; // below this, each of the four becomes two
     float blend;    // half width of the transition
     float padding;
 };

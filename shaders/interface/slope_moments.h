@@ -16,8 +16,8 @@
 #define SLOPE_LAYERS       2
 
 // Steepest slope that is stored: the tangent of 83 degrees. Directions nearer to the horizon, or
-// below it, are clamped to it: their slopes tend to infinity, and so would every mean that includes
-// them.
+// below it, are clamped to it: their slopes tend to infinity, and every mean that includes them
+// would too.
 #define SLOPE_MAXIMUM 8.0
 
 // Push constants of slope_moments.
@@ -29,7 +29,7 @@ INTERFACE_SIZE(slope_moments_constants, 8)
 INTERFACE_OFFSET(slope_moments_constants, height, 4)
 
 #define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
-// uint, [0, 2], of `leadr`: 3, 5 or 7 slopes each way of a grid
+// uint, [0, 2], of `leadr`: 3, 5 or 7 slopes along each axis of a grid
 #define SPECIALISE_GRID (SPECIALISE_FILTER + 21)
 
 // Numbers of the knobs of `leadr` (see knobs.h).

@@ -2,8 +2,8 @@
 #define INTERFACE_SPECIALISATION_H
 
 // Identifiers of specialisation constants. Whatever the material, the lights or the user's choices
-// do not need is compiled out. Defaults in GLSL are those of the knobs in C, where a knob feeds the
-// constant.
+// do not need is compiled out. If a knob feeds a constant, its default in GLSL is that of the knob
+// in C.
 
 // The material.
 #define SPECIALISE_MODEL                0  // uint, MODEL_...

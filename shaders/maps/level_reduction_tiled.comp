@@ -18,7 +18,7 @@ void main() {
     ivec2 group = ivec2(gl_WorkGroupID.xy);
     int layer = int(gl_WorkGroupID.z);
 
-    // Level 1: an 8x8 block a group, four source texels an invocation.
+    // Level 1: an 8x8 block per group, four source texels per invocation.
     ivec2 position = 8 * group + local;
     bool inside = all(lessThan(position, imageSize(target_1).xy));
     vec4 mean = vec4(0.0);

@@ -1,7 +1,7 @@
 #ifndef ALBEDO_TABLE_GLSL
 #define ALBEDO_TABLE_GLSL
 
-// What microfacets reflect of a white environment (passes/environment/directional_albedo.h).
+// How much microfacets reflect of a white environment (passes/environment/directional_albedo.h).
 
 #include "interface/environment_light.h"
 #include "lib/microfacet/directional_albedo.glsl"
@@ -15,7 +15,7 @@ vec4 albedo_of(float cosine, float parameter) {
     return directional_albedo(directional_albedo_table, DISTRIBUTION, cosine, parameter);
 }
 
-// Factor of reflectance that makes up for light reflected more than once.
+// Factor of reflectance that adds light reflected more than once.
 vec3 scattering_scale(vec3 f0, float cosine, float parameter) {
     return MULTIPLE_SCATTERING ? multiple_scattering_scale(albedo_of(cosine, parameter), f0)
                                : vec3(1.0);

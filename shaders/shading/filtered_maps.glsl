@@ -19,10 +19,10 @@ layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
 layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
 layout(set = 0, binding = 21) uniform sampler2D occlusion_filtered;
 
-// How much longer than its probes cover a footprint may be, in widths.
+// How much longer than the extent of its probes a footprint may be, in widths.
 const float SLACK = 0.25;
 
-// Where and how widely a map is read.
+// Where and over which area a map is read.
 struct map_area {
     vec2 centre; // texture coordinates
     vec2 stride; // from probe to probe, along the major axis
@@ -34,7 +34,7 @@ uint probes_of(map_area area) {
     return PROBES > 1u ? area.probes : 1u;
 }
 
-// As many probes as the footprint is times longer than wide.
+// As many probes as the footprint's ratio of length to width.
 uint probes_needed(footprint pixel) {
     float length = pixel.major_axis / max(pixel.minor_axis, 1e-6 * pixel.major_axis);
     return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));

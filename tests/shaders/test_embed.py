@@ -1,4 +1,4 @@
-"""The build step that compiles shaders: what is wrong with one stops it, and leaves no table."""
+"""The build step that compiles shaders: an error in one stops it, and leaves no table."""
 
 import subprocess
 import sys
@@ -18,7 +18,7 @@ void main() { f(); }
 
 
 def embed(sources, compiler=COMPILER):
-    """Gives exit status, what was printed, and the table (None: none was written)."""
+    """Returns exit status, output, and the table (None if none was written)."""
     with tempfile.TemporaryDirectory() as scratch:
         folder, output = Path(scratch) / "shaders", Path(scratch) / "table.c"
         for name, text in sources.items():
@@ -63,7 +63,7 @@ def test_faulty_source_is_named():
 def test_invalid_words_are_refused():
     with tempfile.TemporaryDirectory() as scratch:
         compiler = Path(scratch) / "compiler"
-        # A header, and a module that lacks all that Vulkan asks for.
+        # A header, and a module that lacks everything that Vulkan requires.
         compiler.write_text("#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done\n"
                             r"printf '\003\002\043\007\0\006\001\0\0\0\0\0\001\0\0\0\0\0\0\0'"
                             ' > "$2"\n')

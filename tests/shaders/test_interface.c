@@ -1,5 +1,5 @@
-// The structures of shaders/interface lie in memory for GLSL, as its compiler decided, as they do
-// for C. Read from the SPIR-V of the library's own shaders.
+// The structures of shaders/interface have the same layout in GLSL, as its compiler chose it, as in
+// C. Read from the SPIR-V of the library's own shaders.
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -144,7 +144,7 @@ typedef void visit(spirv_type *types, const uint32_t *instruction);
 static void visit_instructions(const engine_shader_code *code, spirv_type *types, visit *visit) {
     const size_t count = code->size / sizeof *code->words;
     for (size_t i = HEADER_WORDS; i < count; i += code->words[i] >> 16) {
-        // Instructions of one word name nothing; the last of a module is one.
+        // Instructions of one word have no id; the last one of a module is such an instruction.
         if (code->words[i] >> 16 > 1)
             visit(types, code->words + i);
     }

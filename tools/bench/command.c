@@ -210,7 +210,7 @@ static lobe_result measure_scenes(const bench_request *request, bench_result *re
     if (measured == 0)
         return LOBE_ERROR_NOT_FOUND;
     lobe_host_log(job->host, LOBE_LOG_WARNING,
-                  "only %zu of %zu scenes were measured: the others lack assets", measured,
+                  "only %zu of %zu scenes were measured: the others need assets", measured,
                   request->scenes.count);
     return LOBE_OK;
 }

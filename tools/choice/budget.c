@@ -252,8 +252,8 @@ static lobe_result fail(const budget_options *options, const trade_request *requ
                               "%s %g: no filter has both a time and an error; figures: %s", option,
                               request->limit, source->characters);
     return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
-                          "%s %g: none of %zu choices keeps to it; the %s is %s; figures: %s",
-                          option, request->limit, choice->candidates,
+                          "%s %g: none of %zu choices meets it; the %s is %s; figures: %s", option,
+                          request->limit, choice->candidates,
                           request->kind == TRADE_LIMIT_MILLISECONDS ? "cheapest" : "most exact",
                           describe_row(request, choice->nearest).characters, source->characters);
 }

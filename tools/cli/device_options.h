@@ -9,7 +9,7 @@
 
 /// The options of every subcommand that needs a device.
 typedef struct device_options {
-    const char *select; ///< NULL: the environment variable LOBE_DEVICE, or else the most suitable
+    const char *select; ///< NULL: LOBE_DEVICE, if set; else the most suitable device
     bool validation;
 } device_options;
 

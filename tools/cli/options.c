@@ -218,7 +218,7 @@ typedef struct parser {
     int argc, next; ///< argv[next] is read next
     bool *seen;     ///< for each option of the table
     option_list *operands;
-    option_form *help; ///< NULL: not asked for
+    option_form *help; ///< NULL: not requested
 } parser;
 
 static const option *find_by_name(const option_table *table, const char *name, size_t length) {

@@ -33,7 +33,7 @@ typedef enum option_values {
     OPTION_VALUES_FOLDER,
     OPTION_VALUES_SCENE,       ///< built-in scenes, files and folders
     OPTION_VALUES_FILTER,      ///< filters
-    OPTION_VALUES_FILTER_LIST, ///< filters with commas between
+    OPTION_VALUES_FILTER_LIST, ///< filters separated by commas
     OPTION_VALUES_KNOB,        ///< KNOB=VALUE
     OPTION_VALUES_SUBCOMMAND,
 } option_values;
@@ -85,8 +85,8 @@ bool options_parse(const option_table *table, int argc, char **argv, option_list
 /// Prints a table in some form.
 typedef void option_form(const option_table *table, FILE *stream);
 
-/// Sets the function that finds the form of `--help=FORM`, or NULL if there is no such form.
-/// Without it there are none.
+/// Sets the function that finds the form of `--help=FORM`, or NULL if there is no such form. Unless
+/// it is set, there are no forms.
 void options_set_form_finder(option_form *(*find)(const char *name));
 
 /// Frees the lists that the table's options point to, and the operands (may be NULL).

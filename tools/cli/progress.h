@@ -22,7 +22,7 @@ void progress_step(progress *progress, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /// The total work of the steps from here on, above 0, in any unit. From then on the remaining time
-/// is shown, as far as it can be estimated.
+/// is shown if it can be estimated.
 void progress_expect(progress *progress, double work);
 
 /// Subtracts work that turned out to be unnecessary.

@@ -7,7 +7,7 @@
 
 /// The options of every subcommand that takes a SCENE.
 typedef struct scene_options {
-    const char *assets;      ///< NULL: the environment variable LOBE_ASSETS, or else none
+    const char *assets;      ///< NULL: LOBE_ASSETS, if set; else none
     const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
     double rotation;         ///< of the environment, degrees about +Y
     double intensity;        ///< factor

@@ -24,7 +24,7 @@ extern const subcommand completion_subcommand;
 
 /// All subcommands in the order of `lobe --help`; the last is NULL.
 extern const subcommand *const subcommands[];
-/// NULL if there is none of that name.
+/// NULL if no subcommand has that name.
 const subcommand *subcommand_find(const char *name);
 /// Makes a subcommand print its option table in another form (option_form_find) on standard output.
 /// Returns the exit status.

@@ -86,7 +86,7 @@ static double length(const double vector[3]) {
     return sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
 }
 
-/// NULL if the text is right, else what is wrong.
+/// NULL if the text is valid, else what is wrong.
 static const char *parse_light(const char *text, lobe_light *light) {
     static const char directional[] = "directional:", point[] = "point:";
     double place[3], intensity[3];
@@ -156,7 +156,7 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     scene->camera = camera;
     if (lights) {
         if (scene->has_added_light)
-            lobe_scene_set_environment(scene, NULL); // now there is light of its own
+            lobe_scene_set_environment(scene, NULL); // the scene has its own light now
         lobe_release(scene->lights);
         scene->lights = lights;
         scene->light_count = options->lights.count;

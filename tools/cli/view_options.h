@@ -7,7 +7,7 @@
 
 #include "tools/cli/options.h"
 
-/// The options that replace a scene's camera and lights.
+/// Options that replace a scene's camera and lights.
 typedef struct view_options {
     float eye[3], target[3];
     double field_of_view; ///< vertical, degrees

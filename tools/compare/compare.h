@@ -16,7 +16,7 @@ typedef struct compared {
     const char *path;
     image_input input;
     error_metrics metrics;  ///< of a test
-    lobe_image flip_errors; ///< likewise
+    lobe_image flip_errors; ///< the same
 } compared;
 
 typedef struct compare_job {

@@ -15,7 +15,7 @@ typedef struct error_metrics {
     double rmse;         ///< sqrt(mean((a - b)^2))
     double relative_mse; ///< mean((a - b)^2 / (b^2 + 0.01)); the 0.01 keeps black finite
     double relative_l2;  ///< sqrt(sum((a - b)^2) / sum(b^2)); infinite against a black reference
-    double relative_l1;  ///< sum|a - b| / sum|b|; infinite likewise
+    double relative_l1;  ///< sum|a - b| / sum|b|; infinite against a black reference
     double psnr;         ///< 10 log10(peak^2 / mean((a - b)^2)) decibels; infinite where equal.
                          ///< Peak: largest value of the reference for high dynamic range, else 1
     double flip;         ///< mean FLIP error [0, 1], see tools/compare/flip.h

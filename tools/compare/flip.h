@@ -5,10 +5,10 @@
 #include <lobe/image.h>
 #include <lobe/result.h>
 
-/// FLIP: the difference that a person sees who flips between two images. Each texel of `errors`
-/// (R32_FLOAT) is in [0, 1]; the usual summary is the mean. `test` and `reference` are linear
-/// RGBA32_FLOAT images of one extent without NaN; alpha is ignored. `errors` is overwritten; free
-/// it with lobe_image_free. Errors: LOBE_ERROR_OUT_OF_MEMORY.
+/// FLIP estimates the difference that a person sees when flipping between two images. Each texel of
+/// `errors` (R32_FLOAT) is in [0, 1]; the usual summary is the mean. `test` and `reference` are
+/// linear RGBA32_FLOAT images of one extent without NaN; alpha is ignored. `errors` is overwritten;
+/// free it with lobe_image_free. Errors: LOBE_ERROR_OUT_OF_MEMORY.
 
 /// How large a texel appears: 0.7 m away from a screen that is 0.7 m and 3840 pixels wide, as in
 /// the papers.

@@ -9,13 +9,14 @@
 #include "tools/environment/check_passes.h"
 
 #define MOST_ROUNDS 16
-/// Updates of which the median is taken: each takes long.
+/// Updates whose median is taken; each is slow.
 #define UPDATES 3
 /// Samples of the method `sampled`.
 #define SAMPLES 32
-/// Terms of the exact sum per submission, so that other work on the device need not wait long.
+/// Terms of the exact sum per submission: few enough that other work on the device does not wait
+/// long.
 #define TERMS_A_SUBMISSION (1u << 24)
-/// Texels per submission at most: lavapipe silently ends loops after 65535 iterations.
+/// Maximum number of texels per submission: lavapipe silently ends loops after 65535 iterations.
 #define MOST_TEXELS (1u << 15)
 
 typedef struct measurement {
@@ -149,8 +150,8 @@ static lobe_result measure(measurement *m, uint32_t lobe, const environment_meth
     return result;
 }
 
-/// Assumes that the time grows linearly with the samples, and chooses as many as take the time of
-/// `prefiltered`; fewer if that guess took longer.
+/// Chooses the number of samples that takes as long as `prefiltered`, assuming that the time is
+/// linear in the samples; fewer if that turns out to take longer.
 static lobe_result measure_equal_time(measurement *m, uint32_t lobe) {
     const environment_method methods[2] = {ENVIRONMENT_PREFILTERED, ENVIRONMENT_SAMPLED_EQUAL_TIME};
     environment_error *errors = m->findings->errors[lobe], pair[2];
@@ -246,7 +247,7 @@ static lobe_result time_updates(measurement *m) {
 
 // ---------------------------------------------------------------------------------------------
 
-/// A graphics card finishes a few thousand directions in too few ticks of its clock.
+/// A GPU finishes a few thousand directions in too few ticks of its timestamp clock.
 static uint32_t choose_repeats(const lobe_device *device) {
     return lobe_device_describe(device)->type == LOBE_DEVICE_CPU ? 1 : 64;
 }

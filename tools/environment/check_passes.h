@@ -7,7 +7,7 @@
 /// Passes that measure the light that von Mises-Fisher lobes about given directions receive from an
 /// environment: by each fast method, and exactly.
 
-/// Makes the passes' shaders known to the device: once, before the first of them runs.
+/// Registers the passes' shaders with the device: call it once, before the first of them runs.
 lobe_result environment_check_add_shaders(lobe_device *device);
 
 /// Directions spread evenly over the sphere: Swinbank, Purser 2006, "Fibonacci
@@ -20,7 +20,7 @@ typedef struct environment_check_request {
     uint32_t samples;         ///< METHOD_SAMPLED: at least 1
     lobe_resource directions; ///< a buffer of as many float4
     uint32_t count;
-    uint32_t rounds; ///< repeats every look-up, to time what would otherwise be too short
+    uint32_t rounds; ///< repeats every look-up, to time what would be too short otherwise
 } environment_check_request;
 
 /// Adds the pass that looks light up; returns a buffer of float4: RGB for each direction of the

@@ -200,7 +200,7 @@ static int run(int argc, char **argv) {
          .argument = "K",
          .summary =
              "with --check: the concentration of the broadest of seven lobes, each four times "
-             "as concentrated as the one before; 1: lobes that the levels stand for, 2: lobes "
+             "as concentrated as the one before; 1: lobes that the levels represent, 2: lobes "
              "half way between levels",
          .target = &request.kappa,
          .fallback = "1",
@@ -220,7 +220,7 @@ static int run(int argc, char **argv) {
             "all directions, OpenEXR or Radiance (.hdr), as latitude and longitude or as the "
             "faces\n"
             "of a cube, or 'sky', which is made by code. Prints what each level of the filtered\n"
-            "cube stands for, and the times of the passes that make it.",
+            "cube represents, and the times of the passes that make it.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

@@ -1,5 +1,5 @@
-// A program with Vulkan of its own: it makes a device and an image, draws its background into the
-// image, and lets lobe draw a scene on top, all in one command buffer of its own.
+// A program that uses Vulkan itself: it creates a device and an image, draws a background into the
+// image, and lets lobe draw a scene on top, all in one of its own command buffers.
 //
 //     host_device SCENE FILE.exr WIDTH HEIGHT
 
@@ -27,7 +27,7 @@ static void print(void *user, lobe_log_level level, const char *message) {
 static const lobe_host messages = {.write = print};
 
 // ---------------------------------------------------------------------------------------------
-// A device: with what lobe asks for, and whatever else the program needs
+// A device with everything that lobe requires, and whatever else the program needs
 
 typedef struct host {
     lobe_vulkan_device vulkan;
@@ -88,7 +88,7 @@ static void close_host(host *h) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// An image, and memory to read it by
+// An image, and a buffer to read it back
 
 static VkDeviceMemory allocate(const host *h, VkMemoryRequirements needed, VkFlags flags) {
     VkPhysicalDeviceMemoryProperties memory;
@@ -262,7 +262,7 @@ int main(int argc, char **argv) {
     lobe_image_free(&pixels);
     lobe_renderer_destroy(&renderer);
     lobe_scene_destroy(&scene);
-    lobe_device_destroy(&device); // the program's own device lives on
+    lobe_device_destroy(&device); // does not destroy the program's device
     close_host(&h);
     return result != LOBE_OK;
 }

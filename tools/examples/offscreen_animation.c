@@ -1,7 +1,7 @@
-// A program without a window that writes an animation to OpenEXR files: the camera goes along the
-// scene's path, a light goes out, and the first material grows rougher. Of the maps only those that
-// depend on its roughness are built again; it prints how many passes each frame took, and in the
-// end how much memory lobe asked for, which is counted.
+// A program without a window that writes an animation to OpenEXR files: the camera moves along the
+// scene's path, a light fades out, and the first material becomes rougher. Only the maps that
+// depend on its roughness are rebuilt. Prints how many passes each frame took, and at the end how
+// much memory lobe allocated, measured with a counting allocator.
 //
 //     offscreen_animation SCENE FOLDER FRAMES WIDTH HEIGHT
 
@@ -18,7 +18,7 @@ static void print(void *user, lobe_log_level level, const char *message) {
         fprintf(stderr, "offscreen_animation: %s\n", message);
 }
 
-// lobe may ask from several threads at once.
+// lobe may allocate from several threads at once.
 static _Atomic size_t bytes, most_bytes;
 
 static void *allocate(void *user, size_t size) {
@@ -39,7 +39,7 @@ static const lobe_allocator counted = {.allocate = allocate, .release = release}
 static const lobe_host messages = {.write = print, .allocator = &counted};
 
 typedef struct animation {
-    lobe_scene *scene; ///< changed in place, frame by frame
+    lobe_scene *scene; ///< modified in place in every frame
     lobe_renderer *renderer;
     const char *folder;
     uint32_t width, height;
@@ -53,7 +53,7 @@ static lobe_result change_scene(animation *a, double part, lobe_camera *camera) 
     lobe_scene_path(a->scene, 0.25 * part, camera);
     for (int channel = 0; channel < 3 && a->scene->light_count > 0; channel++)
         a->scene->lights[0].intensity[channel] *= 0.9f;
-    // Half-vector lobes have concentrations, microfacets a roughness.
+    // Half-vector lobes have a concentration, microfacets a roughness.
     material->roughness = fminf(1, material->roughness + 0.05f);
     for (uint32_t lobe = 0; lobe < material->lobe_count; lobe++)
         material->lobes[lobe].width *= 0.9f;

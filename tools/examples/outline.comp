@@ -1,6 +1,6 @@
 #version 460
 
-// Darkens the picture where it is much farther or nearer than beside: outlines of what is in it.
+// Draws outlines: darkens pixels whose depth differs strongly from their neighbours'.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -1,5 +1,5 @@
-// A program that adds a pass of its own to every frame: a compute shader, outline.comp, draws
-// outlines around what the scene shows. What it wrote is delivered in the place of lobe's picture.
+// A program that adds its own pass to every frame: a compute shader, outline.comp, draws outlines
+// around the scene's objects. Its output is delivered instead of lobe's picture.
 //
 //     own_pass SCENE FILE.png WIDTH HEIGHT
 
@@ -18,7 +18,7 @@ static void print(void *user, lobe_log_level level, const char *message) {
 
 static const lobe_host messages = {.write = print};
 
-/// lobe calls this while it declares the frame. Bindings have the names of the shader's variables.
+/// lobe calls this while it declares the frame. Bindings are named after the shader's variables.
 static void add_outlines(void *user, lobe_graph *graph, lobe_render_stage stage,
                          lobe_render_resources *resources) {
     (void)user;

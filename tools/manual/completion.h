@@ -5,8 +5,8 @@
 
 #include <lobe/filter.h>
 
-/// A shell's script is a beginning with all names, one part per subcommand (the form of that shell,
-/// tools/manual/option_form.h), and an end.
+/// A completion script is a header with all names, one part per subcommand (in the shell's form,
+/// tools/manual/option_form.h), and a footer.
 typedef struct completion_shell {
     const char *name; ///< of the form, too
     void (*begin)(FILE *stream);

@@ -34,7 +34,7 @@ static void begin(FILE *stream) {
           stream);
 }
 
-/// The name of a kind of values in the script.
+/// The script's name for a kind of values.
 static const char *value_name(option_values values) {
     static const char *const names[] = {
         [OPTION_VALUES_PLAIN] = "none",    [OPTION_VALUES_NONE] = "none",
@@ -52,7 +52,7 @@ static void print_names(FILE *stream, const option *option, const char *between)
     fprintf(stream, "--%s", option->name);
 }
 
-/// What may follow an option that takes a value.
+/// The values that may follow an option.
 static void print_value(FILE *stream, const option *option) {
     fputs("        ", stream);
     print_names(stream, option, "|");

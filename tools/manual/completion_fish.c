@@ -5,7 +5,7 @@
 #include "tools/manual/option_form.h"
 #include "tools/scenes/scene_list.h"
 
-/// A line of a candidate and what it means, as fish takes them from a function's output.
+/// One candidate and its description, in the form that fish reads from a function's output.
 static void print_candidate(FILE *stream, const char *name, const char *meaning) {
     fprintf(stream, "    echo %s\\t'", name);
     completion_quote(stream, meaning, "");

@@ -5,14 +5,14 @@
 #include "tools/manual/option_form.h"
 #include "tools/scenes/scene_list.h"
 
-/// One of the words that _describe takes.
+/// One word for _describe.
 static void print_described(FILE *stream, const char *name, const char *summary) {
     fprintf(stream, "        '%s:", name);
     completion_quote(stream, summary, "");
     fputs("'\n", stream);
 }
 
-/// One of the specifications that _values takes.
+/// One specification for _values.
 static void print_knob(FILE *stream, const lobe_knob *knob) {
     fprintf(stream, " \\\n        '%s[", knob->name);
     completion_quote(stream, knob->summary, "[]:");
@@ -77,7 +77,7 @@ static void begin(FILE *stream) {
           stream);
 }
 
-/// The function that offers a kind of values; "" if there is none.
+/// The function that completes a kind of values; "" if there is none.
 static const char *action(option_values values) {
     static const char *const names[] = {
         [OPTION_VALUES_PLAIN] = "",

@@ -28,7 +28,7 @@ typedef struct render_request {
     uint32_t samples, frames;
     const char *graph;
     uint32_t depth;
-    bool layers; ///< of arbitrary output variables
+    bool layers; ///< the layers of arbitrary output variables
     double exposure;
     bool has_filter, has_carrier, has_samples, has_depth, has_exposure;
     scene_options opening;
@@ -37,7 +37,7 @@ typedef struct render_request {
     cache_options cache;
     device_options device;
 
-    const lobe_filter *filter; ///< NULL until it is picked by the budget
+    const lobe_filter *filter; ///< NULL until the budget picks it
     lobe_settings settings;
 } render_request;
 
@@ -45,14 +45,14 @@ typedef struct render_request {
 typedef struct render_state {
     lobe_host host;
     lobe_scene *scene;
-    sweep_results figures; ///< by which filter and knobs are picked
+    sweep_results figures; ///< the figures that pick filter and knobs
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_frame frame;
     lobe_profile *profile;
     lobe_profile_summary times;
     progress progress;
-    const char *cache; ///< where filtered environments are kept; NULL: nowhere
+    const char *cache; ///< cache folder for filtered environments; NULL: none
     char cache_folder[CACHE_FOLDER_SIZE];
 } render_state;
 
@@ -275,7 +275,7 @@ static void print_times(const render_request *request, const render_state *state
            times->frame.median_milliseconds);
 }
 
-/// Checks early, so that nobody waits minutes because of a misspelt folder.
+/// Checks early, so that a misspelt folder does not cost minutes of waiting.
 static lobe_result check_files(const render_request *request, const lobe_host *host) {
     lobe_result result = output_file_check(request->graph, host);
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++)
@@ -295,7 +295,7 @@ static lobe_result render(render_request *request, render_state *state) {
         lobe_host_log(&state->host, LOBE_LOG_ERROR, "camera: eye and target are the same point");
         return LOBE_ERROR_INVALID_ARGUMENT;
     }
-    request->lights = NULL; // the scene's now
+    request->lights = NULL; // owned by the scene now
     result = open_renderer(request, state);
     if (result == LOBE_OK)
         result = render_frames(request, state);

@@ -30,7 +30,7 @@ static void write_heat_colours(const picture_stream *stream) {
 // ---------------------------------------------------------------------------------------------
 // Pictures
 
-/// Names in the results are relative to their file.
+/// Names in the results are relative to the results file.
 static char *path_beside(const char *results, const char *name) {
     const char *slash = strrchr(results, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - results) + 1 : 0;
@@ -74,7 +74,7 @@ static lobe_result write_picture(const picture_stream *stream, uint32_t row, con
 // ---------------------------------------------------------------------------------------------
 // Scenes
 
-/// The filter `reference` differs from the scene's reference in its number of samples alone.
+/// The filter `reference` differs from the scene's reference only in its number of samples.
 static bool has_picture(const sweep_row *row, const sweep_scene *scene) {
     return row->picture && row->varied[0] == '\0' && strcmp(row->scene, scene->name) == 0 &&
            strcmp(row->filter, "reference") != 0;

@@ -14,8 +14,8 @@
 #include "tools/report/script.h"
 #include "tools/sweep/results.h"
 
-/// `lobe report` checks the results, reads their pictures and writes the file; a Python script
-/// draws the page.
+/// `lobe report` checks the results, reads their pictures and writes the page, which a Python
+/// script draws.
 typedef struct report_request {
     const char *results, *folder;
     const char *targets; ///< NULL: none
@@ -26,7 +26,7 @@ typedef struct report_request {
 // ---------------------------------------------------------------------------------------------
 // Making
 
-/// The script takes the pictures from its standard input.
+/// The script reads the pictures from its standard input.
 static lobe_result start_script(const report_request *request, report_script *script) {
     char width[16];
     snprintf(width, sizeof width, "%u", request->picture_width);
@@ -41,7 +41,7 @@ static lobe_result start_script(const report_request *request, report_script *sc
     return report_script_start(arguments, &request->host, script);
 }
 
-/// The page as text, to free() by the caller.
+/// Returns the page as text; the caller frees it with free().
 static lobe_result make_page(const report_request *request, char **text, size_t *size) {
     sweep_results results;
     report_script script;
@@ -62,7 +62,7 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-/// The folder may exist. One that was made is removed again where the page cannot be written.
+/// The folder may exist. One created here is removed again if the page cannot be written.
 static lobe_result write_page(const report_request *request, const char *text, size_t size) {
     bool made = mkdir(request->folder, 0777) == 0;
     if (!made && errno != EEXIST)
@@ -100,12 +100,12 @@ static int run(int argc, char **argv) {
          .letter = 'o',
          .kind = OPTION_TEXT,
          .argument = "DIR",
-         .summary = "folder that index.html is written to; made where it is not there",
+         .summary = "folder that index.html is written to; created if it does not exist",
          .target = &request.folder},
         {.name = "picture-width",
          .kind = OPTION_INTEGER,
          .argument = "PIXELS",
-         .summary = "wider pictures are reduced, and a part of each shown as it is",
+         .summary = "wider pictures are downscaled, with a part of each shown at full size",
          .target = &request.picture_width,
          .fallback = "320",
          .minimum = 16,
@@ -113,18 +113,19 @@ static int run(int argc, char **argv) {
         {.name = "targets",
          .kind = OPTION_TEXT,
          .argument = "FILE",
-         .summary = "limits of ratios between filters, as JSON: shows which are met",
+         .summary = "limits of ratios between filters, as JSON: show which are met",
          .target = &request.targets},
     };
     const option_table table = {
         .program = "lobe report",
         .operands = "RESULTS.json",
-        .summary = "Draws what 'lobe bench --sweep' measured as one HTML page that needs nothing\n"
-                   "else: for each scene the pictures with maps of their errors, error over time\n"
-                   "and over memory with the Pareto front, and the times of passes; means over\n"
-                   "the scenes; and the table of Xu et al. 2017 beside the same ratios here.\n"
-                   "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
-                   "python3-jinja2).",
+        .summary =
+            "Draws the results of 'lobe bench --sweep' as one self-contained HTML page: for\n"
+            "each scene the pictures with their error maps, error over time and over\n"
+            "memory with the Pareto front, and the times of passes; means over the\n"
+            "scenes; and the table of Xu et al. 2017 next to the same ratios here.\n"
+            "Needs Python with matplotlib and Jinja2 (Debian: python3-matplotlib,\n"
+            "python3-jinja2).",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .minimum_operands = 1,

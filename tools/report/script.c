@@ -17,7 +17,7 @@
 /// The script's path from the folder of the program: in a build tree, and installed.
 static const char *const places[] = {"report/lobe-report", REPORT_SCRIPT_INSTALLED};
 
-/// Writes the folder of this program with a slash behind it; false where it is not known.
+/// Writes this program's folder, with a final slash; false if it is unknown.
 static bool find_program_folder(char folder[PATH_MAX]) {
     ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
     if (length < 0)
@@ -40,14 +40,14 @@ static lobe_result find_script(const lobe_host *host, char path[2 * PATH_MAX]) {
             return LOBE_OK;
     }
     return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
-                          "the script that draws reports is missing: neither %s%s nor %s is there",
+                          "the script that draws reports is missing: neither %s%s nor %s exists",
                           folder, places[0], path);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Starting
 
-/// Two pipes: [0] to the script, [1] from it, each with its reading end first.
+/// Two pipes: [0] to the script, [1] from it; in each, the read end comes first.
 typedef struct script_pipes {
     int ends[2][2];
 } script_pipes;
@@ -67,7 +67,7 @@ static bool open_pipes(script_pipes *pipes) {
 /// Returns an errno.
 static int spawn(const char *path, const char *const arguments[], const script_pipes *pipes,
                  pid_t *process) {
-    // No compiled modules are kept: an administrator who tries the program would leave them.
+    // Do not cache compiled modules: run as root, the program would leave them in the installation.
     const char *command[REPORT_SCRIPT_ARGUMENTS + 4] = {"python3", "-B", path};
     for (size_t i = 0; arguments[i] && i < REPORT_SCRIPT_ARGUMENTS; i++)
         command[3 + i] = arguments[i];
@@ -84,7 +84,7 @@ static int spawn(const char *path, const char *const arguments[], const script_p
     return error;
 }
 
-/// The ends that stay here, as streams.
+/// This process's ends, as streams.
 static bool open_streams(script_pipes *pipes, report_script *script) {
     script->input = fdopen(pipes->ends[0][1], "wb");
     script->output = fdopen(pipes->ends[1][0], "rb");
@@ -127,7 +127,7 @@ lobe_result report_script_start(const char *const arguments[], const lobe_host *
         close_streams(script);
         return start_failed(host, error);
     }
-    // A script that ends early says why; that there is no one to write to says nothing more.
+    // A script that exits early reports why; the broken pipe adds nothing to that.
     script->old_handler = signal(SIGPIPE, SIG_IGN);
     return LOBE_OK;
 }

@@ -8,9 +8,9 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// The Python script lobe-report as a process. It takes pictures from its standard input and gives
-/// the page on its standard output, once it has read all; what is wrong it says itself, in one line
-/// on standard error.
+/// The Python script lobe-report as a process. It reads pictures from standard input and, once it
+/// has read all, writes the page to standard output. It reports errors itself, in one line on
+/// standard error.
 
 #define REPORT_SCRIPT_ARGUMENTS 6
 
@@ -21,13 +21,14 @@ typedef struct report_script {
 } report_script;
 
 /// Starts the script that belongs to this program: in `report` beside it in a build tree, or where
-/// it was installed. `arguments` end with NULL. Until report_script_finish, SIGPIPE is ignored.
-/// Errors: LOBE_ERROR_NOT_FOUND (no script, or no Python that can be started).
+/// it was installed. `arguments` is NULL-terminated. Until report_script_finish, SIGPIPE is
+/// ignored. Errors: LOBE_ERROR_NOT_FOUND (no script, or no usable Python).
 lobe_result report_script_start(const char *const arguments[], const lobe_host *host,
                                 report_script *script);
 
-/// Closes the script's input, reads its output and waits for its end. `*text` is for the caller to
-/// free(), NULL on failure. Errors: LOBE_ERROR_READ (the script failed), LOBE_ERROR_OUT_OF_MEMORY.
+/// Closes the script's input, reads its output and waits for it to exit. The caller frees `*text`
+/// with free(); it is NULL on failure. Errors: LOBE_ERROR_READ (the script failed),
+/// LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result report_script_finish(report_script *script, const lobe_host *host, char **text,
                                  size_t *size);
 

@@ -14,7 +14,7 @@
 #include "tools/scenes/box_projection.h"
 #include "tools/scenes/mesh_formats.h"
 
-// More text than any mesh needs: the size that a packed file claims is not trusted.
+// More text than any mesh needs: the size stated in a compressed file is not trusted.
 #define MAXIMUM_UNPACKED ((size_t)1 << 29)
 
 // For messages: how to give the folder of assets.

@@ -13,11 +13,11 @@ typedef struct asset_mesh {
     double tile;       ///< metres of surface that one repetition of a map covers
 } asset_mesh;
 
-/// Reads the mesh, PLY or JavaScript (see tools/scenes/mesh_formats.h), packed by gzip or not,
-/// recognised by its content. Places it on y = 0 with the middle of its bounds above the origin,
-/// and gives it texture coordinates (see tools/scenes/box_projection.h). `assets`: the folder;
-/// NULL: none. On failure `mesh` is empty. Errors: LOBE_ERROR_NOT_FOUND (no folder, or the file is
-/// not in it; the message says how to give it), _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
+/// Reads the mesh, PLY or JavaScript (see tools/scenes/mesh_formats.h), compressed with gzip or
+/// not, recognised by its content. Places it on y = 0 with the middle of its bounds above the
+/// origin, and gives it texture coordinates (see tools/scenes/box_projection.h). `assets`: the
+/// folder; NULL: none. On failure `mesh` is empty. Errors: LOBE_ERROR_NOT_FOUND (no folder, or the
+/// file is not in it; the message says how to give it), _READ, _MALFORMED, _UNSUPPORTED, _LIMIT,
 /// _OUT_OF_MEMORY.
 lobe_result asset_mesh_load(const asset_mesh *wanted, const char *assets, const lobe_host *host,
                             lobe_mesh *mesh);

@@ -25,7 +25,7 @@ static uint64_t copied_bytes(double bytes) {
     return half < 4 ? 4 : half < largest_copy ? half : largest_copy;
 }
 
-/// The name of the pass that copies this many bytes, by which its times are found again.
+/// The name of the pass that copies this many bytes; its times are looked up by this name.
 static void name_copy(uint64_t bytes, char name[64]) {
     snprintf(name, 64, "copy of %" PRIu64 " bytes", bytes);
 }

@@ -10,7 +10,7 @@ static size_t pixel_count(const sweep_job *job) {
     return (size_t)job->bench.size[0] * job->bench.size[1];
 }
 
-/// Two frames at a station of the path. Both are empty if the sweep is to stop.
+/// Two frames at a station of the path. Both are empty if the sweep should stop.
 static lobe_result render_pair(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, lobe_render_parameters parameters,
                                uint32_t station, lobe_frame pair[2]) {

@@ -7,7 +7,7 @@
 
 #include "tools/bench/timing.h"
 
-/// Timed frames of a kind in one turn of a row; each turn also costs two untimed ones.
+/// Timed frames of each kind in one turn of a row; each turn also needs two untimed ones.
 #define TURN_FRAMES 2
 
 typedef struct row_times {
@@ -19,7 +19,7 @@ typedef struct scene_run {
     const sweep_job *job;
     const lobe_scene *scene;
     const char *name; ///< in the results
-    lobe_host errors; ///< passes on errors only: a filter's warnings come once, not in every turn
+    lobe_host errors; ///< only errors pass: a filter's warnings should not repeat
     sweep_row *rows;
     row_times *times; ///< one per row
     lobe_image truth, truth_lobe_base;
@@ -93,8 +93,8 @@ static lobe_result render_part(const scene_run *run, lobe_renderer *renderer,
     progress_weigh(bench->progress, samples);
     lobe_render_parameters parameters = sweep_parameters(run->job, parts->reference);
     parameters.reference.samples = samples;
-    // Of two parts, neither has the sample pattern of the filter reference, which is compared with
-    // them.
+    // If there are two parts, neither uses the sample pattern of the filter reference, which is
+    // compared with them.
     parameters.reference.pattern = parts->samples[1] > 0 ? part + 1 : 0;
     parameters.discard = false;
     parameters.host.progress = sweep_show_progress;

@@ -11,10 +11,10 @@
 #include "tools/compare/error_metrics.h"
 
 /// The measurements of a sweep: every filter, over the values of its knobs, in every scene. `lobe
-/// bench --sweep` writes them, `lobe report` draws them, `lobe render --budget` and `--error`
-/// choose by them. In JSON each structure is an object with members of the same names, and an array
-/// is a list without its count. JSON has no infinity: a number that is not finite is null there,
-/// and read as NAN. Other numbers keep six digits, whole numbers all.
+/// bench --sweep` writes them, `lobe report` draws them, and `lobe render --budget` and `--error`
+/// use them to pick a filter. In JSON each structure is an object with members of the same names,
+/// and an array is a list without its count. JSON has no infinity: a number that is not finite is
+/// null there, and read as NAN. Other numbers keep six digits, whole numbers all.
 
 /// All passes of one name in a frame.
 typedef struct sweep_pass {
@@ -115,7 +115,7 @@ bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *env
 /// A row's relative L2 error without the noise in its scene's reference; 0 if it is not larger.
 double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row);
 
-/// The value of a row's knob; NULL: it has no such knob.
+/// The value of a row's knob; NULL if it has no such knob.
 const char *sweep_row_value(const sweep_row *row, const char *knob);
 
 /// The row with exactly these settings, in any order; NULL if there is none.

@@ -3,7 +3,7 @@
 
 #include "tools/viewer/graphics/display.h"
 
-/// Both sides, and the display.
+/// A frame of the viewer: both sides, and the display.
 #define VIEWER_COMMANDS 3
 
 /// The commands of the one frame in flight. All zero: none.

@@ -92,9 +92,10 @@ static void leave(viewer *v) {
 
 const viewer_key viewer_keys[] = {
     {0, "left button", "turns the camera around what it looks at, or moves the divider", NULL},
-    {0, "middle button", "moves the camera across the view; shift and left button do, too", NULL},
+    {0, "middle button", "moves the camera across the view; so does the left button with shift",
+     NULL},
     {0, "right button", "turns the view around the camera", NULL},
-    {0, "wheel", "comes nearer, goes away", NULL},
+    {0, "wheel", "zooms in, zooms out", NULL},
     {0, "W A S D Q E",
      "flies forwards, left, backwards, right, down, up while it is held; faster "
      "with shift",
@@ -115,7 +116,7 @@ const viewer_key viewer_keys[] = {
     {GLFW_KEY_SPACE, "Space", "moves the camera along its path, or pauses", play},
     {GLFW_KEY_PERIOD, ".", "takes one step along the path", step},
     {GLFW_KEY_R, "R", "records the frame as OpenEXR", record_frame},
-    {GLFW_KEY_P, "P", "records the whole path, a file a frame; again: stops", record_path},
+    {GLFW_KEY_P, "P", "records the whole path, one file per frame; again: stops", record_path},
     {GLFW_KEY_ESCAPE, "Escape", "closes the window", leave},
 };
 const size_t viewer_key_count = sizeof viewer_keys / sizeof *viewer_keys;

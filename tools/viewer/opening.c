@@ -10,11 +10,11 @@
 #include "tools/cli/output_file.h"
 #include "tools/viewer/viewer.h"
 
-/// Panels take one to be as large as their text, and show it in the next.
+/// Panels need one frame to measure their text, and show it in the next.
 #define FRAMES_TO_OPENING 2
 
 // ---------------------------------------------------------------------------------------------
-// Wishes
+// Requests
 
 static void wish(char **place, const char *text) {
     char *copy = strdup(text);
@@ -72,7 +72,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
         result = lobe_host_fail(&v->host, LOBE_ERROR_INVALID_ARGUMENT,
                                 "camera: eye and target are the same point");
     if (result != LOBE_OK) {
-        lobe_release(request->lights); // otherwise the scene owns them now
+        lobe_release(request->lights); // the scene owns them now
         return result;
     }
     v->view.scene = v->scene;
@@ -131,7 +131,7 @@ static lobe_result replace_environment(viewer *v, const char *name) {
     return result;
 }
 
-/// Once what was opened is to be seen.
+/// Called once the opened scene or environment is visible.
 static void end_announcement(viewer *v) {
     if (!v->opens || v->sides[0].stale)
         return;

@@ -12,12 +12,11 @@
 
 #define MAXIMUM_CHOICES 64
 
-// Pixels, before they are scaled.
+// Pixels, before scaling.
 #define MARGIN      8
 #define PANEL_WIDTH 300
 #define TIMES_WIDTH 270
-/// Of the window, from which on there is room for help beside the panel, and for times on the
-/// right.
+/// Window widths from which there is room for help beside the panel, and for times on the right.
 #define WIDTH_FOR_HELP  780
 #define WIDTH_FOR_TIMES 960
 
@@ -59,7 +58,7 @@ static void choose_environment(viewer *v) {
     const lobe_environment *environment = v->scene->environment;
     const char *names[] = {environment ? viewer_name_of(environment->name) : "none", "sky", "none"};
     size_t chosen = 0;
-    // The first is what there is: of the others, those that differ from it.
+    // The first is the current one; of the others, only those that differ from it.
     if (!environment)
         names[2] = names[1];
     else if (strcmp(environment->name, "sky") == 0)
@@ -117,7 +116,7 @@ static bool set_knob(const lobe_knob *knob, double *value) {
     }
 }
 
-/// Those that tell in environments alone, or the others.
+/// Either the knobs that only matter with an environment, or the others.
 static bool set_knobs(viewer_side *side, bool of_environments) {
     bool changed = false;
     for (size_t i = 0; i < lobe_filter_knob_count(side->filter); i++) {
@@ -134,8 +133,7 @@ static void set_side(const char *group, viewer_side *side, bool has_environment)
     imgui_begin_group(group);
     bool changed = choose_filter(side);
     changed |= set_knobs(side, false);
-    if (imgui_section(has_environment ? "Environment" : "Environment (there is none)",
-                      has_environment))
+    if (imgui_section(has_environment ? "Environment" : "Environment (none)", has_environment))
         changed |= set_knobs(side, true);
     side->stale |= changed;
     side->failed &= !changed;
@@ -169,7 +167,7 @@ static void show_samples(const viewer *v) {
     }
 }
 
-/// While the scene is not yet lit by all of the environment's maps.
+/// Shown until all of the environment's maps light the scene.
 static void show_parts(const viewer *v) {
     char text[32];
     uint32_t left = v->sides[0].parts_left;
@@ -238,7 +236,7 @@ static void show_path(viewer *v) {
     int frame = (int)v->path_frame;
     if (imgui_integer("frame", 0, (int)v->request->path_frames - 1, &frame))
         viewer_go_to(v, (uint32_t)frame);
-    imgui_tooltip("of the path, along which the camera is moved");
+    imgui_tooltip("of the path along which the camera moves");
     if (imgui_button(v->plays ? "pause" : "play"))
         v->plays = !v->plays;
     imgui_same_line();
@@ -283,7 +281,7 @@ static void show_panel(viewer *v) {
     imgui_end_panel();
 }
 
-/// On the right, where they do not hide the picture's middle.
+/// On the right, where it does not cover the middle of the picture.
 static void show_times(const viewer *v) {
     const float margin = MARGIN * v->scale;
     imgui_begin_list("times", (float[2]){(float)v->swapchain.width - margin, margin},
@@ -292,7 +290,7 @@ static void show_times(const viewer *v) {
     imgui_end_panel();
 }
 
-/// Where there is room: beside the panel, or over it in a window that has none for both.
+/// Beside the panel, or over it if the window is too narrow for both.
 static float left_of_room(const viewer *v) {
     const float margin = MARGIN * v->scale;
     const bool beside = v->shows_panel && is_wide(v, WIDTH_FOR_HELP);

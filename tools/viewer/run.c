@@ -91,7 +91,7 @@ static void move(viewer *v) {
     }
 }
 
-/// After a frame: writes the recording.
+/// Called after a frame: writes the recording.
 static void record(viewer *v) {
     if (v->records_frame || v->records_path)
         viewer_record(v);

@@ -58,7 +58,7 @@ bool viewer_side_has_work(const viewer_view *view, const viewer_side *side) {
 // ---------------------------------------------------------------------------------------------
 // Times
 
-/// The line of that name, added if there is none.
+/// The entry of that name, added if missing.
 static viewer_pass *line_of(viewer_side *side, const char *name) {
     for (size_t i = 0; i < side->pass_count; i++)
         if (strcmp(side->passes[i].name, name) == 0)
@@ -211,15 +211,14 @@ static void adapt_parts(viewer_side *side) {
     side->former_milliseconds = now;
 }
 
-/// If maps were made, the next frame is lit by more of them; the frame after the last saves them in
-/// the folder.
+/// If this frame built maps, the next one uses more of them; the frame after the last one saves
+/// them in the folder.
 static void go_on_with_parts(viewer_side *side, uint32_t left) {
     side->stale = left > 0 || side->parts_left > 0;
     side->parts_left = left;
 }
 
-/// The side's own filter and settings with a single sample, or, if that supersamples, the first
-/// filter that does not.
+/// The side's own filter and settings, or, if that filter supersamples, the first that does not.
 static const lobe_filter *filter_to_draw(const viewer_side *side, lobe_settings *settings) {
     size_t i = 0;
     *settings = side->settings;

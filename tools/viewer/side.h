@@ -24,8 +24,8 @@ typedef struct viewer_pass {
 } viewer_pass;
 
 /// One of the pictures to compare: a filter with its knobs, and its picture. A supersampling filter
-/// refines its picture from frame to frame, through host memory; others draw into an image that the
-/// viewer lends to lobe.
+/// refines its picture from frame to frame, through host memory; others draw into one of the
+/// viewer's images.
 typedef struct viewer_side {
     const lobe_filter *filter;
     lobe_settings settings;

@@ -73,7 +73,7 @@ typedef struct viewer {
     float scale; ///< of panels: 1 for 96 dots per inch
     bool scale_is_stale;
     bool waits;            ///< the last frame found nothing more to do
-    unsigned redraws;      ///< to draw though nothing changed: panels take some frames to settle
+    unsigned redraws;      ///< to draw although nothing changed: panels need some frames to settle
     uint32_t frames_drawn; ///< up to the number requested
     size_t stale_shaders;  ///< saved, but not used by the last frame
     bool reloads;          ///< the last check found more of them

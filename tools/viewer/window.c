@@ -96,7 +96,7 @@ static void on_wheel(GLFWwindow *window, double x, double y) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// The rest
+// Other events
 
 static void on_key(GLFWwindow *window, int key, int code, int action, int modifiers) {
     viewer *v = viewer_of(window);

@@ -274,7 +274,7 @@ static bool track_write(barrier_builder *builder, const subresource_use *use,
                                 .layout =
                                     use->modifies ? tracker->layout : ENGINE_LAYOUT_UNDEFINED};
     bool transition = tracker->layout != use->state.layout;
-    // Without a transition there is nothing to gain from dropping the content.
+    // Without a layout transition, discarding the content gains nothing.
     if (!transition)
         from.layout = tracker->layout;
     bool image = use->state.layout != ENGINE_LAYOUT_UNDEFINED;

@@ -212,7 +212,8 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
     if (from == to)
         return true;
     engine_dependency_edge *last = graph->edge_count ? &graph->edges[graph->edge_count - 1] : NULL;
-    if (last && last->from == from && last->to == to) { // common for neighbouring subresources
+    if (last && last->from == from &&
+        last->to == to) { // often repeated for neighbouring subresources
         last->hazards |= hazard;
         return true;
     }

@@ -75,9 +75,9 @@ void engine_graph_record_last_barrier(lobe_graph *graph) {
 }
 
 /// Content from an earlier frame has no stage in this frame to wait for; its transition then waits
-/// for everything, to come after the barrier at the start of the frame. The same holds for memory
-/// that an earlier frame may still be using; there, waiting for the stages of the next use is
-/// enough.
+/// for everything, so that it follows the barrier at the start of the frame. The same holds for
+/// memory that an earlier frame may still be using; there, waiting for the stages of the next use
+/// is enough.
 static VkPipelineStageFlags2 source_stages(const engine_dependency_barrier *barrier) {
     if (barrier->from.stages != 0)
         return barrier->from.stages;

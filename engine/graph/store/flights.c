@@ -51,7 +51,7 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
 lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
     if (graph->frame.flight->busy) {
-        // Taken in turn, so that the next one is the oldest.
+        // Round robin: the next one is the oldest.
         uint32_t index = (uint32_t)(graph->frame.flight - graph->kept.flights);
         graph->frame.flight = &graph->kept.flights[(index + 1) % graph->kept.flight_count];
     }

@@ -21,7 +21,7 @@ typedef struct exr_input {
 
 /// Where a file comes from.
 typedef struct exr_origin {
-    const char *path; ///< or just a name for messages, if `data` is given
+    const char *path; ///< only a name for messages if `data` is given
     const void *data; ///< the whole file, not owned; NULL: it is read from the file system
     size_t size;      ///< bytes of `data`
 } exr_origin;

@@ -30,10 +30,10 @@ typedef struct lobe_allocator {
     void *user; ///< passed to both
 } lobe_allocator;
 
-/// Memory that lobe can free: for hosts that fill in a lobe_scene, a lobe_environment or a
-/// lobe_image themselves and let lobe destroy it. `count` elements of `size` bytes, zeroed, aligned
-/// to 16 bytes. A valid pointer even for 0 bytes; NULL if out of memory. `allocator` NULL: the C
-/// library's.
+/// Allocates memory that lobe can free: for hosts that fill in a lobe_scene, a lobe_environment or
+/// a lobe_image themselves and let lobe destroy it. `count` elements of `size` bytes, zeroed,
+/// aligned to 16 bytes. A valid pointer even for 0 bytes; NULL if out of memory. `allocator` NULL:
+/// the C library's.
 LOBE_API void *lobe_allocate(const lobe_allocator *allocator, size_t count, size_t size);
 /// Resizes what lobe_allocate returned; the memory may move. Added bytes are not zeroed.
 /// `allocator` is only used if `memory` is NULL. Returns NULL if out of memory; the old memory is

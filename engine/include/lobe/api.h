@@ -1,7 +1,7 @@
 #ifndef LOBE_API_H
 #define LOBE_API_H
 
-/// Marks each function that the library exports. Everything else in it is hidden.
+/// Marks the functions that the library exports. Everything else is hidden.
 #if defined(__GNUC__)
 #define LOBE_API __attribute__((visibility("default")))
 #else

@@ -94,7 +94,7 @@ typedef struct lobe_device_information {
     size_t feature_count;
 } lobe_device_information;
 
-/// Facts about the device; valid as long as the device.
+/// A description of the device; valid as long as the device exists.
 LOBE_API const lobe_device_information *lobe_device_describe(const lobe_device *device);
 
 /// Lists every Vulkan device of this machine, suitable or not. Free the list with

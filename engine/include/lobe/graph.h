@@ -242,8 +242,8 @@ LOBE_API lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lob
 /// Keeps a pass (and everything it depends on) even if no output depends on it.
 LOBE_API void lobe_pass_keep(lobe_pass *pass);
 
-/// Makes the frame fail as a mistake in its declaration does: for callers that find that they
-/// cannot declare a pass. Only a frame's first failure is logged and counts; returns its code.
+/// Fails the frame, like a mistake in its declaration: for callers that cannot declare a pass. Only
+/// a frame's first failure is logged and counts; returns its code.
 LOBE_API LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result,
                                                       const char *format, ...);
 
@@ -264,7 +264,7 @@ LOBE_API lobe_result lobe_graph_compile(lobe_graph *graph);
 /// Compiles if necessary, records, submits, and waits for the device to finish.
 LOBE_API lobe_result lobe_graph_execute(lobe_graph *graph);
 
-/// Most frames that may be in flight.
+/// Maximum number of frames in flight.
 #define LOBE_MAXIMUM_FRAMES_IN_FLIGHT 4
 
 /// Sets how many frames of this graph may be unfinished at a time, including the one being

@@ -7,8 +7,8 @@
 extern "C" {
 #endif
 
-/// Result of a call. Every function that can fail returns one of these. The function that finds the
-/// fault also logs it, once, as one line for people (see lobe/host.h).
+/// Result of a call. Every function that can fail returns one of these. The function that detects
+/// an error logs it, once, as one readable line (see lobe/host.h).
 typedef enum lobe_result {
     LOBE_OK = 0,
     LOBE_ERROR_INVALID_ARGUMENT,     ///< a parameter is out of its documented range
@@ -30,7 +30,7 @@ typedef enum lobe_result {
 /// The enumerator's name, for example "LOBE_ERROR_NOT_FOUND". Never NULL; static storage.
 LOBE_API const char *lobe_result_name(lobe_result result);
 
-/// A short phrase for people, for example "not found". Never NULL; static storage.
+/// A short readable phrase, for example "not found". Never NULL; static storage.
 LOBE_API const char *lobe_result_message(lobe_result result);
 
 #ifdef __cplusplus

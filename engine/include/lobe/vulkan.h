@@ -136,7 +136,8 @@ LOBE_API lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
 
 /// The handles of any lobe device, for a host that creates images on it or submits to its queue.
 /// `features` and `extensions` are empty; the host must call `lock_queue` and `unlock_queue` with
-/// `user` around its use of the queue. Everything belongs to the device and is valid as long as it.
+/// `user` around its use of the queue. Everything belongs to the device and is valid as long as the
+/// device exists.
 LOBE_API void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles);
 
 // ---------------------------------------------------------------------------------------------
@@ -151,7 +152,7 @@ struct lobe_vulkan_image {
     VkFormat format;         ///< one that lobe_vulkan_format knows
     uint32_t width, height;  ///< texels of level 0
     uint32_t layers, levels; ///< 0 means 1
-    VkImageUsageFlags usage; ///< that it was created with; must allow what passes do with it
+    VkImageUsageFlags usage; ///< those it was created with; must allow what passes do with it
     /// Its layout when the frame starts. UNDEFINED: its content is not needed. The host's earlier
     /// work on the image must be ordered before the frame: by the submission's semaphores, or by
     /// coming earlier in the queue or in the command buffer, in which case lobe waits for all of
@@ -190,10 +191,11 @@ struct lobe_vulkan_submission {
     const lobe_vulkan_semaphore *signals;
     uint32_t wait_count, signal_count;
     /// If set, lobe records the frame into this command buffer, and the host submits it. It must be
-    /// a primary command buffer of the lobe device's queue family, in recording state and outside
-    /// of a rendering; there must be no semaphores then. Bound pipelines, descriptors and dynamic
-    /// state are lost. The host submits it to lobe's queue, exactly once, before it begins the next
-    /// frame of the same graph and before it changes textures or buffers that the frame reads.
+    /// a primary command buffer of the lobe device's queue family, in the recording state and
+    /// outside a render pass instance; there must be no semaphores then. Bound pipelines,
+    /// descriptors and dynamic state are lost. The host submits it to lobe's queue, exactly once,
+    /// before it begins the next frame of the same graph and before it changes textures or buffers
+    /// that the frame reads.
     VkCommandBuffer commands;
 };
 

@@ -4,7 +4,7 @@
 #include "passes/environment/maps.h"
 
 /// The filtered cubes of one environment in a cache folder (passes/environment/cache/cube_file.h):
-/// those that were found, on the device, and those that are still to be saved. All zero: nothing
+/// those that were found, on the device, and those that still have to be saved. All zero: nothing
 /// was looked up yet.
 typedef struct cached_cubes {
     uint32_t size;                              ///< of the environment's radiance, for all keys
@@ -14,15 +14,15 @@ typedef struct cached_cubes {
     cube_textures cubes[LOBE_ENVIRONMENT_MAP_COUNT]; ///< of those that were found
 } cached_cubes;
 
-/// Loads the filtered cubes that are wanted of `request->environment`, unless the last call looked
-/// them up already. Afterwards the device holds all of them, or none if one is missing or damaged.
-/// Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...; `cached` is all zero then.
+/// Loads the filtered cubes that the request wants for `request->environment`, unless the last call
+/// already looked them up. Afterwards the device holds all of them, or none if one is missing or
+/// damaged. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...; `cached` is all zero then.
 lobe_result passes_cached_cubes_load(cached_cubes *cached, lobe_device *device, const char *folder,
                                      const environment_maps_request *request,
                                      const lobe_host *host);
 
-/// The loaded cubes for a request, by lobe_environment_map; NULL if one that is wanted is missing,
-/// or none is wanted.
+/// The loaded cubes for a request, by lobe_environment_map; NULL if a wanted one is missing, or
+/// none is wanted.
 const cube_textures *passes_cached_cubes_find(const cached_cubes *cached,
                                               const environment_maps_request *request);
 

@@ -60,7 +60,7 @@ static number_as_text hexadecimal(uint64_t number) {
 // ---------------------------------------------------------------------------------------------
 // Files
 
-/// The caller frees it with lobe_release. NULL: out of memory.
+/// The caller frees it with lobe_release. NULL if out of memory.
 static char *path_of(const lobe_allocator *allocator, const char *folder, uint64_t key) {
     size_t size = strlen(folder) + 32;
     char *path = lobe_allocate(allocator, size, 1);

@@ -9,7 +9,7 @@ typedef struct mixture_map {
     reduced_map map;
     lobe_format format;
     uint32_t subdivision; ///< [0, 2]: 1, 4 or 8 clusters at the finest
-    uint32_t mean_layer;  ///< layer of the mean normal and length; 0: there is none
+    uint32_t mean_layer;  ///< layer of the mean normal and length; 0: none
     lobe_map_space space; ///< tangent, object or camera
 } mixture_map;
 

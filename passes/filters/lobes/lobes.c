@@ -43,7 +43,7 @@ static const filter_knob threshold_knob = {
 };
 static const filter_knob epsilon0_knob = {
     .description = {.name = "epsilon0",
-                    .summary = "below it one lobe becomes four",
+                    .summary = "below this, one lobe becomes four",
                     .maximum = 1,
                     .initial = 0.95,
                     .sweep = "0.85,0.99"},
@@ -51,7 +51,7 @@ static const filter_knob epsilon0_knob = {
 };
 static const filter_knob epsilon1_knob = {
     .description = {.name = "epsilon1",
-                    .summary = "below it one of four becomes two",
+                    .summary = "below this, each of the four becomes two",
                     .maximum = 1,
                     .initial = 0.85},
     .feeds = KNOB_FEEDS_FILTER(lobes_knobs, epsilon1),
@@ -77,14 +77,14 @@ static const filter_knob *const knobs[] = {
     NULL,
 };
 
-/// The space that the user asks for, or else the material. Always tangent where the mesh's texture
-/// coordinates are not an atlas, or where the instance stretches the mesh.
+/// The space that the user chose, or else the material's. Always tangent if the mesh's texture
+/// coordinates are not an atlas, or if the instance stretches the mesh.
 static lobe_map_space space_of(const filter_context *context, size_t instance) {
     const device_instance *drawn = &context->scene->instances[instance];
     lobe_map_space space = (lobe_map_space)passes_knob_choice(context, &space_knob);
     if (space == LOBE_SPACE_AUTOMATIC)
         space = context->scene->materials[drawn->material].material->space;
-    // Tangent space is the cheapest, and exact where the surface hardly turns under a pixel.
+    // Tangent space is cheapest, and exact where the surface hardly turns under a pixel.
     bool possible = drawn->is_atlas && drawn->keeps_angles;
     return space == LOBE_SPACE_AUTOMATIC || !possible ? LOBE_SPACE_TANGENT : space;
 }
@@ -94,15 +94,15 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// The subdivision that serves a material's maps
+// The subdivision for a material's maps
 
-/// Kept of a material from frame to frame.
+/// What is kept for a material between frames.
 typedef struct prepared_lobes {
     uint32_t subdivision; ///< in tangent space
 } prepared_lobes;
 
-/// In tangent space, whether all lobes point along the normal, which no map tilts: one cluster has
-/// them all.
+/// Whether, in tangent space, all lobes point along the normal because no map tilts it: one cluster
+/// then has them all.
 static bool has_one_direction(const device_material *material) {
     return !material->maps[MAP_NORMAL].use &&
            (material->material->model == LOBE_MATERIAL_MICROFACET ||
@@ -139,8 +139,8 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
     return LOBE_OK;
 }
 
-/// What the user asks for, or else what the material's maps need. In an atlas, clusters have
-/// another pole than in the maps, so the choice made for these does not apply.
+/// What the user chose, or else what the material's maps need. In an atlas, the clusters' pole
+/// differs from that of the maps, so the choice made for the maps does not apply.
 static uint32_t subdivision_of(const filter_context *context, const device_material *material,
                                lobe_map_space space, const prepared_lobes *prepared) {
     if (space == LOBE_SPACE_TANGENT && has_one_direction(material))
@@ -255,7 +255,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
 static const char *ignores(const lobe_material *material) {
     if (has_one_hue(material))
         return NULL;
-    return "lobes of different hue get their mean hue";
+    return "lobes of different hues get their mean hue";
 }
 
 const lobe_filter passes_filter_lobes = {

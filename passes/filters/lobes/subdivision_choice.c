@@ -6,7 +6,7 @@
 #include "passes/maps/material_patch.h"
 #include "shaders/interface/cluster.h"
 
-// A subdivision is good enough if its error is at most `tolerance` times the least error, or at
+// A subdivision is good enough if its error is at most `tolerance` times the smallest error, or at
 // most `negligible`: each finer one more than doubles the cost of a pixel.
 static const double tolerance = 1.5, negligible = 0.03;
 

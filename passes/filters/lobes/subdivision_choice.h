@@ -3,9 +3,10 @@
 
 #include "passes/upload/device_scene.h"
 
-/// The least subdivision [0, 2] whose mixtures, in tangent space, are about as close to the
-/// material's lobes as those of the best. Decided from a few patches of its maps: the truth is the
-/// mean of all lobes of a patch, the candidates are its mixtures of one, four and eight.
+/// The smallest subdivision [0, 2] whose mixtures, in tangent space, are about as close to the
+/// material's lobes as those of the best one. Decided from a few patches of its maps: the ground
+/// truth is the mean of all lobes of a patch, the candidates are its mixtures of one, four and
+/// eight.
 uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material);
 
 #endif

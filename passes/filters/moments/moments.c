@@ -18,7 +18,7 @@ static const char *const storages[] = {"snorm16", "float16", "float32", NULL};
 
 static const filter_knob partition_knob = {
     .description = {.name = "partition",
-                    .summary = "how lobes are shared out to bins: fitted to the material; or one "
+                    .summary = "how lobes are assigned to bins: fitted to the material; or one "
                                "for rough lobes and four, with a cap five, for directions",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 2,
@@ -46,7 +46,7 @@ static const filter_knob colour_knob = {
 };
 static const filter_knob least_share_knob = {
     .description = {.name = "least_share",
-                    .summary = "bins with less of the footprint than this are skipped",
+                    .summary = "bins with a smaller share of the footprint are skipped",
                     .maximum = 0.1,
                     .initial = 1e-3},
     .feeds = KNOB_FEEDS_FILTER(moments_knobs, least_share),
@@ -80,8 +80,8 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
                          passes_lobe_grid_shares_coordinates(&grid, own->use));
 }
 
-/// Whether bins have their own specular colour: as the user says, or else where a map makes parts
-/// of the material metal, so that colour and width vary together.
+/// Whether bins have their own specular colour: as the user chose, or else if a map makes parts of
+/// the material metal, so that colour and width vary together.
 static bool has_bin_colour(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN };
     int wanted = (int)passes_knob_choice(context, &colour_knob);
@@ -103,7 +103,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
     return largest;
 }
 
-/// An upper bound of the material's colours, both of bins and the diffuse one.
+/// An upper bound of the material's colours: those of the bins and the diffuse one.
 static float largest_colour(const lobe_scene *scene, const device_material *material) {
     const lobe_material *source = material->material;
     float base = 1, specular = 1;
@@ -119,10 +119,10 @@ static float largest_colour(const lobe_scene *scene, const device_material *mate
 }
 
 // ---------------------------------------------------------------------------------------------
-// What is kept of a material
+// What is kept for a material
 
 typedef struct prepared_moments {
-    uint32_t kind, bins; ///< as the settings asked for
+    uint32_t kind, bins; ///< as requested by the settings
     moment_partition partition;
     float largest_colour; ///< 0: not measured yet
 } prepared_moments;
@@ -179,7 +179,7 @@ static moment_map build_moments(const filter_context *context, uint32_t material
                                  colour, colour ? prepared->largest_colour : 1);
 }
 
-/// `prepared`: NULL where the material's lobes do not vary.
+/// `prepared`: NULL if the material's lobes do not vary.
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
     static const struct moment_binning_constants none;

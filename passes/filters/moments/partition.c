@@ -7,19 +7,19 @@
 #include "passes/renderer/sample_pattern.h"
 #include "passes/upload/material_maps.h"
 
-// More samples or rounds do not change a picture.
+// More samples or iterations do not change a picture.
 enum { SAMPLES = 512, ROUNDS = 30, STARTS = 4 };
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
-// bins. Lobes that differ in width are better separated by hard borders, lobes that differ in
-// direction by soft ones, which leave no valleys between bins. The best number for a material is
-// found by trying all. Relative L2 over patches with 1.5, 3 and 10 points: bumps, five bins, 0.21,
+// bins. Hard borders are better for lobes that differ in width, soft ones for lobes that differ in
+// direction, because they leave no valleys between bins. All numbers are tried for each material,
+// and the best is used. Relative L2 over patches with 1.5, 3 and 10 points: bumps, five bins, 0.21,
 // 0.23, 0.24; tablecloth, four bins, 0.07, 0.09, 0.10; rusted metal, three bins, 0.23, 0.13, 0.07.
 static const double points[] = {1.5, 3, 10};
 enum { POINT_NUMBERS = sizeof points / sizeof *points };
 
-// A number of bins is good enough if its error is at most `tolerance` times the least error, or at
-// most `negligible`.
+// A number of bins is good enough if its error is at most `tolerance` times the smallest error, or
+// at most `negligible`.
 static const double tolerance = 1.1, negligible = 0.1;
 
 /// A lobe in the Lambert plane.
@@ -31,7 +31,7 @@ typedef struct sample {
 typedef struct component {
     double weight, mean[2];
     double covariance[3], inverse[3], determinant; // xx, yy, xy
-    double offset; // what does not depend on the sample in the logarithm of a chance
+    double offset; // the part of the log likelihood that does not depend on the sample
 } component;
 
 typedef struct mixture {
@@ -87,8 +87,8 @@ static void invert(component *c, double lobe_points) {
     c->offset = log(c->weight) - 0.5 * lobe_points * log(c->determinant);
 }
 
-/// Vasconcelos, Lippman, 1998, Learning Mixture Hierarchies, Eq. 8: the logarithm of the chance
-/// that a component made all of a sample's points.
+/// Vasconcelos, Lippman, 1998, Learning Mixture Hierarchies, Eq. 8: the log likelihood of all
+/// points of a sample under a component.
 static double logarithm_of_chance(const component *c, double lobe_points, const sample *s) {
     double x = s->place[0] - c->mean[0], y = s->place[1] - c->mean[1];
     double square = c->inverse[0] * x * x + c->inverse[1] * y * y + 2 * c->inverse[2] * x * y;
@@ -96,8 +96,8 @@ static double logarithm_of_chance(const component *c, double lobe_points, const 
     return c->offset - 0.5 * lobe_points * (square + trace);
 }
 
-/// Gives the share [0, 1] of each component in a sample; returns the logarithm of the sum of
-/// chances.
+/// Computes the share [0, 1] of each component in a sample; returns the logarithm of the sum of
+/// likelihoods.
 static double share(const mixture *m, const sample *s, double members[MOMENT_MAXIMUM_BINS]) {
     double most = -INFINITY, sum = 0;
     for (uint32_t i = 0; i < m->count; i++) {
@@ -231,7 +231,7 @@ typedef struct extremes {
     double low[2], high[2], sharpest, heaviest;
 } extremes;
 
-/// The largest mass that plane_mass in shaders/lib/lobe/plane_lobe.glsl may give this lobe, for
+/// The largest mass that plane_mass in shaders/lib/lobe/plane_lobe.glsl can give this lobe, for
 /// either setting of the knob "base".
 static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
@@ -278,7 +278,7 @@ static extremes scan(const lobe_scene *scene, const device_material *material) {
 }
 
 static void set_range(const extremes *found, moment_range *range) {
-    range->place[2] = 1e-3f; // of maps without any slope: not 0, which would be divided by
+    range->place[2] = 1e-3f; // of maps without any slope; not 0, because it is a divisor
     // A margin for texels that the scan skipped.
     const double margin = 1.05;
     for (int i = 0; i < 2; i++) {
@@ -308,7 +308,7 @@ static void set_fitted(const mixture *m, moment_partition *partition) {
 }
 
 /// Hats are two standard deviations of the lobes' places wide. Lobes count as rough if their
-/// variance is above the geometric mean of the least and the greatest, if those differ at all.
+/// variance is above the geometric mean of the smallest and the largest, if those differ.
 static void set_hats(const sample *samples, uint32_t count, moment_partition *partition) {
     component_sums sums = {0};
     double least = INFINITY, most = 0;
@@ -362,8 +362,8 @@ static double evaluate_bins(const component *bins, uint32_t count, const double 
     return sum;
 }
 
-/// Adds to the integrals of the squared error and of the squared truth. Directions are drawn with a
-/// density proportional to the truth, so each is weighted by its inverse.
+/// Adds to the integrals of the squared error and of the squared ground truth. Directions are drawn
+/// with a density proportional to the truth, so each is weighted by its inverse.
 static void add_error(const material_patch *patch, const mixture *m, double integrals[2]) {
     component bins[MOMENT_MAXIMUM_BINS];
     uint32_t count = collect(patch, m, bins);
@@ -377,7 +377,7 @@ static void add_error(const material_patch *patch, const mixture *m, double inte
     }
 }
 
-/// Most bins chosen automatically: more cost a pixel more than they improve it.
+/// Maximum number of bins chosen automatically: more bins cost more than they improve a pixel.
 enum { MOST = 3 };
 
 /// Relative L2 over all patches.
@@ -388,7 +388,7 @@ static double patch_error(const material_patch *patches, const mixture *m) {
     return sqrt(integrals[0] / fmax(integrals[1], 1e-30));
 }
 
-/// The fit of `bins` components whose error over the patches is least; returns that error.
+/// Finds the fit of `bins` components with the smallest error over the patches; returns that error.
 static double fit_best(const material_patch *patches, sample *samples, uint32_t count,
                        uint32_t bins, mixture *best) {
     double least = INFINITY;
@@ -404,8 +404,8 @@ static double fit_best(const material_patch *patches, sample *samples, uint32_t 
     return least;
 }
 
-/// `bins`: their number; 0 for the least number that serves the patches about as well as the best
-/// number does.
+/// `bins`: their number; 0 for the smallest number that is about as good for the patches as the
+/// best.
 static void choose(const material_patch *patches, sample *samples, uint32_t count, uint32_t bins,
                    mixture *chosen) {
     if (bins > 0) {
@@ -424,7 +424,7 @@ static void choose(const material_patch *patches, sample *samples, uint32_t coun
     *chosen = candidates[number];
 }
 
-/// Takes one bin for all lobes where the patches cannot be read. False: out of memory.
+/// Uses one bin for all lobes if the patches cannot be read. False: out of memory.
 static bool choose_for_material(const lobe_allocator *allocator, const lobe_scene *scene,
                                 const device_material *material, sample *samples, uint32_t count,
                                 uint32_t bins, mixture *chosen) {

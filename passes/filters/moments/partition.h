@@ -12,9 +12,9 @@
 /// that 16 bits hold the moments precisely.
 ///
 /// A fitted partition is a mixture of Gaussians for the whole material, from expectation
-/// maximisation over some thousand of its lobes. Each lobe counts as several points, as many as
-/// separate sharp from rough lobes best (Vasconcelos, Lippman 1998). Partitions by hats have one
-/// bin for rough lobes and four, or five with a cap, for directions.
+/// maximisation over some thousand of its lobes. Each lobe counts as several points; their number
+/// is the one that best separates sharp from rough lobes (Vasconcelos, Lippman 1998). Partitions by
+/// hats have one bin for rough lobes and four, or five with a cap, for directions.
 typedef struct moment_partition {
     uint32_t kind;          ///< PARTITION_...
     uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
@@ -23,9 +23,9 @@ typedef struct moment_partition {
 } moment_partition;
 
 /// Partitions the lobes of a material that has a normal or a width map. `kind`: PARTITION_...
-/// `bins`, for a fitted partition: their number [1, MOMENT_MAXIMUM_BINS], or 0 for the least number
-/// that serves some patches of the maps about as well as the best number does. Partitions by hats
-/// have a number of their own. Errors: LOBE_ERROR_OUT_OF_MEMORY, not logged.
+/// `bins`, for a fitted partition: their number [1, MOMENT_MAXIMUM_BINS], or 0 for the smallest
+/// number that is about as good for some patches of the maps as the best. Partitions by hats have a
+/// fixed number. Errors: LOBE_ERROR_OUT_OF_MEMORY, not logged.
 lobe_result passes_moment_partition_make(const device_scene *scene, uint32_t material,
                                          uint32_t kind, uint32_t bins, const lobe_host *host,
                                          moment_partition *partition);

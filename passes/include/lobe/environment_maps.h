@@ -17,8 +17,8 @@
 extern "C" {
 #endif
 
-/// The maps that light lobes by an environment, outside a renderer: for tools that inspect, store
-/// or time them. A renderer makes its own.
+/// The maps with which an environment lights lobes, without a renderer: for tools that inspect,
+/// store or time them. A renderer makes its own.
 ///
 /// All maps are cubes of RGBA32_FLOAT, with faces in the order +X -X +Y -Y +Z -Z, oriented as in
 /// Vulkan. They are in the environment's own space, without its rotation and intensity. Alpha is 1.
@@ -38,7 +38,7 @@ typedef enum lobe_environment_map {
     /// theta is the angle to the direction and kappa the level's concentration; alpha is at most 1.
     LOBE_ENVIRONMENT_GGX,
     /// The same levels with von Mises-Fisher lobes of twice the concentration, half way between
-    /// those of LOBE_ENVIRONMENT_VON_MISES_FISHER: a blend of one level of each is closer to the
+    /// those of LOBE_ENVIRONMENT_VON_MISES_FISHER: blending one level of each is closer to the
     /// wanted lobe.
     LOBE_ENVIRONMENT_BETWEEN,
     LOBE_ENVIRONMENT_MAP_COUNT
@@ -73,7 +73,7 @@ LOBE_API lobe_result lobe_environment_maps_create(
 /// Clears the pointer; NULL is fine. The device is not destroyed.
 LOBE_API void lobe_environment_maps_destroy(lobe_environment_maps **maps);
 
-/// Replaces the environment by one of the same layout and extent (NULL: keeps it, for timing) and
+/// Replaces the environment with one of the same layout and extent (NULL: keeps it, for timing) and
 /// rebuilds all maps. After a failure the maps have no content.
 LOBE_API lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
                                                   const lobe_environment *environment);

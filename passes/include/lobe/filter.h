@@ -35,7 +35,8 @@ typedef struct lobe_knob {
     /// Values worth comparing, as a user would write them, separated by commas: a sweep of the
     /// benchmark measures them. NULL: only the default.
     const char *sweep;
-    /// Assignment without which those values have no effect, such as "env=sampled"; NULL: none.
+    /// An assignment that those values require to have an effect, such as "env=sampled"; NULL:
+    /// none.
     const char *sweep_with;
     /// Has an effect only in scenes lit by an environment; a sweep skips it in all others.
     bool environment;
@@ -74,8 +75,8 @@ LOBE_API void lobe_settings_default(const lobe_filter *filter, lobe_settings *se
 /// the choices; the line says what is allowed). `settings` is unchanged then.
 LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
                                        const char *assignment, const lobe_host *host);
-/// Reads the value of a knob; for a choice, its index. LOBE_ERROR_NOT_FOUND with a line that lists
-/// the filter's knobs if it has none of that name; `value` is unchanged then.
+/// Reads the value of a knob; for a choice, its index. LOBE_ERROR_NOT_FOUND, with a line that lists
+/// the filter's knobs, if it has no knob of that name; `value` is unchanged then.
 LOBE_API lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
                                        const char *name, double *value, const lobe_host *host);
 /// Writes a knob's value as a user would ("0.95", "camera") into `text`.

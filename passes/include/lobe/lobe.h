@@ -1,8 +1,8 @@
 #ifndef LOBE_LOBE_H
 #define LOBE_LOBE_H
 
-/// lobe: rendering whose appearance stays true at every distance. Includes all of its headers but
-/// lobe/vulkan.h and lobe/environment_maps.h.
+/// lobe: rendering whose appearance stays true at every distance. Includes all public headers
+/// except lobe/vulkan.h and lobe/environment_maps.h.
 
 #include <lobe/allocator.h>
 #include <lobe/api.h>

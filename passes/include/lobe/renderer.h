@@ -95,7 +95,7 @@ typedef enum lobe_render_stage {
     LOBE_RENDER_AFTER_SHADING,
 } lobe_render_stage;
 
-/// How the reference samples a pixel. Other filters ignore it.
+/// How the reference takes samples. Other filters ignore it.
 typedef struct lobe_render_reference {
     uint32_t samples; ///< per pixel, [1, LOBE_MAXIMUM_SAMPLES]; 0: 64
     /// Which of many sample patterns to use. Pictures with different patterns have independent
@@ -165,7 +165,7 @@ typedef struct lobe_pass_time {
     char name[64];
     double milliseconds;
     uint32_t count; ///< how many passes of this name ran
-    /// The least they must read and write in total: see lobe_pass_report.
+    /// The bytes that they must read and write in total: see lobe_pass_report.
     uint64_t read_bytes, written_bytes;
 } lobe_pass_time;
 
@@ -186,8 +186,8 @@ typedef struct lobe_frame {
     uint32_t environment_parts_left;
     lobe_pass_time *passes; ///< those that ran, in order of their first run
     size_t pass_count;
-    /// Size of the maps that the filter built: device bytes, and texels of the base maps that they
-    /// replace. The ratio is the filter's memory per texel.
+    /// Size of the maps that the filter built: bytes on the device, and texels of the base maps
+    /// that they replace. Their ratio is the filter's memory per texel.
     uint64_t filtered_bytes, base_texels;
 } lobe_frame;
 

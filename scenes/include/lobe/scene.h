@@ -16,8 +16,8 @@
 extern "C" {
 #endif
 
-/// What is drawn, in host memory. Lengths are metres, +Y is up, right-handed, as in glTF. A scene
-/// owns everything it points to. It is plain data that a host may also fill itself; if
+/// A scene in host memory. Lengths are metres, +Y is up, right-handed, as in glTF. A scene owns
+/// everything it points to. It is plain data that a host may also fill itself; if
 /// lobe_scene_destroy is to free it, allocate all of it (the structure, arrays, names) with
 /// lobe_allocate.
 
@@ -50,12 +50,12 @@ typedef struct lobe_texture_use {
 typedef enum lobe_material_model {
     /// glTF metal-rough: F D G2 / (4 cos) with a distribution of normals, and Lambert below it.
     LOBE_MATERIAL_MICROFACET,
-    /// The papers' own: a sum of lobes of the half vector, the cosine included, no Fresnel term,
-    /// no shadowing; and Lambert beside it.
+    /// The papers' model: a sum of lobes of the half vector, which includes the cosine, without
+    /// Fresnel term and shadowing; plus a Lambert part.
     LOBE_MATERIAL_HALF_VECTOR_LOBES,
 } lobe_material_model;
 
-/// Shape of the base lobe, and thereby what "width" means.
+/// Shape of the base lobe, which also defines what "width" means.
 typedef enum lobe_distribution {
     LOBE_DISTRIBUTION_GGX,         ///< roughness [0, 1], alpha = roughness squared
     LOBE_DISTRIBUTION_BECKMANN,    ///< roughness [0, 1], alpha = roughness squared
@@ -75,7 +75,7 @@ typedef struct lobe_base_lobe {
 
 /// Which space mixtures of lobes are built in (method: Xu et al. 2017, section 4).
 typedef enum lobe_map_space {
-    LOBE_SPACE_AUTOMATIC, ///< tangent where the maps tile, else what suits the mesh
+    LOBE_SPACE_AUTOMATIC, ///< tangent if the maps tile, else what suits the mesh
     LOBE_SPACE_TANGENT,   ///< over the maps themselves
     LOBE_SPACE_OBJECT,    ///< over the mesh's texture atlas, with its interpolated normals
     LOBE_SPACE_CAMERA,    ///< the same, seen from the camera; rebuilt when that moves
@@ -187,9 +187,9 @@ typedef struct lobe_scene {
     size_t instance_count;
     lobe_light *lights;
     size_t light_count;
-    lobe_environment *environment; ///< light from all around; NULL: none
+    lobe_environment *environment; ///< light from all directions; NULL: none
     bool has_added_light;          ///< the file has no light: the environment is the sky
-    bool environment_visible;      ///< it is seen where nothing is hit, instead of `background`
+    bool environment_visible;      ///< it is visible where nothing is hit, instead of `background`
     lobe_camera camera;
     bool has_camera;              ///< false: the file has none; `camera` is set by lobe_scene_frame
                                   ///< for a picture of 16:9
@@ -260,15 +260,15 @@ LOBE_API lobe_result lobe_scene_open(const char *scene, const lobe_host *host, l
 typedef enum lobe_carrier {
     LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
     LOBE_CARRIER_SPHERE, ///< seen from the front
-    /// Hanging and gently waving, seen at a slant. A texel of the largest map takes half a
+    /// hanging and gently waving, seen at an angle. A texel of the largest map takes half a
     /// millimetre: at 1280 x 720 pixels, two to eight texels lie across a pixel.
     LOBE_CARRIER_CLOTH,
 } lobe_carrier;
 
 /// A carrier with the PBR maps of a folder (recognised by their file names: albedo/base/col/diff,
 /// normal/nor, rough, metal, arm/orm, ao, disp/height, ...). At least one map besides that of
-/// heights must be found. Heights are scaled to be as steep as the normal map, where there is one
-/// of their extent that they agree with; else to 0.05. Errors as for lobe_scene_open.
+/// heights must be found. Heights are scaled to be as steep as the normal map if there is one of
+/// their extent that agrees with them; else by 0.05. Errors as for lobe_scene_open.
 LOBE_API lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
                                               const lobe_host *host, lobe_scene **result);
 

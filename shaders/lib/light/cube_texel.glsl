@@ -1,11 +1,11 @@
 #ifndef LIB_CUBE_TEXEL_GLSL
 #define LIB_CUBE_TEXEL_GLSL
 
-// Texels of a cube map: where they look, and how much of the sphere they cover.
+// Texels of a cube map: their directions and solid angles.
 
-// Khronos Group, 2023, Vulkan 1.3 Specification, "Cube Map Face Selection", turned around: the
-// direction of a face's point, each coordinate in [-1, 1] with y down, on the cube itself. Faces
-// in the order +X -X +Y -Y +Z -Z.
+// Khronos Group, 2023, Vulkan 1.3 Specification, "Cube Map Face Selection", inverted: the direction
+// of a face's point, each coordinate in [-1, 1] with y down, on the cube itself. Faces in the order
+// +X -X +Y -Y +Z -Z.
 vec3 cube_direction(int face, vec2 point) {
     switch (face) {
     case 0:
@@ -28,8 +28,8 @@ vec3 cube_texel_direction(int face, ivec2 texel, int size) {
     return normalize(cube_direction(face, vec2(2 * texel + 1 - size) / float(size)));
 }
 
-// arctan(tangent) for a tangent in [0, 1/sqrt(3)], relative error 2.5e-8 (Remez). Of a driver's own
-// Vulkan asks no more than 4096 units in the last place.
+// arctan(tangent) for a tangent in [0, 1/sqrt(3)], relative error 2.5e-8 (Remez). Vulkan allows a
+// driver's own an error of 4096 units in the last place.
 float arctangent_of_small(float tangent) {
     float u = tangent * tangent;
     float series = -0.333329886 +

@@ -19,9 +19,9 @@ float mip_level(float width, float exponent) {
     return clamp(log2(width * sqrt(3.0)) - 0.5 * log2(exponent + 1.0), 0.0, log2(width));
 }
 
-// The concentration that a level of a filtered cube stands for, as passes/environment/prefiltering.c
-// has it: a standard deviation of two texels in the middle of a face; nothing at the 1x1 level,
-// which holds the mean.
+// The concentration that a level of a filtered cube represents, as in
+// passes/environment/prefiltering.c: a standard deviation of two texels in the middle of a face;
+// nothing at the 1x1 level, which holds the mean.
 float prefiltered_concentration(float width, float level) {
     float texels = width * exp2(-level);
     return texels > 1.5 ? texels * texels / 16.0 : 0.0;
@@ -39,7 +39,7 @@ float lobe_product(float first, float second) {
 //   w = <c - b, a - b> / <a - b, a - b>.
 // For narrow lobes it depends on ratios alone: 0.41 half way (in log kappa) between lobes four times
 // as concentrated as one another, where the blend is 13 % off the lobe (its relative L2), which is
-// what can be seen of it where all light comes from one point.
+// the visible error if all light comes from one point.
 float sharper_share(float sharper, float broader, float concentration) {
     float across = lobe_product(sharper, broader), square = lobe_product(broader, broader);
     float part = lobe_product(concentration, sharper) - lobe_product(concentration, broader) -
@@ -47,8 +47,8 @@ float sharper_share(float sharper, float broader, float concentration) {
     return clamp(part / (lobe_product(sharper, sharper) - 2.0 * across + square), 0.0, 1.0);
 }
 
-// The level of a filtered cube for a lobe of any concentration: trilinear interpolation there blends
-// the two levels around it as well as can be. 0 for all that are too concentrated.
+// The level of a filtered cube for a lobe of any concentration: trilinear interpolation there
+// blends the two adjacent levels with the best weights. 0 for lobes that are too concentrated.
 float prefiltered_level(float width, float concentration) {
     float last = log2(width);
     float finer = clamp(floor(last - 2.0 - 0.5 * log2(max(concentration, 1e-6))), 0.0, last - 1.0);
@@ -75,9 +75,10 @@ prefiltered_blend blend_of_lobe(float width, float concentration) {
     return prefiltered_blend(level, level_between, here > between ? share : 1.0 - share);
 }
 
-// Lobes more concentrated than the finest there is: the share of the radiance itself, read at level
-// 0, where faces of it are `size` texels wide; the rest is level 0 of the cube of those finest lobes.
-// Linear interpolation between texels t apart is a lobe of variance t^2/6, here with the mean texel.
+// For lobes more concentrated than those of the finest level: the share of the radiance itself,
+// read at its level 0, whose faces are `size` texels wide; the rest is level 0 of the filtered
+// cube. Linear interpolation between texels t apart is a lobe of variance t^2/6, here with the mean
+// texel.
 float radiance_share(float finest, float size, float concentration) {
     float interpolation = 4.0 * PI / (36.0 * size * size);
     return concentration > finest

@@ -4,8 +4,8 @@
 #include "lib/number/constants.glsl"
 #include "lib/light/cube_texel.glsl"
 
-// atan(y, x) in (-pi, pi], to a few units in the last place where a driver's own may be off by
-// thousands (Vulkan 1.3, "Precision and Operation of SPIR-V Instructions"). 0 at the origin.
+// atan(y, x) in (-pi, pi], to a few units in the last place; a driver's own may be off by thousands
+// (Vulkan 1.3, "Precision and Operation of SPIR-V Instructions"). 0 at the origin.
 float arctangent_of_quotient(float y, float x) {
     float larger = max(abs(x), abs(y));
     float tangent = larger > 0.0 ? min(abs(x), abs(y)) / larger : 0.0;

@@ -21,8 +21,8 @@ void spherical_harmonics(vec3 direction, out float basis[HARMONICS]) {
     basis[8] = 0.5 * quadratic * (d.x * d.x - d.y * d.y);
 }
 
-// Their sum, with degrees 1 and 2 multiplied by something. Never negative: nine harmonics of a
-// single light ring down to -4 % of its irradiance behind it.
+// Their sum, with factors for degrees 1 and 2. Never negative: nine harmonics of a single light
+// ring down to -4 % of its irradiance behind it.
 vec3 harmonic_irradiance_by_degree(vec4 coefficients[HARMONICS], vec3 direction, float first,
                                    float second) {
     float basis[HARMONICS];
@@ -47,7 +47,7 @@ vec3 harmonic_irradiance(vec4 coefficients[HARMONICS], vec3 normal) {
 // Mardia, Jupp, 2000, Directional Statistics, section 9.3,
 //   A_1 = R(kappa) = r,   A_2 = I_{5/2}(kappa)/I_{1/2}(kappa) = 1 - 3 r/kappa.
 vec3 harmonic_irradiance_of_mean_normal(vec4 coefficients[HARMONICS], vec3 mean_normal) {
-    // Without any direction left both are zero: 1e-6 keeps r/kappa, which tends to 1/3, off 0/0.
+    // If no direction is left, both are zero: 1e-6 avoids 0/0 in r/kappa, which tends to 1/3.
     float r = clamp(length(mean_normal), 1e-6, 1.0);
     float second = max(1.0 - 3.0 * r / concentration_from_resultant(r, 1.0 - r), 0.0);
     return harmonic_irradiance_by_degree(coefficients, mean_normal / r, r, second);

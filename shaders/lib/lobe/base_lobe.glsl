@@ -6,7 +6,7 @@
 #include "lib/lobe/von_mises_fisher.glsl"
 
 // The width of a base lobe: alpha for GGX and Beckmann, the exponent s for Blinn-Phong, kappa for
-// von Mises-Fisher; and what becomes of it.
+// von Mises-Fisher; and conversions of it.
 
 // Burley, 2012, Physically-Based Shading at Disney, section 5.4: alpha = roughness^2.
 float alpha_from_roughness(float roughness) {
@@ -52,7 +52,7 @@ float microfacet_parameter(uint distribution, float roughness) {
     }
 }
 
-// kappa of the von Mises-Fisher lobe that stands for the base lobe.
+// kappa of the von Mises-Fisher lobe that replaces the base lobe.
 float base_lobe_concentration(uint distribution, float parameter) {
     switch (distribution) {
     case DISTRIBUTION_BLINN_PHONG:
@@ -64,7 +64,7 @@ float base_lobe_concentration(uint distribution, float parameter) {
     }
 }
 
-// The inverse: the base lobe that a von Mises-Fisher lobe of this concentration stands for.
+// The inverse: the base lobe that a von Mises-Fisher lobe of this concentration replaces.
 float base_lobe_of_concentration(uint distribution, float concentration) {
     switch (distribution) {
     case DISTRIBUTION_BLINN_PHONG:

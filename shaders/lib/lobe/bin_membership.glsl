@@ -3,11 +3,11 @@
 
 #include "interface/moment_bins.h"
 
-// How much of a lobe each bin gets: a partition of unity that depends on the lobe alone, so that
-// sums by bin stay linear in the lobes and can be filtered. `place` is in the Lambert plane.
+// The share of a lobe that each bin gets: a partition of unity that depends only on the lobe, so
+// that sums by bin are linear in the lobes and can be filtered. `place` is in the Lambert plane.
 
 // Vasconcelos, Lippman, 1998, Learning Mixture Hierarchies, Eq. 8: the lobe as many points drawn
-// from it; the chance that a component of the material's mixture made them all.
+// from it; the likelihood of all of them under a component of the material's mixture.
 float bin_likelihood(moment_bin bin, vec2 place, float variance) {
     vec2 d = place - bin.centre.xy;
     return bin.centre.z - dot(bin.shape.xyz, vec3(d * d, 2.0 * d.x * d.y)) -

@@ -6,7 +6,7 @@
 
 // Xu, Wang, Zhao, Bao, 2017, Real-Time Linear BRDF MIP-Mapping, Eqs. 8 to 10: a von Mises-Fisher
 // lobe is the vector r = R(kappa) mu, its mean direction unnormalised; a mean of such vectors
-// stands for the mean of the lobes.
+// represents the mean of the lobes.
 
 // xyz: r; w: 1 - |r|, which r itself only holds to 1e-7.
 vec4 characteristic_vector(vec3 mean, float concentration) {

@@ -3,17 +3,17 @@
 
 #include "lib/number/constants.glsl"
 
-// Gaussian lobes of directions, and what reflection and a horizon make of them.
+// Gaussian lobes of directions, and how reflection and a horizon change them.
 
-// About a unit axis. Two vectors perpendicular to it, not necessarily to each other, are what a
-// direction moves by for one standard deviation of two independent numbers: the covariance is
-// first first^T + second second^T.
+// About a unit axis. Two vectors perpendicular to it, not necessarily to each other, give the
+// displacement of a direction for one standard deviation of two independent numbers: the covariance
+// is first first^T + second second^T.
 struct direction_lobe {
     vec3 axis;
     vec3 first, second;
 };
 
-// A unit vector perpendicular to `axis`, in the plane of both where there is one.
+// A unit vector perpendicular to `axis`, in the plane of both if there is one.
 vec3 perpendicular_towards(vec3 axis, vec3 other) {
     vec3 planar = other - axis * dot(axis, other);
     float square = dot(planar, planar);
@@ -58,8 +58,8 @@ direction_lobe principal_lobe(direction_lobe lobe) {
     float difference = dot(lobe.first, lobe.first) - dot(lobe.second, lobe.second);
     float mixed = 2.0 * dot(lobe.first, lobe.second);
     float length_of_both = sqrt(difference * difference + mixed * mixed);
-    // Cosine and sine of half the angle, the larger first, without a difference of close numbers; no
-    // turn where the lobe is round.
+    // Cosine and sine of half the angle, the larger first, without a difference of close numbers;
+    // no rotation if the lobe is round.
     float scale = length_of_both > 0.0 ? 1.0 / length_of_both : 0.0;
     float larger = sqrt(scale > 0.0 ? 0.5 + 0.5 * min(abs(difference) * scale, 1.0) : 1.0);
     float smaller = 0.5 * abs(mixed) * scale / larger;
@@ -80,14 +80,14 @@ float normal_density(float x) {
     return 0.39894228 * exp(-0.5 * x * x);
 }
 
-// How high the axis is above a plane, in units of the lobe's own height.
+// The height of the axis above a plane, in standard deviations of the lobe's height.
 float lobe_height(direction_lobe lobe, vec3 plane_normal) {
     float a = dot(lobe.first, plane_normal);
     float b = dot(lobe.second, plane_normal);
     return dot(lobe.axis, plane_normal) * inversesqrt(max(a * a + b * b, 1e-20));
 }
 
-// What part of a lobe is above a plane.
+// The fraction of a lobe above a plane.
 float lobe_share_above(direction_lobe lobe, vec3 plane_normal) {
     return normal_below(lobe_height(lobe, plane_normal));
 }

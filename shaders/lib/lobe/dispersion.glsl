@@ -3,12 +3,13 @@
 
 #include "lib/number/constants.glsl"
 
-// How much of a mean lobe's breadth comes from its parts pointing apart. The length |r_M| alone,
-// the measure of Xu et al., 2017, Algorithm 1, cannot tell that from parts that are broad
-// themselves (their section 5.3); their mean length beside it can:
+// How much of a mean lobe's breadth comes from parts that point in different directions. The length
+// |r_M| alone, the measure of Xu et al., 2017, Algorithm 1, cannot distinguish that from broad
+// parts (their section 5.3); together with their mean length it can:
 //   (mean |r_i| - |r_M|) / (1 - mean |r_i|) = (s_M - s) / s,
 //   s_M = 1 - |r_M|,   s = mean (1 - |r_i|)
-// 0: all point the same way; 1: pointing apart doubles the breadth. Both arguments in [0, 1].
+// 0: all point the same way; 1: the different directions double the breadth. Both arguments in [0,
+// 1].
 float dispersion(float mean_complement, float resultant_complement) {
     float base = max(mean_complement, 1.0 / CONCENTRATION_MAXIMUM);
     return max(resultant_complement - base, 0.0) / base;

@@ -15,22 +15,22 @@ vec2 plane_from_direction(vec3 direction) {
     return direction.xy * sqrt(2.0 / opposite);
 }
 
-// The unit direction of a place; beyond the disc of the sphere that of its rim.
+// The unit direction of a place; beyond the disc, that of the nearest point on its rim.
 vec3 direction_from_plane(vec2 place) {
     float square = min(dot(place, place), 4.0);
     return vec3(place * sqrt(max(1.0 - 0.25 * square, 0.0)), 1.0 - 0.5 * square);
 }
 
-// What a direction moves by when its place does, to first order.
+// The displacement of a direction for a displacement of its place, to first order.
 vec3 direction_step(vec2 place, vec2 step) {
     float height = sqrt(max(1.0 - 0.25 * dot(place, place), 0.05));
     float outward = dot(place, step);
     return vec3(height * step - place * (0.25 * outward / height), -outward);
 }
 
-// How an isotropic variance about a direction looks in the plane at its place (xx, yy, xy): the
-// map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With
-// c = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,
+// The covariance (xx, yy, xy) in the plane, at a direction's place, of an isotropic variance about
+// it: the map shrinks by cos(theta / 2) outwards and stretches by 1 / cos(theta / 2) around. With c
+// = cos^2(theta / 2) = 1 - |q|^2 / 4 and the unit vector r = q / |q|,
 //   c r r^T + (1/c) (I - r r^T) = I/c - (1/c - c) q q^T / |q|^2,   |q|^2 = 4 (1 - c).
 // Near the rim it is that of c = 0.05, to keep it bounded.
 vec3 plane_distortion(vec2 place) {

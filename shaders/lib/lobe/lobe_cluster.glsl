@@ -8,8 +8,8 @@
 // subdivision 1 has 4 sectors of longitude, subdivision 2 splits each by latitude: cluster j of
 // subdivision 2 lies in sector j/2 (Algorithm 1 means children 2i and 2i + 1).
 //
-// Sectors are centred on +x, +y, -x, -y and meet on the diagonals: what is woven or tiled along the
-// axes of a texture leans along them, and such lobes should not be torn apart by noise.
+// Sectors are centred on +x, +y, -x, -y and meet on the diagonals: structures woven or tiled along
+// a texture's axes have normals that lean along them, and noise should not split their lobes.
 
 const uint CLUSTER_COUNT = 8u;
 const uint SECTOR_COUNT = 4u;

@@ -8,7 +8,7 @@
 // squared; normals so spread have kappa_N = 1/variance.
 
 // Toksvig, 2005, Mipmapping Normal Maps, Eq. 1: sigma^2 = (1 - |n|)/|n| of a mean normal. Normals
-// that cancel leave no direction, and a variance that is large and finite.
+// that cancel leave no direction; the variance is then large but finite.
 float variance_of_mean_normal(float mean_length) {
     return max(1.0 - mean_length, 0.0) / max(mean_length, 1e-4);
 }
@@ -22,9 +22,9 @@ float isotropic_variance(vec3 covariance) {
 // 1/kappa' = 1/kappa + variance:
 //   s' = s/(1 + s sigma^2), which is Toksvig, 2005, Eq. 2; the same in kappa;
 //   alpha'^2 = alpha^2 + 2 sigma^2 (Olano, Baker, 2010, LEAN Mapping: variances of slopes add).
-// Written so that the parameter is the same to the last bit where the variance vanishes. Alpha
-// stays at or below 1, where GGX is uniform: beyond, facets would stand upright rather than lie in
-// all directions.
+// Written so that the parameter is unchanged to the last bit if the variance is 0. Alpha is at most
+// 1, where GGX is uniform: beyond that, facets would stand upright instead of facing all
+// directions.
 float widened_parameter(uint distribution, float parameter, float variance) {
     if (!(variance > 0.0)) {
         return parameter;

@@ -11,7 +11,7 @@ struct plane_gaussian {
 };
 
 plane_gaussian make_plane_gaussian(vec3 covariance, float mass) {
-    // A covariance of rounding's making may have no inverse: 1e-12 is far below the sharpest lobe's.
+    // Rounding may make a covariance singular: 1e-12 is far below the sharpest lobe's.
     float determinant =
         max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-14);
     plane_gaussian result;
@@ -24,8 +24,8 @@ float evaluate_plane_gaussian(plane_gaussian bell, vec2 distance) {
     return bell.peak * exp(dot(bell.exponent, vec3(distance * distance, distance.x * distance.y)));
 }
 
-// Covariance from moments about a point: never negative, correlation never above one, whatever
-// rounding left.
+// Covariance from moments about a point: never negative, and the correlation never above one,
+// despite rounding.
 vec3 covariance_of(vec2 mean, vec3 second_moments) {
     vec3 covariance = second_moments - vec3(mean * mean, mean.x * mean.y);
     covariance.xy = max(covariance.xy, vec2(0.0));

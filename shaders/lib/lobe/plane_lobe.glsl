@@ -10,7 +10,8 @@
 // integral of the bell, chosen so that the peak mass / (2 pi v) is the lobe's own. Distributions of
 // microfacet normals have a projected area of one; their mass is therefore above one.
 
-// Broader lobes are taken to be this broad, and keep their peak; but GGX keeps its projected area.
+// Broader lobes are treated as this broad and keep their peak, except that GGX keeps its projected
+// area.
 const float PLANE_VARIANCE_MAXIMUM = 5.0;
 
 // GGX, with sin^2 = x^2 at small x = |q|:
@@ -28,7 +29,7 @@ float plane_variance(uint distribution, float parameter) {
     return min(1.0 / base_lobe_concentration(distribution, parameter), PLANE_VARIANCE_MAXIMUM);
 }
 
-// The parameter of the base lobe of a variance.
+// The parameter of the base lobe with a given variance.
 float parameter_of_plane_variance(uint distribution, float variance) {
     if (distribution == DISTRIBUTION_GGX)
         return sqrt(2.0 * variance / (1.0 + 2.0 * variance));

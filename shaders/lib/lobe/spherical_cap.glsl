@@ -30,8 +30,8 @@ vec3 cube_face_coordinates(int face, vec3 direction) {
 const vec2 NOTHING = vec2(2.0, -2.0); // an interval from its low to its high end
 const vec2 WHOLE_FACE = vec2(-1.0, 1.0);
 
-// Rows that the cap may reach. Seen along x, the axis is at the angle a = atan2(axis.y, axis.z), and
-// the cap reaches from a - b to a + b where sin b = sin r / |(axis.y, axis.z)|.
+// Rows that the cap may reach. Seen along x, the axis is at the angle a = atan2(axis.y, axis.z),
+// and the cap reaches from a - b to a + b where sin b = sin r / |(axis.y, axis.z)|.
 vec2 cap_rows(spherical_cap cap) {
     float square = dot(cap.axis.yz, cap.axis.yz), rest = square - cap.sine * cap.sine;
     if (cap.cosine <= 0.0 || rest <= 0.0)
@@ -69,7 +69,7 @@ vec2 cap_columns(spherical_cap cap, float y) {
 }
 
 // First and last texel of a row, or row of a face, of `size` texels whose centres lie in an
-// interval; the first is beyond the last where there is none.
+// interval; if there is none, the first is beyond the last.
 ivec2 texels_between(vec2 interval, int size) {
     vec2 ends = 0.5 * (clamp(interval, -2.0, 2.0) * float(size) + float(size - 1));
     return clamp(ivec2(int(ceil(ends.x)), int(floor(ends.y))), ivec2(0, -1), ivec2(size, size - 1));

@@ -14,7 +14,7 @@
 
 // Its value at the mean direction, where the exponential is 1.
 float von_mises_fisher_peak(float concentration) {
-    // The quotient tends to 1/(4 pi) for small kappa; 1e-20 keeps it off 0/0.
+    // The quotient tends to 1/(4 pi) for small kappa; 1e-20 avoids 0/0.
     float kappa = max(concentration, 1e-20);
     return kappa / (-2.0 * PI * expm1(-2.0 * kappa));
 }

@@ -2,7 +2,7 @@
 #define LIB_BOX_REDUCTION_GLSL
 
 // Halving a row of `size` texels to max(1, floor(size / 2)): each target texel is the mean of the
-// source under its own extent, so that the mean of the whole is kept at any size.
+// source within its extent, so that the overall mean is kept at any size.
 //
 // Guthe, Heckbert 2005, Non-Power-of-Two Mipmap Creation (NVIDIA): the polyphase box. For
 // size = 2m + 1, target j covers [j, j + 1) (2m + 1) / m and takes texels 2j, 2j + 1, 2j + 2.

@@ -11,7 +11,7 @@ struct footprint {
 
 // Heckbert 1989, Fundamentals of Texture Mapping and Image Warping, section 3.5: the unit square
 // of a pixel is stretched by the Jacobian J = [dx dy]; the axes are the singular values of J, the
-// square roots of the eigenvalues of J J^T. `dx` and `dy` are in texels a pixel.
+// square roots of the eigenvalues of J J^T. `dx` and `dy` are in texels per pixel.
 footprint footprint_of(vec2 dx, vec2 dy) {
     float xx = dx.x * dx.x + dy.x * dy.x;
     float xy = dx.x * dx.y + dy.x * dy.y;

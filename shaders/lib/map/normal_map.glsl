@@ -4,8 +4,8 @@
 #include "lib/number/finite.glsl"
 
 // Unit normal of a normal map's texel, (n + 1)/2, with x and y multiplied by `scale`
-// (Khronos Group, 2021, glTF 2.0, section 3.9.3). The flat normal (0, 0, 1) where the texel is
-// infinite, NaN or of no length.
+// (Khronos Group, 2021, glTF 2.0, section 3.9.3). The flat normal (0, 0, 1) if the texel is
+// infinite, NaN or of length 0.
 vec3 decode_normal(vec3 texel, float scale) {
     vec3 normal = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
     if (!is_finite(normal)) {

@@ -36,7 +36,7 @@ vec4 directional_albedo(sampler2D table, uint distribution, float outgoing_cosin
                       0.0);
 }
 
-// Part of even light from all around that the microfacets reflect (once).
+// The fraction of uniform light that the microfacets reflect (once).
 // Karis, 2013, Real Shading in Unreal Engine 4, Eq. 8: F_0 and F_90 factored out.
 vec3 specular_albedo(vec4 albedo, vec3 f0, vec3 f90) {
     return f0 * albedo.x + f90 * albedo.y;
@@ -48,10 +48,10 @@ vec3 diffuse_albedo(vec4 albedo, vec3 diffuse, vec3 f0, vec3 f90) {
 }
 
 // Turquin, 2019, Practical Multiple Scattering Compensation for Microfacet Models: light that is
-// reflected more than once is taken to leave as the rest does,
+// reflected more than once is assumed to leave like the rest,
 //   rho_ms = rho_ss (1 + F_0 (1 - E)/E)
-// with E the albedo at F = 1, so that nothing is lost at F_0 = 1. Below 1 where masking that was
-// made for another distribution lets E exceed 1 (broad Blinn-Phong and von Mises-Fisher lobes).
+// with E the albedo at F = 1, so that nothing is lost at F_0 = 1. Below 1 where masking derived for
+// another distribution lets E exceed 1 (broad Blinn-Phong and von Mises-Fisher lobes).
 vec3 multiple_scattering_scale(vec4 albedo, vec3 f0) {
     float reflected = albedo.x + albedo.y;
     return 1.0 + f0 * ((1.0 - reflected) / reflected);

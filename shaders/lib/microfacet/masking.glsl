@@ -37,7 +37,7 @@ float lambda_gaussian(float cotangent) {
 }
 
 float lambda_beckmann(float cosine, float alpha) {
-    // At normal incidence a is infinite: 1e-10 stands for a tangent of zero.
+    // At normal incidence a is infinite: 1e-10 replaces a tangent of zero.
     return lambda_gaussian(inversesqrt(max(alpha * alpha * tangent_squared(cosine), 1e-10)));
 }
 

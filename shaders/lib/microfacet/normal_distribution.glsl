@@ -41,7 +41,7 @@ float distribution_blinn_phong(vec3 normal, vec3 half_vector, float exponent) {
 // hemisphere of mu:
 //   N(kappa) = (1 - (1 - exp(-kappa))/kappa) / (1 - exp(-2 kappa))
 //            = (1 + R(kappa/2)) / (2 (1 + exp(-kappa))),
-// the second form without cancellation. It is R(kappa) but for the part of the lobe below the
+// the second form without cancellation. It is R(kappa) except for the part of the lobe below the
 // horizon, and 1/4 for the uniform lobe.
 // A mean of base lobes about different axes is divided by the area of the *base* lobes, not by that
 // of the broader lobes that the mean was turned into.

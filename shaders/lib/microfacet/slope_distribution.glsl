@@ -21,7 +21,7 @@ vec3 normal_of_slope(vec2 slope) {
     return normalize(vec3(-slope, 1.0));
 }
 
-// Dupuy et al., 2013, Eq. 9. What rounding makes of a variance of zero is not below zero.
+// Dupuy et al., 2013, Eq. 9. Rounding must not make a variance negative.
 vec3 covariance_of_moments(vec2 mean, vec3 second) {
     return vec3(max(second.xy - mean * mean, vec2(0.0)), second.z - mean.x * mean.y);
 }

@@ -8,7 +8,7 @@
 // Dupuy, Heitz, Iehl, Poulin, Neyret, Ostromoukhov, 2013, Linear Efficient Antialiased Displacement
 // and Reflectance Mapping, section 4.3.
 
-// How far a direction rises above the mean plane, <omega, (-E[x], -E[y], 1)>: its cosine to the
+// The height of a direction above the mean plane, <omega, (-E[x], -E[y], 1)>: its cosine to the
 // mean normal over that normal's own z. Not above 0: behind the surface.
 float height_above_slope(vec2 mean, vec3 direction) {
     return direction.z - dot(mean, direction.xy);

@@ -1,7 +1,7 @@
 #ifndef LIB_ANGLE_GLSL
 #define LIB_ANGLE_GLSL
 
-// Half vector of two unit directions; zero where they are opposite, which has none.
+// Half vector of two unit directions; zero if they are opposite.
 vec3 half_vector(vec3 a, vec3 b) {
     vec3 sum = a + b;
     float square = dot(sum, sum);

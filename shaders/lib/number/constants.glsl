@@ -12,7 +12,7 @@ const float CONCENTRATION_MAXIMUM = 1e6;
 // The same limit for the roughness alpha of a microfacet distribution, kappa = 2 / alpha^2.
 const float ALPHA_MINIMUM = 1.41421356e-3;
 
-// Directions closer to the horizon than a microradian are taken to be that close: 1/cos^4 then
+// Directions closer to the horizon than a microradian are treated as that close: 1/cos^4 then
 // stays within float32.
 const float COSINE_MINIMUM = 1e-6;
 

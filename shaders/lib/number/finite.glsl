@@ -1,8 +1,8 @@
 #ifndef LIB_FINITE_GLSL
 #define LIB_FINITE_GLSL
 
-// Neither infinite nor NaN. Looks at the bits, because a compiler that assumes finite numbers
-// may drop isnan() and comparisons alike.
+// Neither infinite nor NaN. Tests the bits, because a compiler that assumes finite numbers may drop
+// isnan() as well as comparisons.
 bool is_finite(float x) {
     const uint exponent = 0x7f800000u;
     return (floatBitsToUint(x) & exponent) != exponent;

@@ -9,7 +9,7 @@
 // lib/number/angle.glsl.
 float power_of_cosine(vec3 a, vec3 b, float exponent) {
     float cosine = dot(a, b);
-    // 1e-30: the logarithm of zero is not wanted even where its product is not used.
+    // 1e-30 avoids the logarithm of zero, even where its product is unused.
     float logarithm = cosine > 0.5 ? log1p(-0.5 * difference_squared(a, b))
                                    : log(max(cosine, 1e-30));
     return cosine > 0.0 ? exp(exponent * logarithm) : 0.0;

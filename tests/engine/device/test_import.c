@@ -1,4 +1,4 @@
-// A device that the host made: what lobe asks of it, using it, and leaving it alive.
+// A device created by the host: what lobe requires of it, using it, and leaving it alive.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -47,7 +47,7 @@ static void the_hosts_device_outlives_ours(void **state) {
         assert_null(device);
     }
     assert_int_equal(host.recorder.errors, 0);
-    // All that the host can do it still can.
+    // The host can still do everything that it could before.
     host_image image =
         host_image_create(&host, VK_FORMAT_R8G8B8A8_UNORM, 4, 4,
                           VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
@@ -93,7 +93,7 @@ static void the_queue_is_used_under_the_hosts_lock(void **state) {
     assert_true(counter.uses > 0);
     assert_int_equal(counter.locked, 0);
     assert_false(counter.nested);
-    // Handed out again, the device locks the same way.
+    // Exported again, the device locks in the same way.
     int uses = counter.uses;
     lobe_vulkan_device handles;
     lobe_vulkan_export_device(device, &handles);
@@ -190,8 +190,8 @@ static void missing_features_are_told_in_words(void **state) {
     less.core.features.samplerAnisotropy = VK_FALSE; // not required
     assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, sizeof text), 2);
     assert_string_equal(text, "feature synchronization2 (barriers of the render graph)\n"
-                              "feature timelineSemaphore (knowing when a frame is done)");
-    // Cut, and without any room.
+                              "feature timelineSemaphore (detecting when a frame is done)");
+    // Truncated, and without any space.
     assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, text, 20), 2);
     assert_string_equal(text, "feature synchroniza");
     assert_int_equal(lobe_vulkan_missing(&host.vulkan, &less.core, NULL, 0), 2);
@@ -199,7 +199,7 @@ static void missing_features_are_told_in_words(void **state) {
         lobe_vulkan_missing(&host.vulkan, &(VkPhysicalDeviceFeatures2){0}, text, sizeof text), 7);
 }
 
-/// Hosts may turn each feature on by a structure of its own.
+/// Hosts may enable each feature with its own structure.
 static void single_structures_count(void **state) {
     (void)state;
     VkPhysicalDeviceDynamicRenderingFeatures rendering = {

@@ -7,7 +7,7 @@
 #include "engine/device/selection.h"
 #include "tests/engine/support/log_recorder.h"
 
-// Selection looks at descriptions alone, so devices that this machine lacks can be made up.
+// Selection only looks at descriptions, so devices that this machine lacks can be simulated.
 
 static log_recorder recorder;
 static lobe_device_feature features[4][ENGINE_FEATURE_COUNT];
@@ -59,7 +59,7 @@ static void best_type_comes_first(void **state) {
     static const size_t order[] = {2, 1, 3, 0};
     for (size_t i = 0; i < 4; i++) {
         assert_selects(NULL, order[i]);
-        candidates[order[i]].queue_family = UINT32_MAX; // no longer suited
+        candidates[order[i]].queue_family = UINT32_MAX; // no longer suitable
     }
     assert_refuses(NULL, "Big GPU 9000");
 }

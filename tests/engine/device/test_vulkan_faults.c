@@ -1,6 +1,6 @@
-// Every call to Vulkan that can fail fails once, on a device of lobe's own and on a host's: each
-// time the call of ours that needed it says so by its code and one line, and all that was made is
-// destroyed. The same goes for each time that lobe asks for memory of the host.
+// Every Vulkan call that can fail fails once, on lobe's own device and on a host's: each time, the
+// lobe call that needed it returns the right code and logs one line, and everything that was
+// created is destroyed. The same for each allocation of host memory.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -19,7 +19,7 @@
 #include "tests/engine/support/vulkan_faults.h"
 
 // ---------------------------------------------------------------------------------------------
-// Something of everything
+// A frame that uses everything
 
 typedef struct work {
     log_recorder recorder;
@@ -29,7 +29,7 @@ typedef struct work {
     lobe_graph *graph;
 } work;
 
-/// A host with Vulkan of its own, which serves many of lobe's devices.
+/// A host with its own Vulkan device, which lobe imports many times.
 typedef struct host {
     host_device vulkan;
     host_image image;
@@ -149,7 +149,7 @@ static lobe_result run_on_own_device(work *w, host *host) {
     return result ? result : run_frame(w, 8);
 }
 
-/// The same frame, and the host's image cleared.
+/// The same frame, which also clears the host's image.
 static void declare_frame_for_host(work *w, const host *host, uint32_t extent) {
     const lobe_vulkan_image lent = {.image = host->image.image,
                                     .format = host->image.format,
@@ -163,7 +163,7 @@ static void declare_frame_for_host(work *w, const host *host, uint32_t extent) {
     lobe_graph_output(w->graph, image);
 }
 
-/// Waits for the host's frame before, and tells of this one.
+/// Waits for the host's previous frame, and signals this one.
 static lobe_result submit_frame(work *w, host *host, uint32_t extent) {
     const lobe_vulkan_semaphore wait = {.semaphore = host->timeline, .value = host->reached};
     const lobe_vulkan_semaphore signal = {.semaphore = host->timeline, .value = host->reached + 1};
@@ -187,7 +187,7 @@ static lobe_result record_frame(work *w, host *host, uint32_t extent) {
     return result;
 }
 
-/// Two frames in flight, of one size and another, and one in commands of the host's.
+/// Two frames of different sizes in flight, and one in the host's command buffer.
 static lobe_result run_on_hosts_device(work *w, host *host) {
     lobe_result result = open_work(w, host);
     if (result == LOBE_OK)
@@ -199,7 +199,7 @@ static lobe_result run_on_hosts_device(work *w, host *host) {
     return result ? result : record_frame(w, host, 8);
 }
 
-/// A device that asks for all there is, and something on it that has a name.
+/// A device with every option, and a named object on it.
 static lobe_result run_with_validation(work *w, host *host) {
     (void)host;
     const char *cache = temporary_folder_file(&test_folder, "pipelines");
@@ -218,7 +218,7 @@ typedef lobe_result (*run_function)(work *w, host *host);
 // ---------------------------------------------------------------------------------------------
 // Faults
 
-/// These bring what lobe does without: names for tools, an extension that is only recommended.
+/// lobe can do without these: names for tools, an extension that is only recommended.
 static bool is_done_without(const char *function) {
     static const char *const functions[] = {"vkSetDebugUtilsObjectNameEXT",
                                             "vkEnumerateDeviceExtensionProperties"};
@@ -240,7 +240,7 @@ static void check_fault(run_function run, host *host, VkResult with, int alive) 
     work w;
     faults.fault = with;
     const lobe_result result = start_and_run(run, &w, host);
-    // Or else it comes only when all is destroyed, or at the end of this.
+    // Otherwise the failure comes only on destruction, or at the end of the test.
     const bool matters = faults.failed && !is_done_without(faults.failed);
     const char *name = faults.failed ? faults.failed : "(teardown)";
     const lobe_result expected = matters ? engine_vulkan_result(with) : LOBE_OK;
@@ -248,7 +248,7 @@ static void check_fault(run_function run, host *host, VkResult with, int alive) 
         fail_msg("call %d, %s: %s instead of %s, %d lines, the last '%s'", faults.failing, name,
                  lobe_result_name(result), lobe_result_name(expected), w.recorder.errors,
                  w.recorder.last_error);
-    // Once more on the same objects, where there are any: nothing is left half-built.
+    // Once more on the same objects, if there are any: nothing may be left half-built.
     if (w.graph && with != VK_ERROR_DEVICE_LOST && faults.failed && run_frame(&w, 4) != LOBE_OK)
         fail_msg("call %d, %s: %s", faults.failing, name, w.recorder.last_error);
     close_work(&w);
@@ -267,7 +267,7 @@ static void check_each_call(run_function run, host *host, int least) {
     assert_true(during >= least);
     for (faults.failing = 1; faults.failing <= during; faults.failing++) {
         check_fault(run, host, VK_ERROR_OUT_OF_DEVICE_MEMORY, alive);
-        // The way back is the same for any code: some calls are enough.
+        // Clean-up is the same for every code: some calls are enough.
         if (faults.failing % 4 == 1)
             check_fault(run, host, VK_ERROR_DEVICE_LOST, alive);
     }
@@ -299,7 +299,7 @@ static void open_host(host *host, bool validated) {
 }
 
 static void close_host(host *host) {
-    // The host's own lives on.
+    // The host's own objects remain.
     host_finish(&host->vulkan, host_begin(&host->vulkan));
     vkDestroySemaphore(host->vulkan.vulkan.device, host->timeline, NULL);
     host_image_destroy(&host->vulkan, &host->image);
@@ -319,7 +319,7 @@ static void each_call_fails_once_on_a_hosts_device(void **state) {
 
 static bool loader_is_missing;
 
-/// The linker puts it before the C library's.
+/// The linker calls this instead of the C library's function.
 void *__real_dlopen(const char *file, int mode);
 void *__wrap_dlopen(const char *file, int mode);
 void *__wrap_dlopen(const char *file, int mode) {
@@ -353,7 +353,7 @@ static void a_missing_loader_is_named(void **state) {
 
 #define NAME(function) #function,
 
-/// What only the missing function could have destroyed is left.
+/// Only objects that the missing function would have destroyed remain.
 static int left_without(const char *function) {
     return strcmp(function, "vkDestroyInstance") == 0 || strcmp(function, "vkDestroyDevice") == 0;
 }
@@ -402,7 +402,7 @@ static void check_each_allocation(run_function run, host *host, size_t least) {
     assert_int_equal(faults.alive, alive);
 }
 
-/// What is made on it is the same as on a host's.
+/// Objects created on it are the same as on a host's device.
 static void each_allocation_of_an_own_device_fails_once(void **state) {
     (void)state;
     faults.failing = 0;
@@ -417,7 +417,7 @@ static void each_allocation_fails_once_on_a_hosts_device(void **state) {
     close_host(&host);
 }
 
-/// The tests before have let each of the functions fail that stand ready to.
+/// The tests above made each of the stand-ins fail.
 static void each_function_failed(void **state) {
     (void)state;
     const char *name = vulkan_fault_left_out();

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that each Vulkan function that the engine calls and that can fail has a stand-in that fails
-in the tests (vulkan_faults.c).
+"""Checks that every fallible Vulkan function that the engine calls has a failing stand-in in the
+tests (vulkan_faults.c).
 
 Usage: vulkan_calls.py ROOT PROGRAM COMPILER...; PROGRAM is linked to vulkan_faults.c."""
 

@@ -1,7 +1,7 @@
-// A program of others, linked to the installed library and to Vulkan by its own means: libvulkan,
-// or with -DUSE_VOLK a volk of its own, whose global variables have the names of libvulkan's
-// functions. Draws one scene on a device of lobe's and on one that it imports, by lobe's own choice
-// of loader and by the host's, and fails where a picture differs.
+// A host program, linked to the installed library and to Vulkan: to libvulkan, or with -DUSE_VOLK
+// to its own volk, whose global variables are named like libvulkan's functions. Draws a scene on
+// lobe's own device and on an imported one, with lobe's loader and with the host's, and fails if a
+// picture differs.
 
 #ifdef USE_VOLK
 #define VOLK_IMPLEMENTATION

@@ -30,7 +30,7 @@ lobe_resource graph_fixture_count(graph_fixture *fixture, const char *pass, lobe
 lobe_resource graph_fixture_add(graph_fixture *fixture, const char *pass, lobe_resource source,
                                 lobe_resource target, float offset, uint32_t count);
 
-/// The state of a pass of the frame; fails the test if there is none of that name.
+/// The state of a pass of the frame; fails the test if no pass has that name.
 lobe_pass_state graph_fixture_state(const graph_fixture *fixture, const char *pass);
 
 /// Executes, and asserts that this succeeds.

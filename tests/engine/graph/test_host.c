@@ -112,7 +112,7 @@ static void a_frame_draws_into_the_hosts_image(void **state) {
     host_image_destroy(&f->host, &image);
 }
 
-/// Clears the host's image to green, with commands of the host.
+/// Clears the host's image to green, with the host's own commands.
 static void fill_green(const host_image *image, VkCommandBuffer commands) {
     host_barrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     host_clear(commands, image, (float[]){0, 1, 0.25f, 1});

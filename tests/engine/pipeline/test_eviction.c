@@ -1,5 +1,5 @@
-// A device keeps a bounded number of pipelines: those unused for longest go, but none that a frame
-// in progress may still need, and one that is gone is made again.
+// A device keeps a bounded number of pipelines: the least recently used are evicted, but none that
+// a frame in progress may still need, and an evicted one is recreated.
 
 #include "tests/engine/support/cmocka_all.h"
 
@@ -37,7 +37,7 @@ static int close_device(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Frames: each factor has a pipeline of its own
+// Frames: each factor has its own pipeline
 
 /// A pass that writes multiples of a factor.
 static lobe_resource declare_fill(lobe_graph *graph, const char *name, uint32_t factor) {
@@ -73,7 +73,7 @@ static bool run_frame(lobe_graph *graph, uint32_t factor) {
     return lobe_graph_execute(graph) == LOBE_OK && is_filled(graph, target, factor);
 }
 
-/// How many pipelines a frame makes.
+/// The number of pipelines that a frame creates.
 static int made_by(lobe_graph *graph, uint32_t factor) {
     faults.pipelines = 0;
     assert_true(run_frame(graph, factor));
@@ -125,7 +125,7 @@ static void a_frame_keeps_all_that_it_needs(void **state) {
     assert_int_equal(lobe_graph_execute(graph), LOBE_OK);
     assert_true(is_filled(graph, last, MANY - 1));
     assert_int_equal(faults.pipelines_alive, MANY);
-    // It is over: the next one that is made makes room.
+    // It is finished: creating the next pipeline makes room.
     assert_int_equal(made_by(graph, MANY), 1);
     assert_int_equal(faults.pipelines_alive, ENGINE_MAXIMUM_PIPELINES);
     lobe_graph_destroy(&graph);
@@ -200,7 +200,7 @@ static void threads_share_the_bound(void **state) {
     (void)state;
     worker workers[2];
     pthread_t threads[2];
-    faults.paused = true; // nothing is to fail
+    faults.paused = true; // nothing should fail
     for (uint32_t n = 0; n < 2; n++) {
         workers[n] = (worker){.graph = create_graph(), .first = n * MANY};
         assert_int_equal(pthread_create(&threads[n], NULL, work, &workers[n]), 0);
@@ -209,7 +209,7 @@ static void threads_share_the_bound(void **state) {
         assert_int_equal(pthread_join(threads[n], NULL), 0);
         assert_false(workers[n].failed);
     }
-    // Each may have held one back at the other's last.
+    // Each may have kept the other's last one alive.
     assert_true(faults.pipelines_alive <= ENGINE_MAXIMUM_PIPELINES + 1);
     for (uint32_t n = 0; n < 2; n++)
         lobe_graph_destroy(&workers[n].graph);

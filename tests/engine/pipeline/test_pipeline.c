@@ -323,7 +323,7 @@ static void damaged_cache_files_are_replaced(void **state) {
     (void)state;
     run_with_cache();
     const size_t length = (size_t)read_cache(first, sizeof first);
-    // Every byte matters: our header, Vulkan's, the data. Some of them, and some lengths.
+    // Every byte matters: our header, Vulkan's, the data. Tests some bytes and some lengths.
     for (size_t i = 0; i < length; i += 1 + length / 16) {
         memcpy(second, first, length);
         second[i] ^= 0x40;

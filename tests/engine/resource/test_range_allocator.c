@@ -57,7 +57,7 @@ static void tightest_gap_is_used(void **state) {
 
 static void neighbours_are_joined(void **state) {
     (void)state;
-    // Every order of giving back three neighbours leaves one range.
+    // Freeing three neighbours in any order leaves one range.
     static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                      {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     for (size_t order = 0; order < 6; order++) {

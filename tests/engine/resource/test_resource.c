@@ -18,7 +18,7 @@ static int open_device(void **state) {
                               &device) != LOBE_OK;
 }
 
-/// Whatever the test did, the validation layer saw no mistake and all memory came back.
+/// After every test, the validation layer has reported nothing and all memory has been freed.
 static int close_device(void **state) {
     (void)state;
     lobe_device_memory memory;
@@ -286,7 +286,7 @@ static void validation_counts_mistakes(void **state) {
         lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &messages.host},
                            &own),
         LOBE_OK);
-    // A size of 0 is what Vulkan forbids; our own functions would not let it through.
+    // Vulkan forbids a size of 0; our own functions would reject it first.
     const VkBufferCreateInfo wrong = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                       .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT};
     if (vkCreateBuffer(own->vulkan, &wrong, NULL, &buffer) == VK_SUCCESS)

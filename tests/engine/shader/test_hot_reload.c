@@ -37,7 +37,7 @@ static void path_of(const char *name, char path[128]) {
     snprintf(path, 128, "%s/%s", folder, name);
 }
 
-/// Also moves the time of the change on, for file systems with coarse times.
+/// Also advances the modification time, for file systems with coarse timestamps.
 static void write_file(const char *name, const char *text) {
     static int writes = 0;
     char path[128];
@@ -141,7 +141,7 @@ static void mistake_is_a_warning_with_file_and_line(void **state) {
     assert_int_equal(recorder.errors, 0);
     assert_non_null(strstr(recorder.last_warning, "lib/value.glsl:3:"));
     assert_non_null(strstr(recorder.last_warning, "nothing"));
-    // Said once, until the file changes again.
+    // Reported once, until the file changes again.
     assert_ptr_equal(find("main_plain.comp"), good);
     assert_int_equal(recorder.warnings, 1);
     write_file("lib/value.glsl", "float value() { return 5; }\n");
@@ -194,7 +194,7 @@ static void files_that_include_each_other_end(void **state) {
     assert_non_null(strstr(recorder.last_error, "nested too deep"));
 }
 
-/// The run-time compiler and the build make the same of every shader of the library.
+/// The run-time compiler and the build generate the same code for every shader of the library.
 static void library_shaders_are_as_the_build_made_them(void **state) {
     (void)state;
     for (size_t i = 0; i < engine_embedded_shaders_count; i++) {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One binding of each kind, for what reflection says about them.
+// One binding of each kind, to test reflection.
 
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 

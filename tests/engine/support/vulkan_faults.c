@@ -8,7 +8,7 @@
 vulkan_faults faults;
 
 // ---------------------------------------------------------------------------------------------
-// Functions that stand in for the loader's
+// Stand-ins for the loader's functions
 
 typedef struct stand_in {
     const char *vulkan_name;
@@ -65,7 +65,7 @@ const char *vulkan_fault_left_out(void) {
         return result;                                                                             \
     }
 
-/// What is taken from a pool goes with it.
+/// Objects allocated from a pool are destroyed with it.
 #define TAKES(name, parameters, arguments)                                                         \
     FUNCTION(VkResult, name, parameters, true) {                                                   \
         if (fails(&stand_in_##name))                                                               \
@@ -82,7 +82,7 @@ const char *vulkan_fault_left_out(void) {
         name(device, gone, callbacks);                                                             \
     }
 
-/// What a device makes by a structure that describes it.
+/// Objects that a device creates from a description.
 #define OBJECT(name)                                                                               \
     MAKES(vkCreate##name,                                                                          \
           (VkDevice device, const Vk##name##CreateInfo *create,                                    \
@@ -207,7 +207,7 @@ FALLIBLE(vkEnumerateInstanceLayerProperties, (uint32_t * count, VkLayerPropertie
 FALLIBLE(vkGetPipelineCacheData, (VkDevice device, VkPipelineCache cache, size_t *size, void *data),
          (device, cache, size, data))
 
-/// What is waited for is done all the same: a device that is lost runs nothing any more.
+/// The wait succeeds all the same: a lost device no longer runs anything.
 #define WAITS(name, parameters, arguments)                                                         \
     FUNCTION(VkResult, name, parameters, true) {                                                   \
         VkResult result = name arguments;                                                          \

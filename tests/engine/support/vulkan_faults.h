@@ -5,9 +5,9 @@
 
 #include <vulkan/vulkan.h>
 
-/// A Vulkan loader for the devices of a test program, whose functions count what is made and
-/// destroyed and fail when they are to. vulkan_calls.py checks that each function that lobe calls
-/// and that can fail is among them. Calls by the test itself go to libvulkan and do not count.
+/// A Vulkan loader for a test's devices, whose functions count created and destroyed objects and
+/// fail on demand. vulkan_calls.py checks that every fallible function that lobe calls is among
+/// them. Calls by the test itself go to libvulkan and do not count.
 typedef struct vulkan_faults {
     int calls;             ///< so far, of those that can fail; set to 0 to count anew
     int failing;           ///< which call fails; 0: none
@@ -18,15 +18,15 @@ typedef struct vulkan_faults {
     bool names;            ///< calls that name objects, of which there are many, can fail too
     bool timeline_unknown; ///< vkGetSemaphoreCounterValue fails
     // Counted in whatever thread.
-    _Atomic int alive; ///< objects made and not destroyed
+    _Atomic int alive; ///< objects created and not destroyed
     _Atomic int pipelines_alive;
-    _Atomic int pipelines; ///< made so far; set to 0 to count anew
-    _Atomic int made;      ///< so far, taken from pools included; set to 0 to count anew
+    _Atomic int pipelines; ///< created so far; set to 0 to restart
+    _Atomic int made;      ///< so far, including those from pools; set to 0 to restart
 } vulkan_faults;
 
 extern vulkan_faults faults;
 
-/// The name of a function that can fail and never did in this process; NULL: each did.
+/// The name of a fallible function that never failed in this process; NULL if each did.
 const char *vulkan_fault_left_out(void);
 
 #endif

@@ -58,7 +58,7 @@ static void check_close(const char *what, int distribution, double cosine, doubl
                  distribution, cosine, roughness, found, expected);
 }
 
-/// From the roughest to the smoothest, and from right above to nearly along the surface.
+/// From roughest to smoothest, and from perpendicular to nearly grazing.
 static void texels_are_integrals(void **state) {
     (void)state;
     static const int columns[] = {2, 9, 13, 20, 31, 45, 63}, rows[] = {2, 4, 7, 13, 20, 32, 48, 63};
@@ -118,7 +118,7 @@ static void nothing_is_gained(void **state) {
     }
 }
 
-/// Mean over even light: integral of 2 cos E(cos) d cos, by the reference's own integrals.
+/// Mean under uniform light: integral of 2 cos E(cos) d cos, by the reference's own integrals.
 static void rows_have_their_mean(void **state) {
     (void)state;
     static const int rows[] = {0, 20, 63};
@@ -138,7 +138,7 @@ static void rows_have_their_mean(void **state) {
     }
 }
 
-/// What the sampler gives: linear between texels.
+/// What the sampler returns: linear interpolation between texels.
 static double interpolate(const albedo_table *table, double cosine, double roughness, int channel) {
     double x = sqrt(cosine) * (SIZE - 1), y = roughness * (SIZE - 1), sum = 0;
     int column = (int)fmin(x, SIZE - 2), row = (int)fmin(y, SIZE - 2);
@@ -156,7 +156,7 @@ static void white_stays_white(void **state) {
         double squares = 0, worst = 0;
         enum { PLACES = 64 };
         for (int i = 0; i < PLACES; i++) {
-            // The golden ratio spreads them evenly, and away from texels.
+            // The golden ratio spreads them evenly, and not on texel centres.
             double cosine = 0.02 * pow(50, fmod(0.5 + 0.618033988749895 * i, 1));
             double roughness = 0.05 + 0.95 * (i + 0.5) / PLACES, parts[2], found[2];
             reference_specular_parts((lobe_distribution)d, cosine, roughness, parts);

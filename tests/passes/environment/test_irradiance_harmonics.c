@@ -15,7 +15,7 @@
 /// Radiance from a direction.
 typedef double (*light_field)(const double direction[3], const double axis[3]);
 
-/// A cube in host memory: RGBA, faces one after another.
+/// A cube in host memory: RGBA, face by face.
 typedef struct host_cube {
     float *texels;
     int size;
@@ -196,7 +196,7 @@ static const double axes[][3] = {{1, 0, 0},     {-1, 0, 0},          {0, 1, 0},
                                  {0.6, 0, 0.8}, {-0.36, 0.48, -0.8}, {0, -0.6, 0.8}};
 enum { AXES = sizeof axes / sizeof *axes };
 
-/// Odd sizes too, and one that is a single group's.
+/// Also odd sizes, and one that fits a single group.
 static void constant_light_is_constant(void **state) {
     static const int sizes[] = {1, 2, 13, 64};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -247,7 +247,7 @@ static void one_bright_texel(void **state) {
     }
 }
 
-/// Turn the lights and the normal: the same irradiance.
+/// Rotating the lights and the normal gives the same irradiance.
 static void rotation_changes_nothing(void **state) {
     static const double normals[][3] = {{0, 0, 1}, {0.48, -0.6, 0.64}, {-0.8, 0.6, 0}};
     // Columns: a rotation about (1, 1, 1)/sqrt 3 by 0.7.
@@ -305,14 +305,14 @@ static void a_sun_does_not_drown_the_sky(void **state) {
     free(cube.texels);
 }
 
-/// Coefficients from the level that is read against those of level 0, as a part of the first: what
-/// the pass's header says of it.
+/// Coefficients from the level that is read against those of level 0, relative to the first: the
+/// bounds that the pass's header states.
 static double error_of_level(fixture *f, host_cube finest) {
     host_cube levels[MAXIMUM_LEVELS] = {finest};
     uint32_t last = 0;
     for (; levels[last].size > 64; last++)
         levels[last + 1] = cube_reduced(&levels[last]);
-    // One more, that is not to be read.
+    // One more, which must not be read.
     levels[last + 1] = cube_reduced(&levels[last]);
     device_cube uploaded = upload(f, levels, last + 2);
     struct irradiance_harmonics found = run(f, &uploaded, 0);

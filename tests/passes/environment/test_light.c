@@ -66,7 +66,7 @@ static lobe_scene *square_in(environment_radiance radiance, const lobe_material 
     return scene;
 }
 
-/// With normals that lean up to `tilt` radians, four texels a pixel across.
+/// With normals tilted by up to `tilt` radians, four texels across a pixel.
 static lobe_scene *rough_square_in(environment_radiance radiance, const lobe_material *material,
                                    double tilt) {
     lobe_scene *scene = scene_begin();
@@ -113,7 +113,8 @@ static void a_white_room_leaves_lambert_white(void **state) {
         const char *filter = filters[i];
         for (int method = 0; method < METHODS; method++) {
             double found = draw_pixel(*state, scene, filter, methods[method], NULL);
-            // The reference takes 64 samples by chance; the sum over 16 texels a side is one too.
+            // The reference takes 64 random samples; the sum over 16 texels per side is also a
+            // quadrature.
             bool chance = method == EXACT && strcmp(filter, "reference") == 0;
             if (!(fabs(found - 1) < (chance ? 0.05 : 5e-3)))
                 fail_msg("%s, %s: %g", filter, methods[method], found);
@@ -215,7 +216,7 @@ static void large_cubes_are_summed_up_whole(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// No lobe holds what they reflect; but what goes below the horizon is not seen.
+/// No lobe represents what they reflect; but what goes below the horizon is not visible.
 static void steep_slopes_lose_what_goes_below(void **state) {
     static const bound bounds[] = {{"lean", {0, 0.3, 0.2, 0.2}}, {NULL, {0}}};
     const lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 40);
@@ -229,7 +230,7 @@ static void lamp(const double direction[3], float radiance[3]) {
     grey(0.01 + 500 * exp(1000 * (direction[1] - 1)), radiance);
 }
 
-/// Seen from above, in a picture that shows its reflection and what is around that.
+/// Seen from above, in a picture that shows its reflection and the surroundings.
 static lobe_scene *lobe_below_lamp(float kappa) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, kappa);
@@ -294,8 +295,8 @@ static void the_reference_is_unbiased(void **state) {
             double sum = 0, wanted = (double)pixel_at(&exact.radiance, 0, 0)[channel];
             for (uint32_t pixel = 0; pixel < 16; pixel++)
                 sum += (double)pixel_at(&frame.radiance, pixel % 4, pixel / 4)[channel] / 16;
-            // 4096 samples; an orthographic camera sees all pixels alike.
-            // 0.6 % of it: the exact sum puts a texel's light into its middle.
+            // 4096 samples; with an orthographic camera all pixels are equal. Within 0.6 %: the
+            // exact sum puts a texel's light into its centre.
             if (!(fabs(sum - wanted) <= 0.015 * wanted))
                 fail_msg("material %d, channel %d: %g instead of %g", i, channel, sum, wanted);
         }
@@ -305,8 +306,8 @@ static void the_reference_is_unbiased(void **state) {
     }
 }
 
-/// A mirror, lobes as broad as can be and as sharp, normals that lean far: never more light than
-/// the environment has, nor anything that is no number.
+/// A mirror, the broadest and the sharpest lobes, steep normals: never more light than the
+/// environment has, and never NaN.
 static void extreme_lobes_stay_finite(void **state) {
     static const char *const filters[] = {"lobes", "moments"};
     static const float widths[] = {0, 1, 1e6f};

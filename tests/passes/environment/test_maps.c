@@ -156,7 +156,7 @@ static void a_new_environment_takes_over_when_it_is_finished(void **state) {
         free(now);
     }
     free(former);
-    // Another change half way starts over, still with the same former cubes.
+    // Another change halfway through starts over, still with the same former cubes.
     passes_environment_maps_invalidate(&maps, &s.progress);
     maps = run_frame(&s);
     assert_true(maps.complete && !maps.up_to_date);

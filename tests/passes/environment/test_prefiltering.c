@@ -78,9 +78,9 @@ static void add_deviation(deviation *d, double value, double exact) {
     d->peak = fmax(d->peak, exact);
 }
 
-/// Wherever the lobe is of note, read between the texels too, which alone costs 1.1 % of the L2
-/// norm at most, and 1.6 % of a GGX lobe's; more where a face has only two texels each way, or
-/// where the lobe's peak is narrower than a texel.
+/// Wherever the lobe is significant, also between texels, where interpolation alone is off by up to
+/// 1.1 % of the L2 norm, and 1.6 % for a GGX lobe; more if a face has only two texels per side, or
+/// if the lobe's peak is narrower than a texel.
 static void check_lobe_of_texel(lobe_environment_maps *maps, int face, uint32_t x, uint32_t y,
                                 int map) {
     double centre[3];
@@ -111,7 +111,7 @@ static void check_lobe_of_texel(lobe_environment_maps *maps, int face, uint32_t 
 }
 
 static void one_texel_becomes_the_lobe(void **state) {
-    // In the middle of a face, next to an edge, in a corner, somewhere.
+    // In the middle of a face, next to an edge, in a corner, and elsewhere.
     static const uint32_t texels[][3] = {{4, 16, 15}, {0, 31, 14}, {2, 0, 0}, {3, 9, 27}};
     for (size_t i = 0; i < sizeof texels / sizeof *texels; i++) {
         lobe_environment environment =

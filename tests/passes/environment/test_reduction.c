@@ -51,7 +51,7 @@ static void every_level_has_the_same_energy(void **state) {
     lobe_image_free(&environment.image);
 }
 
-/// Three levels a dispatch as long as there are three.
+/// Three levels per dispatch as long as there are three.
 static void dispatches_are_few(void **state) {
     lobe_environment environment = environment_of_patches(8, 4);
     lobe_environment_maps *maps = make_maps(*state, &environment, 64, false, false);

@@ -1,5 +1,5 @@
-// Where all texels are equal there is nothing to filter: every filter draws what one sample of the
-// maps does.
+// If all texels are equal there is nothing to filter: every filter draws the same as one sample of
+// the maps.
 
 #include "tests/passes/support/fixture.h"
 
@@ -48,12 +48,12 @@ static lobe_frame draw_base(fixture *f, const char *filter, const char *base) {
     return draw(f, &request);
 }
 
-/// The most that two pictures differ, as a share of the brightest pixel.
+/// The largest difference of two pictures, relative to the brightest pixel.
 static double difference(const lobe_frame *a, const lobe_frame *b) {
     return largest_difference(&a->radiance, &b->radiance) / largest_value(&b->radiance);
 }
 
-/// One Beckmann lobe about the normals is all that the filter has, for whatever lobes there are.
+/// Whatever the lobes, the filter only has one Beckmann lobe about the normals.
 static bool has_beckmann_alone(const char *filter) {
     return strcmp(filter, "lean") == 0 || strcmp(filter, "leadr") == 0;
 }
@@ -68,7 +68,7 @@ static void check_filter(fixture *f, const char *filter, const lobe_material *ma
                          const expectation *expected) {
     if (has_beckmann_alone(filter) && !is_beckmann(material, expected->base))
         return;
-    // Over the surface's plane and masked as a height field: how near is seen in test_leadr.c.
+    // Over the surface's plane and masked as a height field: test_leadr.c checks how close that is.
     if (strcmp(filter, "leadr") == 0 && expected->leans)
         return;
     lobe_frame frame = draw_base(f, filter, expected->base);

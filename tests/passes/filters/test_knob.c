@@ -1,4 +1,4 @@
-// The way of a knob's value to the shader: by the one entry that names its constant or number.
+// How a knob's value reaches the shader: through the one entry that names its constant or uniform.
 
 #include "tests/passes/support/fixture.h"
 
@@ -50,7 +50,7 @@ static bool glsl_default(const engine_shader_code *code, uint32_t id, uint32_t *
     return false;
 }
 
-/// GLSL's defaults are those of the knobs, so that neither misleads who reads the other.
+/// Defaults in GLSL are those of the knobs, so that neither misleads a reader.
 static void defaults_are_the_same_in_glsl(void **state) {
     (void)state;
     for (size_t i = 0; i < lobe_filter_count(); i++) {
@@ -92,7 +92,7 @@ static void choices_are_constants_and_numbers_are_uniforms(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What a draw is given
+// What a draw receives
 
 /// The value of a constant in the first draw of the last frame's shading pass.
 static uint32_t drawn_with(fixture *f, uint32_t id) {
@@ -126,7 +126,7 @@ static lobe_scene *mapped_scene(void) {
     return scene;
 }
 
-/// Draws with `filter`, whose settings are at their defaults but for one value.
+/// Draws with `filter`, with all settings at their defaults except one.
 static void draw_with(fixture *f, const lobe_filter *filter, size_t knob, double value) {
     lobe_settings settings;
     lobe_settings_default(filter, &settings);
@@ -163,7 +163,7 @@ static void every_choice_reaches_its_constant(void **state) {
 // ---------------------------------------------------------------------------------------------
 // What C reads
 
-/// A filter without a knob goes by the knob's default.
+/// A filter without a knob uses the knob's default.
 static void c_reads_a_knob_by_its_entry(void **state) {
     (void)state;
     const lobe_filter *lobes = filter_named("lobes"), *direct = filter_named("direct");
@@ -177,7 +177,7 @@ static void c_reads_a_knob_by_its_entry(void **state) {
     const filter_context other = {.filter = direct, .settings = &settings};
     assert_int_equal(passes_knob_choice(&other, &passes_knob_probes), 1);
     assert_true(passes_knob_value(&other, &passes_knob_bias) == -0.5);
-    // The reference has another entry for this one, which is read by the same name.
+    // The reference has its own entry for this one, which is read under the same name.
     const lobe_filter *reference = filter_named("reference");
     const lobe_settings exact = settings_of(reference, (const char *[]){NULL});
     const filter_context truth = {.filter = reference, .settings = &exact};

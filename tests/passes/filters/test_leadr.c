@@ -103,7 +103,7 @@ static void knobs_do_what_they_say(void **state) {
     lobe_image_free(&leaning);
 }
 
-/// Each of more lights than are gathered at once has its own facets.
+/// With more lights than are gathered at once, each has its own facets.
 static void lights_add_up(void **state) {
     enum { LIGHTS = 7 };
     lobe_image rough = random_normal_map(8, 8, 0.7, 274);
@@ -131,7 +131,7 @@ static void lights_add_up(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Limits
 
-/// Largest difference to `direct` over 16 pairs of directions, relative to the value, or to the
+/// Largest difference from `direct` over 16 pairs of directions, relative to the value, or to the
 /// largest value where that is dark.
 static double difference_to_direct(fixture *f, const lobe_material *material,
                                    const float texel[3]) {
@@ -167,7 +167,7 @@ static void a_flat_footprint_is_the_base_material(void **state) {
     }
 }
 
-/// Facets without a specular part are those of the texel, masked by nothing, however it leans.
+/// Facets without a specular part are those of the texel, unmasked, however it is tilted.
 static void tilted_lambert_is_lambert(void **state) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 40);
     for (int i = 0; i < 3; i++) {
@@ -206,8 +206,8 @@ static double difference_about_mirror(fixture *f, double roughness, double view)
 }
 
 /// A Gaussian over the surface's plane is not one over a leaning plane, and Smith's masking of a
-/// height field not that of a turned one: they meet where the lobe is so narrow that one plane's
-/// slopes are the other's to first order. The difference is as large as the lobe is wide.
+/// height field not that of a turned one: they agree if the lobe is so narrow that one plane's
+/// slopes are the other's to first order. The difference is proportional to the lobe's width.
 static void a_narrow_lobe_on_a_tilted_plane_is_the_base_material(void **state) {
     static const double roughnesses[] = {0.05, 0.1, 0.2, 0.4};
     for (int i = 0; i < 8; i++) {
@@ -220,7 +220,7 @@ static void a_narrow_lobe_on_a_tilted_plane_is_the_base_material(void **state) {
 
 /// Oren, Nayar, 1994, Generalization of Lambert's Reflectance Model, qualitative model, without
 /// its interreflections, of Gaussian facets in V-shaped cavities. Smith's surface has the same
-/// facets in other places: the two are near each other away from grazing angles.
+/// facets in other places: the two are close except at grazing angles.
 static double oren_nayar(double sigma, const double outgoing[3], const double incoming[3]) {
     double square = sigma * sigma;
     double a = 1 - 0.5 * square / (square + 0.33), b = 0.45 * square / (square + 0.09);
@@ -272,8 +272,8 @@ static void rough_lambert_looks_back(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Energy and reciprocity
 
-/// Under light from everywhere; white dielectrics reflect a little more than all of it at grazing
-/// angles, because half vectors decide what the facets below them keep: texels do, too.
+/// Under uniform light, white dielectrics reflect slightly more than all of it at grazing angles,
+/// because the half vector determines what the layer below keeps: single texels do the same.
 static void no_energy_is_gained(void **state) {
     static const double tilts[] = {0.3, 0.8};
     for (int i = 0; i < 12; i++) {

@@ -89,8 +89,8 @@ static void one_normal_is_the_base_material(void **state) {
     }
 }
 
-/// Under light from everywhere, rough and leaning ground gives back no more than what arrives; or
-/// than the texels do, for those of white dielectrics reflect a little more at grazing angles.
+/// Under uniform light, a rough and tilted surface reflects no more than arrives, or no more than
+/// its texels do: those of white dielectrics reflect slightly more at grazing angles.
 static void no_energy_is_gained(void **state) {
     static const double tilts[] = {0.3, 0.8};
     for (int i = 0; i < 12; i++) {

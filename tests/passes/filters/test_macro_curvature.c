@@ -1,5 +1,5 @@
 // The curvature of the surface itself under a pixel: it widens lobes where the surface is curved,
-// so that small parts shine steadily, and changes nothing where it is flat. For every filter that
+// so that small objects do not flicker, and changes nothing where it is flat. For every filter that
 // has the knob.
 
 #include "tests/passes/support/fixture.h"
@@ -61,7 +61,7 @@ static void check_plane(fixture *f, const char *filter) {
     request.settings[0] = "curvature=1";
     lobe_frame with = draw(f, &request);
     assert_true(largest_value(&with.radiance) > 0.1);
-    // Other code may be rounded otherwise, by no more than that.
+    // Different code may round differently, by at most that.
     double difference = largest_difference(&with.radiance, &without.radiance);
     if (!(difference <= 1e-6 * largest_value(&without.radiance)))
         fail_msg("%s: curvature changes a plane by %g", filter, difference);
@@ -86,7 +86,7 @@ static void planes_have_no_curvature(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Curved
 
-/// Spheres of 2 m in rows, each a little elsewhere between pixels, under suns from several sides.
+/// Rows of spheres of 2 m, each at a different subpixel position, under suns from several sides.
 static lobe_scene *sphere_scene(lobe_scene *scene, const lobe_material *material, float tiles) {
     lobe_mesh mesh;
     uint32_t mesh_index, material_index;
@@ -158,7 +158,7 @@ static void small_spheres_shine_steadily(void **state) {
     }
 }
 
-/// Mixtures over an atlas have the surface's own normals, and need no more.
+/// Mixtures over an atlas already include the surface's own normals.
 static void atlases_have_the_curvature_already(void **state) {
     fixture *f = *state;
     lobe_scene *scene = scene_begin();

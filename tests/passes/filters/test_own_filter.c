@@ -1,5 +1,5 @@
-// A filter that exists in this test alone: nothing of the library is changed for it. It draws
-// through the ordinary renderer, which prepares its slots when it must and frees them.
+// A filter that exists only in this test, without any change to the library. It draws through the
+// ordinary renderer, which prepares its slots when necessary and frees them.
 
 #include "tests/passes/support/fixture.h"
 
@@ -29,11 +29,11 @@ struct own_knobs {
     float padding, gain;
 };
 
-/// What hooks were called for, since the last forget_calls().
+/// Calls of the hooks since the last forget_calls().
 static struct {
     unsigned prepared[MATERIALS], forgotten, builds;
     lobe_result failing;          ///< what `prepare` returns instead of preparing
-    unsigned bindings, constants; ///< how many more than it needs `build` adds
+    unsigned bindings, constants; ///< how many more than necessary `build` adds
 } calls;
 
 static void forget_calls(void) {
@@ -84,7 +84,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
 
 static const char *const orders[] = {"rgb", "bgr", NULL};
 
-// All that the knobs need in C: one entry each.
+// Everything that the knobs need in C: one entry each.
 static const filter_knob gain_knob = {
     .description = {.name = "gain", .summary = "factor of the picture", .maximum = 4, .initial = 1},
     .feeds = KNOB_FEEDS_FILTER(own_knobs, gain),
@@ -113,8 +113,8 @@ static const lobe_filter own_filter = {
 // ---------------------------------------------------------------------------------------------
 // Pictures
 
-/// Two squares of a material each, and a third material that no instance uses. Every material has
-/// a normal map that varies, and a base colour map.
+/// Two squares with different materials, and a third material that no instance uses. Every material
+/// has a normal map that varies, and a base colour map.
 static lobe_scene *own_scene(void) {
     lobe_scene *scene = scene_begin();
     for (int i = 0; i < MATERIALS; i++) {
@@ -171,8 +171,8 @@ static void assert_calls(unsigned first, unsigned second, unsigned forgotten) {
     assert_int_equal(calls.forgotten, forgotten);
 }
 
-/// A pixel of the square on the left or on the right is `scale` times its map's mean, whose
-/// channels may be in reverse order.
+/// Asserts that a pixel of the left or right square is `scale` times its map's mean, whose channels
+/// may be reversed.
 static void check_pixel(const lobe_frame *frame, const lobe_scene *scene, int square, double scale,
                         bool reversed) {
     const lobe_image *map = &scene->images[scene->materials[square].base_colour_map.image].image;
@@ -345,7 +345,7 @@ static void no_filter_prepares_for_another(void **state) {
     }
 }
 
-/// A subdivision that the user asks for needs no choice.
+/// A subdivision set by the user needs no choice.
 static void lobes_choose_only_what_nobody_set(void **state) {
     fixture *f = *state;
     lobe_scene *scene = start(f);

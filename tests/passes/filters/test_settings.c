@@ -54,7 +54,7 @@ static void an_unknown_filter_lists_those_there_are(void **state) {
     assert_int_equal(lobe_filter_find("", NULL, &filter), LOBE_ERROR_NOT_FOUND);
 }
 
-/// What the command line, the benchmark and the documentation take from a knob.
+/// The parts of a knob that the command line, the benchmark and the documentation use.
 static void knobs_describe_themselves(void **state) {
     (void)state;
     for (size_t i = 0; i < lobe_filter_count(); i++) {
@@ -86,7 +86,8 @@ static double value_of(const lobe_filter *filter, const lobe_settings *settings,
     return value;
 }
 
-/// Both ends of every range and every choice can be set, are got, and print as they were written.
+/// Both ends of every range and every choice can be set and read back, and print as they were
+/// written.
 static void every_value_goes_in_and_comes_out(void **state) {
     (void)state;
     for (size_t i = 0; i < lobe_filter_count(); i++) {
@@ -115,7 +116,7 @@ static void every_value_goes_in_and_comes_out(void **state) {
     assert_int_equal(messages.errors, 0);
 }
 
-/// A refused assignment: its code, words of its line, and nothing changed.
+/// A rejected assignment: the code, words of the line, and unchanged settings.
 static void check_refusal(const char *filter_name, const char *assignment, lobe_result expected,
                           const char *words) {
     const lobe_filter *filter;
@@ -127,7 +128,7 @@ static void check_refusal(const char *filter_name, const char *assignment, lobe_
     lobe_result result = lobe_settings_set(filter, &settings, assignment, &log_to_messages);
     assert_failure(&messages, result, expected, words);
     assert_memory_equal(&settings, &before, sizeof settings);
-    // Without a log it is the same, silently.
+    // The same without a log, silently.
     assert_int_equal(lobe_settings_set(filter, &settings, assignment, NULL), expected);
 }
 

@@ -88,8 +88,8 @@ static void colours_are_means_of_linear_values(void **state) {
     }
 }
 
-/// One pixel that sees a strip of 8 by 1 texels: a probe a texel gives its mean, one probe alone
-/// blurs across.
+/// One pixel that sees a strip of 8 by 1 texels: one probe per texel gives its mean, a single probe
+/// blurs across it.
 static void probes_follow_the_longer_axis(void **state) {
     fixture *f = *state;
     lobe_scene *scene = scene_begin();

@@ -15,7 +15,7 @@ typedef struct extent {
     uint32_t width, height, layers;
 } extent;
 
-/// Numbers from -1 to 1 as the format holds them, and one that is huge beside them.
+/// Numbers from -1 to 1 in the precision of the format, and a huge one.
 static reference_layers random_layers(extent size, lobe_format format) {
     reference_layers layers = reference_layers_allocate(size.width, size.height, size.layers);
     size_t count = (size_t)4 * size.width * size.height * size.layers;
@@ -75,7 +75,7 @@ static void replace(reference_layers *layers) {
 /// Compares levels `first` to `last` of the chain that starts with `exact`, which is freed.
 static void check_chain(const void *data, reference_layers exact, uint32_t first, uint32_t last,
                         lobe_format format) {
-    // A few roundings a level: of float32, or at the end of each level of float16.
+    // A few roundings per level: of float32, or of float16 at the end of each level.
     double rounding = format == LOBE_FORMAT_RGBA16_FLOAT ? 6e-4 : 4e-7;
     reference_layers bound = magnitudes(&exact);
     size_t index = 0;
@@ -182,12 +182,12 @@ static void a_texture_is_reduced_exactly(void **state) {
         reduce_texture(*state, sizes[i][0], sizes[i][1], LOBE_FORMAT_RGBA32_FLOAT);
 }
 
-/// Three levels a dispatch where the size allows it.
+/// Three levels per dispatch if the size allows it.
 static void dispatches_are_few(void **state) {
     size_t square = reduce_in_place(*state, (extent){1024, 1024, 1}, LOBE_FORMAT_RGBA32_FLOAT);
     assert_in_range(square, 1, 4);
     assert_in_range(reduce_texture(*state, 512, 512, LOBE_FORMAT_RGBA32_FLOAT), 1, 3);
-    // No size takes more than one a level.
+    // No size takes more than one per level.
     assert_in_range(reduce_in_place(*state, (extent){67, 45, 1}, LOBE_FORMAT_RGBA32_FLOAT), 1, 6);
 }
 

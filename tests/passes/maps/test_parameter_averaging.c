@@ -73,7 +73,7 @@ static void odd_sizes_are_averaged_exactly(void **state) {
     }
 }
 
-/// Maps of different sizes, every distribution, and normals spread inside a texel.
+/// Maps of different sizes, every distribution, and normals that vary inside a texel.
 static void widths_are_averaged_as_concentrations(void **state) {
     for (int distribution = 0; distribution < 4; distribution++) {
         lobe_scene *scene = scene_begin();

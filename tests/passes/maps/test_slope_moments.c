@@ -16,11 +16,11 @@
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
-/// The map of a scene's material, read back: layers within levels. The scene is destroyed after.
+/// The map of a scene's material, read back: layers within levels. Destroys the scene afterwards.
 typedef void (*map_check)(const float *texels, const reduced_map *map,
                           const reference_layers *exact, double tolerance);
 
-/// To free by the caller.
+/// The caller frees the result.
 static float *read_map(fixture *f, const reduced_map *map, bool halves) {
     size_t size = 0;
     const void *data = lobe_graph_data(f->graph, map->resource, &size);
@@ -97,8 +97,8 @@ static void widths_are_averaged_as_variances(void **state) {
     }
 }
 
-/// Base lobes that lean away from the normal give their own slopes, the darker the fewer; those
-/// under the horizon count as steep as can be, and a uniform lobe as kappa = 1.
+/// Base lobes tilted away from the normal contribute their own slopes, weighted by brightness;
+/// those below the horizon count as the steepest slope, and a uniform lobe as kappa = 1.
 static void tilted_lobes_give_their_own_slopes(void **state) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 30);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a scene does not need is not in the compiled shader.
+"""Checks that compiled shaders do not contain what a scene does not need.
 
 Compiles the shading pass of each filter as the build does, sets its specialisation constants, lets
 spirv-opt remove what they make unreachable, as a driver would, and counts what is left.
@@ -50,7 +50,7 @@ def compile_shading(folder, name, outputs):
 
 
 def disassembly(folder, name, constants, outputs=False):
-    """The instructions that are left of a filter's shading pass."""
+    """The remaining instructions of a filter's shading pass."""
     module = compile_shading(folder, name, outputs)
     ids = identifiers()
     values = " ".join(f"{ids[key]}:{value}" for key, value in constants.items())

@@ -70,7 +70,7 @@ static void every_knob_draws_at_both_ends(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
-/// Views show possible numbers: whole lobes, levels that the maps have.
+/// Views show plausible numbers: whole lobes, levels that the maps have.
 static void views_show_what_they_say(void **state) {
     fixture *f = *state;
     lobe_scene *scene = both_models();

@@ -20,7 +20,7 @@ enum { EXTENT = 8 };
 // ---------------------------------------------------------------------------------------------
 // All of it
 
-/// Everything a host has of lobe, in the host's memory.
+/// Everything that a host creates with lobe, in the host's memory.
 typedef struct subject {
     counting_allocator counting;
     log_recorder recorder;

@@ -49,7 +49,7 @@ static void there_is_no_scene(void **state) {
     fixture *f = *state;
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     check_render_failure(f, &(lobe_render_parameters){0}, LOBE_ERROR_INVALID_ARGUMENT, "no scene");
-    // Nor is there one after it was removed.
+    // Nor after the scene was removed.
     lobe_scene *scene = small_scene();
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);

@@ -88,8 +88,8 @@ static void features_make_pipelines(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Knobs
 
-/// A textured sphere, and a plane that is seen near and far at once: whatever the bias, some pixel
-/// sees level 0 of the maps.
+/// A textured sphere, and a plane seen both near and far: whatever the bias, some pixel sees level
+/// 0 of the maps.
 static lobe_scene *curved_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material;
@@ -114,15 +114,15 @@ static lobe_scene *curved_scene(void) {
     return scene;
 }
 
-/// A choice that would otherwise suit the material's values; NULL: none.
+/// A choice that would otherwise depend on the material's values; NULL: none.
 static const char *fixed_choice(const char *filter) {
     return strcmp(filter, "moments") == 0 ? "bins=6"
            : strcmp(filter, "lobes") == 0 ? "subdivision=2"
                                           : NULL;
 }
 
-/// Draws with a hundred values of a number over its range; gives how many pictures differ from
-/// the one before.
+/// Draws with a hundred values of a number over its range; returns how many pictures differ from
+/// the previous one.
 static int drag(fixture *f, const char *filter, const lobe_knob *knob) {
     char assignment[64];
     picture_request request = {.filter = filter, .width = 12, .height = 8, .samples = 1};
@@ -153,7 +153,7 @@ static void check_number(fixture *f, const lobe_filter *filter, const filter_kno
     if (faults.pipelines)
         fail_msg("%s: %d pipelines for a hundred values of %s", name, faults.pipelines,
                  knob->description.name);
-    // What C alone reads is of light from an environment, which this scene does not have.
+    // Knobs read only by C concern environment light, which this scene does not have.
     if (knob->feeds.route != KNOB_HOST && different < 5)
         fail_msg("%s: a hundred values of %s make %d different pictures", name,
                  knob->description.name, different + 1);

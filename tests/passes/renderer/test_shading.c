@@ -289,7 +289,7 @@ static void shade_mixture_point(const void *user, const double outgoing[3],
 }
 
 /// A picture of 4x4 pixels of a map of 16x16 texels: level 2 exactly, at its texels' centres.
-/// `settings` say what `knobs` do, but for the subdivision.
+/// `settings` are the same as `knobs`, without the subdivision.
 static void check_mixture(fixture *f, lobe_material material, const char *const settings[5],
                           const refinement_knobs *knobs, const char *what) {
     lobe_scene *scene = scene_begin();
@@ -358,7 +358,7 @@ static void lobes_are_refined_by_algorithm_1(void **state) {
     }
 }
 
-/// Microfacets of any distribution keep its shape as far as normals leave it.
+/// Microfacets of any distribution keep its shape as far as the normals allow.
 static void microfacets_keep_their_shape(void **state) {
     static const char *const names[] = {"GGX", "Beckmann", "Blinn-Phong", "vMF"};
     const char *const settings[5] = {NULL};
@@ -372,7 +372,7 @@ static void microfacets_keep_their_shape(void **state) {
     }
 }
 
-/// Without a mean layer (all lobes alike, along their normals) the result is the same.
+/// Without a mean layer (all lobes equal, along their normals) the result is the same.
 static void one_lobe_along_the_normal_needs_no_mean(void **state) {
     const char *const settings[5] = {"threshold=dispersion", "epsilon0=0.5", NULL};
     refinement_knobs knobs = {2, true, 0.5, 0.85, 0.02};

@@ -12,8 +12,8 @@
 
 static const uint32_t extent = 16;
 
-/// Two squares beside each other, of a material each, whose lobes vary; a third material and a
-/// fourth image that nothing uses yet.
+/// Two adjacent squares with different materials, whose lobes vary; a third material and a fourth
+/// image that nothing uses yet.
 static lobe_scene *changing_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
@@ -125,7 +125,7 @@ static void colours_rebuild_no_lobes(void **state) {
         scene->materials[1].base_colour[2] = 0.25f;
         size_t ran = check_change(f, filters[i], scene,
                                   &(lobe_scene_changes){.materials = both, .material_count = 2});
-        // Moments of a metal's lobes have its colour; nobody else's maps have one.
+        // Only the moments of a metal's lobes include its colour.
         if (i < 3)
             assert_int_equal(ran, 1);
         assert_true(picture_now(f, filters[i]) != before);
@@ -134,7 +134,7 @@ static void colours_rebuild_no_lobes(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// What does
+// What needs a map
 
 static size_t ran_and_skipped(fixture *f, const char *pass, size_t *skipped) {
     const lobe_graph *graph = lobe_renderer_graph(f->renderer);

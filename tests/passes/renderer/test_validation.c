@@ -40,7 +40,7 @@ static void built_in_scenes_are_valid(void **state) {
     }
 }
 
-/// Sizes that are no powers of two, several materials, an atlas, every way to store and subdivide.
+/// Sizes that are not powers of two, several materials, an atlas, every storage and subdivision.
 static lobe_scene *mixed_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);

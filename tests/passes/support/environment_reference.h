@@ -14,7 +14,7 @@ float *environment_texel(const lobe_environment *environment, uint32_t x, uint32
 /// Smooth, with a bright patch, and different in every direction.
 lobe_environment environment_of_patches(uint32_t width, uint32_t height);
 
-/// Makes maps; asserts that it succeeds.
+/// Makes maps; asserts success.
 lobe_environment_maps *make_maps(fixture *f, const lobe_environment *environment, uint32_t size,
                                  bool lobes, bool ggx);
 
@@ -29,7 +29,7 @@ void free_cube(host_cube *cube);
 const float *cube_texel(const host_cube *cube, uint32_t level, int face, int x, int y);
 /// Sum over a level of radiance times solid angle, by channel.
 void cube_energy(const host_cube *cube, uint32_t level, double energy[3]);
-/// What a sampler reads: linear interpolation that goes on across edges; at a corner, where only
+/// What a sampler reads: linear interpolation that continues across edges; at a corner, where only
 /// three texels meet, their mean is the fourth.
 void cube_fetch(const host_cube *cube, uint32_t level, const double direction[3], double value[3]);
 

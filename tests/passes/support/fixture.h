@@ -13,7 +13,7 @@
 #include <lobe/graph.h>
 #include <lobe/renderer.h>
 
-/// What tests of passes share: a device, and a log that remembers.
+/// The fixture of pass tests: a device, and a log that records messages.
 typedef struct fixture {
     lobe_device *device;
     lobe_graph *graph;       ///< for tests that declare passes themselves
@@ -29,7 +29,7 @@ int fixture_destroy(void **state);
 /// The same under the Khronos validation layer.
 int fixture_create_validated(void **state);
 
-/// A device of its own with the fixture's log; asserts that it is made.
+/// A separate device with the fixture's log; asserts success.
 lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters);
 
 void fixture_forget_messages(fixture *f);

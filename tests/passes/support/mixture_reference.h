@@ -6,7 +6,7 @@
 #include "passes/filters/lobes/clustering.h"
 #include "tests/reference/mixture/layers.h"
 
-/// What lobe_clustering computes, in double precision and straight from a material's maps.
+/// What lobe_clustering computes, in double precision and directly from a material's maps.
 
 /// Four channels of a texel, missing ones 0, alpha 1.
 void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]);
@@ -18,7 +18,7 @@ void nearest_texel(const lobe_image *image, const reference_layers *size, uint32
                    double texel[4]);
 
 /// Zeroes for every texel of the lobes' maps: the larger of the normal and the width map, each way.
-/// To free by the caller.
+/// The caller frees the result.
 reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_material *material,
                                       uint32_t layers);
 /// Normal and factor of the width of one of those texels.
@@ -39,8 +39,8 @@ reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material 
 reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
                                                const lobe_material *material);
 
-/// What slope_moments takes of every texel: the layers of shaders/interface/slope_moments.h. To
-/// free by the caller.
+/// The moments that slope_moments computes for every texel: the layers of
+/// shaders/interface/slope_moments.h. To free by the caller.
 reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material);
 
 /// Layer of the reference that a layer of a mixture map holds.

@@ -11,18 +11,18 @@ lobe_settings settings_of(const lobe_filter *filter, const char *const *assignme
 /// A filter by name; asserts that there is one.
 const lobe_filter *filter_named(const char *name);
 
-/// What most tests say about a picture.
+/// The parameters of a picture that most tests need.
 typedef struct picture_request {
     const char *filter;
     const char *settings[8]; ///< assignments, ended by NULL
     uint32_t width, height;
     uint32_t samples;
-    bool outputs; ///< arbitrary output variables too
+    bool outputs; ///< also arbitrary output variables
 } picture_request;
 
-/// Draws the renderer's scene; asserts that it works. To free with lobe_frame_free.
+/// Draws the renderer's scene; asserts success. Free the frame with lobe_frame_free.
 lobe_frame draw(fixture *f, const picture_request *request);
-/// The same for a scene of its own, which the renderer forgets again.
+/// The same for another scene, which is removed from the renderer afterwards.
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request);
 
 /// The channels of a pixel.

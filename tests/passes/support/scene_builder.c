@@ -146,7 +146,7 @@ void scene_look_down(lobe_scene *scene, double height) {
 }
 
 void scene_end(lobe_scene *scene) {
-    // A scene without a light is given some, which no test wants.
+    // A scene without a light would be given one, which no test wants.
     if (scene->light_count == 0 && !scene->environment)
         scene_add_sun(scene, (double[]){0, 1, 0}, 1);
     require(scenes_complete(scene, NULL));

@@ -3,7 +3,7 @@
 
 #include <lobe/scene.h>
 
-/// Small scenes made for one test. All functions abort without memory.
+/// Small scenes made for one test. All functions abort if memory runs out.
 
 /// No light, no camera; destroyed with lobe_scene_destroy.
 lobe_scene *scene_begin(void);
@@ -41,7 +41,7 @@ void scene_surround(lobe_scene *scene, uint32_t height, environment_radiance rad
 void scene_look_down(lobe_scene *scene, double height);
 /// The same from another side: `towards` points from the origin to the viewer.
 void scene_look_from(lobe_scene *scene, const double towards[3], double height);
-/// A square of scene_add_square that is seen near and far at once, under two suns.
+/// A square of scene_add_square seen both near and far, under two suns.
 void scene_look_along(lobe_scene *scene);
 
 /// Sets the bounds; the last step.

@@ -5,13 +5,13 @@
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
-/// A plane of which one pixel sees all texels of a normal map, many times: what a filter makes of
-/// the means of the whole map, from any side and under any light. Directions are in the tangent
-/// frame.
+/// A plane of which one pixel sees all texels of a normal map, many times. Tests how a filter
+/// shades the means of the whole map, from any direction and under any light. Directions are in the
+/// tangent frame.
 
 lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
                                       double metallic);
-/// Normals about one that leans, in a map of 8 x 8 texels.
+/// Normals about a tilted one, in a map of 8 x 8 texels.
 lobe_image slope_plane_leaning_map(uint64_t seed);
 
 void slope_plane_direction(double degrees, double azimuth, double direction[3]);
@@ -26,7 +26,7 @@ void slope_plane_add_sun(lobe_scene *scene, const double incoming[3], double int
 void slope_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
                       float colour[3]);
 
-/// The part of light from everywhere that comes back towards the viewer, `degrees` from upright.
+/// The fraction of uniform light that is reflected to the viewer, who is `degrees` from upright.
 double slope_plane_furnace(fixture *f, const lobe_material *material, const lobe_image *normals,
                            const char *filter, const char *setting, double degrees);
 

@@ -8,7 +8,7 @@
 double reference_box_weight(uint32_t i, uint32_t size, uint32_t j);
 
 /// The next MIP level: each dimension of n texels becomes max(1, floor(n / 2)), each target texel
-/// the mean of the source under its own area. To free by the caller.
+/// the mean of the source under its own area. The caller frees the result.
 reference_layers reference_reduce(const reference_layers *source);
 
 /// The mean of each layer over the whole image, straight from its texels: what every chain of

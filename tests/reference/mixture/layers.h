@@ -3,13 +3,13 @@
 
 #include <stdint.h>
 
-/// An array of images of four doubles a texel, for what the device keeps in texture arrays.
+/// An array of images of four doubles per texel, for data that the device keeps in texture arrays.
 typedef struct reference_layers {
     uint32_t width, height, layers;
     double *texels; ///< [layer][row][column][channel]
 } reference_layers;
 
-/// Zeroes. Aborts without memory: these are tests.
+/// Zeroes. Aborts if memory runs out.
 reference_layers reference_layers_allocate(uint32_t width, uint32_t height, uint32_t layers);
 void reference_layers_free(reference_layers *layers);
 

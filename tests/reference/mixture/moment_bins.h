@@ -9,7 +9,7 @@
 /// Moments of lobes by bins in double precision; see shaders/filters/moments/binning.comp and
 /// shaders/lib/lobe/bin_membership.glsl.
 
-/// How lobes are shared out, and what their moments are divided by.
+/// How lobes are assigned to bins, and the divisors of their moments.
 typedef struct reference_moment_bins {
     uint32_t kind; ///< PARTITION_...
     uint32_t bins;
@@ -35,7 +35,7 @@ double reference_bin_likelihood(const struct moment_bin *bin, const double place
 double reference_hat(double widths);
 double reference_cap(const double widths[2]);
 
-/// What each bin gets of a lobe, [0, 1]; all of it together.
+/// The share of a lobe that each bin gets, [0, 1]; the shares add up to one.
 void reference_bin_members(const reference_moment_bins *partition, const reference_plane_lobe *lobe,
                            double members[MOMENT_MAXIMUM_BINS]);
 void reference_add_plane_lobe(const reference_moment_bins *partition,

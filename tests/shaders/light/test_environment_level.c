@@ -20,7 +20,7 @@ static double clamped(double value, double high) {
     return fmin(fmax(value, 0), high);
 }
 
-/// A texel of the level covers as much of the sphere, on average, as is asked for.
+/// A texel of the level covers, on average, the requested solid angle.
 static void test_solid_angle(void **state) {
     for (size_t i = 0; i < COUNT; i++)
         arguments[i] = (harness_arguments){
@@ -100,7 +100,8 @@ static void test_best_blend(void **state) {
     report_worst_error("sharper_share");
 }
 
-/// Each level is chosen for its own concentration, and what is in between lies in between.
+/// Each level is chosen for its own concentration, and concentrations in between give levels in
+/// between.
 static void test_prefiltered_level(void **state) {
     const double width = 256;
     for (size_t i = 0; i < COUNT; i++)
@@ -130,7 +131,7 @@ static double concentration_of(double width, double level) {
     return texels > 1.5 ? texels * texels / 16 : 0;
 }
 
-/// Relative L2 distance of a blend from the lobe that it stands for.
+/// Relative L2 distance of a blend from the lobe that it approximates.
 static double relative_error(double share, double first, double second, double lobe) {
     const float lobes[3] = {(float)first, (float)second, (float)lobe};
     const float nothing[3] = {0, 0, (float)lobe};

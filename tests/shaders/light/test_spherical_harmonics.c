@@ -105,7 +105,7 @@ static void test_never_negative(void **state) {
         check_close("harmonic_irradiance", &arguments[i], results[i].value[0], fmax(sum, 0), 1e-6);
     }
     assert_true(negative > COUNT / 10);
-    // What the shader says of it.
+    // The bound stated in the shader.
     assert_true(fabs(least + 0.04) < 0.001);
 }
 

@@ -1,5 +1,5 @@
 // shaders/lib/lobe/normal_variance.glsl against its double-precision twin, and against what it
-// stands for: Toksvig's formula, and the product of mean resultant lengths.
+// approximates: Toksvig's formula, and the product of mean resultant lengths.
 
 #include <math.h>
 #include <stdbool.h>

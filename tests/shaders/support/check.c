@@ -4,7 +4,7 @@
 
 #include "tests/engine/support/cmocka_all.h"
 
-// Of what was checked since the last report, the nearest to failing.
+// The check closest to failing since the last report.
 static double worst, worst_actual, worst_expected;
 
 void check_close(const char *function, const harness_arguments *arguments, double actual,

@@ -3,7 +3,7 @@
 
 #include "tests/shaders/support/harness.h"
 
-/// Half a unit in the last place of float32, relative: what one rounding may cost.
+/// Half a unit in the last place of float32, relative: the error of one rounding.
 #define FLOAT_ROUNDING 0x1p-24
 
 /// Smallest normal float32: below it a device may flush to zero.
@@ -18,7 +18,7 @@ void check_close(const char *function, const harness_arguments *arguments, doubl
 void check_relative(const char *function, const harness_arguments *arguments, double actual,
                     double expected, double bound);
 
-/// Prints the worst error since the last report as a share of what was allowed.
+/// Prints the worst error since the last report, relative to the allowed one.
 void report_worst_error(const char *function);
 
 #endif

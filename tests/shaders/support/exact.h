@@ -3,7 +3,7 @@
 
 #include "tests/shaders/support/real.h"
 
-/// What several tests compare with, in 256 bits. Directions are floats, taken as they are and made
+/// Exact values for several tests, in 256 bits. Directions are floats, taken as they are and made
 /// unit length.
 
 /// 1 - R(kappa) = 1 - coth kappa + 1/kappa, for kappa >= 0.

@@ -4,10 +4,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Runs functions of shaders/lib on the device and brings their values back. The set-up and
-/// tear-down are those of a cmocka group; the device is kept in its state.
+/// Runs functions of shaders/lib on the device and returns their values. The set-up and tear-down
+/// are those of a cmocka group; the device is kept in its state.
 
-/// Arguments of one call; what they mean is up to the shader.
+/// Arguments of one call; the shader defines their meaning.
 typedef struct harness_arguments {
     float a[4], b[4], c[4];
 } harness_arguments;
@@ -20,8 +20,8 @@ typedef struct harness_result {
 int harness_set_up(void **state);
 int harness_tear_down(void **state);
 
-/// Calls function number `function` of tests/shaders/`shader` `count` times. Fails the test where
-/// the device does.
+/// Calls function number `function` of tests/shaders/`shader` `count` times. Fails the test if the
+/// device fails.
 void harness_evaluate(void **state, const char *shader, uint32_t function,
                       const harness_arguments *arguments, size_t count, harness_result *results);
 

@@ -1,5 +1,5 @@
-"""The Debian packages, unpacked: what they hold and depend on, whether the program renders, and
-whether an example is built with them and runs. tools/package runs it: it takes a build of its own.
+"""The Debian packages, unpacked: their contents and dependencies, whether the program renders, and
+whether an example builds with them and runs. tools/package runs it, because it needs its own build.
 
 Usage: packages.py PROGRAM ROOT FOLDER; the packages are in FOLDER, unpacked in FOLDER/unpacked"""
 

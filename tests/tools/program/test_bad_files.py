@@ -1,6 +1,6 @@
-"""Damaged, odd and hostile scene files: rendered, or refused with one line and exit status 1.
-Files that an attacker or a buggy exporter could write are made here; more are taken from
-../shared/assets/bad/gltf where that is there."""
+"""Damaged, odd and hostile scene files: rendered, or rejected with one line and exit status 1.
+Files that an attacker or a buggy exporter could write are created here; more come from
+../shared/assets/bad/gltf if that exists."""
 
 import copy
 import json
@@ -27,7 +27,7 @@ def refuses(name, content, says=()):
 
 
 def changed(change):
-    """The triangle with something done to it."""
+    """A modified triangle."""
     document = copy.deepcopy(gltf_triangle())
     change(document)
     return document
@@ -135,7 +135,7 @@ def test_missing_buffer_and_image():
 
 
 def render(name, document):
-    """Renders a document that is odd, but that need not be refused."""
+    """Renders a document that is odd but need not be rejected."""
     folder = fresh_folder("odd")
     gltf_write(folder / name, document)
     result = lobe("render", folder / name, *OPTIONS, "-o", folder / "a.exr")
@@ -145,7 +145,7 @@ def render(name, document):
 
 
 def check_outcome(result, output):
-    """Either a picture and no complaint, or one line and no picture."""
+    """Either a picture and no error, or one line and no picture."""
     check(result.returncode in (0, 1), report(result))
     check("Sanitizer" not in result.stderr and "runtime error" not in result.stderr,
           report(result))

@@ -90,7 +90,7 @@ def test_what_is_measured_makes_sense():
 
 
 def test_two_truths():
-    # The base lobes of bumps are GGX, those of the tablecloth are von Mises-Fisher lobes already.
+    # The base lobes of bumps are GGX; those of the tablecloth are already von Mises-Fisher lobes.
     _, bench = measure(fresh_folder("truths"), "bumps", "tablecloth", "--filters", "direct", *QUICK)
     bumps, cloth = bench["results"]
     check(bumps["error"] != bumps["error_lobe_base"], "one truth, not two")

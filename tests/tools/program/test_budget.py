@@ -1,4 +1,4 @@
-"""How `lobe render --budget` and `--error` pick filter and knobs."""
+"""How `lobe render --budget` and `--error` pick filters and knobs."""
 
 import copy
 import json
@@ -13,7 +13,7 @@ from program import (FOLDER, check, error_lines, fails, fresh_folder, is_wrong_u
 SIZE = "32x18"
 SCENE = ["checkerboard", "--size", SIZE]
 
-# Milliseconds, a quarter of which builds, and errors that the stored sweep is made to hold.
+# Milliseconds, a quarter of which is building, and errors for the stored sweep.
 FIGURES = {
     ("direct", ""): (10, 0.9),
     ("mipmap", ""): (20, 0.5),
@@ -27,7 +27,7 @@ _measured = []
 
 
 def measured():
-    """What `lobe bench --sweep` writes, measured once for all cases."""
+    """The output of `lobe bench --sweep`, measured once for all cases."""
     if not _measured:
         path = FOLDER / "measured.json"
         succeeds("bench", "checkerboard", "nosuch.gltf", "--sweep", "--filters",
@@ -44,7 +44,7 @@ def key_of(row):
 
 
 def with_figures():
-    """The same with figures that are known."""
+    """The same with known figures."""
     results = measured()
     check(set(FIGURES) < {key_of(row) for row in results["rows"]}, "rows are missing")
     for row in results["rows"]:
@@ -64,7 +64,8 @@ def stored(name, results=None):
 
 
 def picks(folder, *arguments, says=(), knobs=(), filter_name):
-    """The picture is rendered with that filter and those knobs. Returns what was said of it."""
+    """The picture is rendered with that filter and those knobs. Returns what was printed about
+    it."""
     result = succeeds("render", *arguments, "-o", folder / "a.exr")
     check(error_lines(result) == [], report(result))
     header = exr_header(folder / "a.exr")
@@ -82,7 +83,7 @@ def picks(folder, *arguments, says=(), knobs=(), filter_name):
 
 def test_the_least_error_within_a_budget():
     folder, path = stored("least_error")
-    choices = len(measured()["rows"]) - 1  # the reference is none
+    choices = len(measured()["rows"]) - 1  # the reference is not a choice
     picks(folder, *SCENE, "--sweep", path, "--budget", "20", filter_name="mipmap",
           knobs=[("probes", 1), ("storage", "float32")],
           says=["picked mipmap: 20.0 ms with maps rebuilt, relative L2 0.500",
@@ -219,7 +220,7 @@ def test_a_calibration_measures_what_is_drawn():
     folder = fresh_folder("calibrated")
     (folder / "maps").mkdir()
     (folder / "out").mkdir()
-    # Stripes that lean to the left and right: to average them is wrong.
+    # Stripes that lean to the left and right: averaging them is wrong.
     png_draw(folder / "maps" / "a_normal.png", 128, 128,
              lambda x, y: (218 if x % 2 else 38, 128, 218))
     png_draw(folder / "maps" / "a_rough.png", 128, 128, lambda x, y: (60, 60, 60))

@@ -1,5 +1,5 @@
-"""What shells offer to who types a command line of `lobe`: subcommands, options, and the names of
-filters, knobs, scenes and files."""
+"""Shell completion of `lobe`: subcommands, options, and the names of filters, knobs, scenes and
+files."""
 
 import os
 import pty
@@ -18,7 +18,7 @@ _lobe
 printf '%s\\n' "${COMPREPLY[@]}"
 """
 
-# Writes what is offered into a file, and "." when a line is done with and forgotten.
+# Writes the completions to a file, and "." after each line.
 ZSH = """
 fpath=($PWD/zsh $fpath)
 autoload -Uz compinit
@@ -55,7 +55,7 @@ def run(*command, cwd=FOLDER):
 
 
 def offers(line, **keywords):
-    """What bash would put in for the last word of a line."""
+    """Bash's completions of the last word of a line."""
     words = run("bash", "--norc", "-c", BASH, "bash", script("bash"), line, **keywords)
     return {word for word in words if word}
 
@@ -66,7 +66,7 @@ def filters():
 
 
 def knobs():
-    """The choices of all knobs by name; none where it is a number."""
+    """The choices of all knobs by name; none for numbers."""
     found = {}
     for line in succeeds("filters").stdout.splitlines():
         words = line.split()
@@ -141,7 +141,7 @@ def test_fish():
 
 
 class Zsh:
-    """A shell at a terminal, at which keys are pressed."""
+    """A shell in a terminal that receives key presses."""
 
     def __init__(self):
         self.folder = fresh_folder("zsh")
@@ -159,12 +159,12 @@ class Zsh:
         self.press("source ./start\n")
 
     def press(self, keys):
-        """Returns the words that were offered, once all has come of the keys."""
+        """Returns the completions once all keys have been processed."""
         os.write(self.terminal, keys.encode())
         for _ in range(1000):
             time.sleep(0.01)
             try:
-                os.read(self.terminal, 65536)  # a full terminal would hold the shell up
+                os.read(self.terminal, 65536)  # a full terminal buffer would block the shell
             except BlockingIOError:
                 pass
             if self.offered.exists() and self.offered.read_text().endswith(".\n"):

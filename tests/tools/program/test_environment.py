@@ -10,7 +10,7 @@ DIRECT = ["--filter", "direct", "--set", "env_size=16", *SMALL]
 
 
 def write_hdr(path, width=8, height=4, texel=(128, 128, 128, 129)):
-    """A Radiance picture of one colour, not packed."""
+    """A Radiance picture of one colour, uncompressed."""
     path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" +
                      f"-Y {height} +X {width}\n".encode() + bytes(texel) * (width * height))
     return path
@@ -78,7 +78,7 @@ def test_what_is_no_environment():
 
 
 def test_filtered_light_is_kept_for_the_next_time():
-    """What `lobe environment` has prepared serves the renderer, and what that adds is the same."""
+    """The renderer uses what `lobe environment` has cached, and adds the same files itself."""
     folder = fresh_folder("kept")
     user = fresh_folder("kept-user")
     light = write_hdr(folder / "light.hdr", 32, 16, (90, 200, 150, 129))

@@ -1,4 +1,4 @@
-"""`lobe environment`: prepares light from all around, writes and keeps it, and checks it."""
+"""`lobe environment`: prepares environment light, writes and caches it, and checks it."""
 
 import json
 import math
@@ -89,7 +89,7 @@ def test_check():
     for (_, kappa, method), row in rows.items():
         check(row["ms"] > 0 and math.isfinite(row["relative_l2"]), f"{row}")
         check(("samples" in row) == method.startswith("sampled"), f"{row}")
-        # Lobes sharper than a texel see single texels, which no interpolation shows as squares.
+        # Lobes sharper than a texel see single texels as squares, which interpolation cannot show.
         if method in ("prefiltered", "blended") and kappa <= 256:
             check(row["relative_l2"] <= 0.01, f"{row}")
             check(row["relative_l2"] <= rows[32, kappa, "mip"]["relative_l2"] / 2, f"{row}")
@@ -107,7 +107,7 @@ def test_even_light_is_kept_by_every_method():
     succeeds("environment", folder / "even.exr", "--face", "32", "--check", "--directions", "64",
              "--json", folder / "even.json")
     for row in json.loads((folder / "even.json").read_text())["results"]:
-        # Of sharper lobes the sum over so few texels is itself no integral any more.
+        # For sharper lobes the sum over so few texels is no longer an integral.
         check(row["kappa"] > 256 or row["relative_l2"] <= 1e-3, f"{row}")
 
 

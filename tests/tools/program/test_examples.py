@@ -1,4 +1,4 @@
-"""Runs the programs of tools/examples, which use the library as others do."""
+"""Runs the programs of tools/examples, which use only the public library."""
 
 import json
 import os
@@ -36,7 +36,7 @@ def difference(one, other):
 
 
 def is_silent(result):
-    """The validation layer was there and had nothing to say."""
+    """The validation layer was present and reported nothing."""
     check("VK_LAYER_KHRONOS_validation" in result.stderr, report(result))
     check("alidation Error" not in result.stdout + result.stderr, report(result))
 
@@ -68,7 +68,7 @@ def test_offscreen_animation_writes_frames():
     result = runs("offscreen_animation", "checkerboard", ".", 3, 48, 32, **VALIDATED)
     is_silent(result)
     passes = [int(number) for number in re.findall(r"(\d+) passes", result.stdout)]
-    # The roughness of the one material is in its maps of lobes; maps of colours stay as they are.
+    # The material's roughness is in its maps of lobes; colour maps are unchanged.
     check(len(passes) == 3 and passes[1] == passes[2] <= passes[0], report(result))
     memory = re.search(r"memory: (\d+) bytes at most, (\d+) are left", result.stdout)
     check(memory and int(memory[1]) > 100000 and int(memory[2]) == 0, report(result))

@@ -43,7 +43,7 @@ def test_output_that_is_a_folder():
 
 
 def test_output_in_a_folder_that_takes_no_files():
-    # Not even root may make files there.
+    # Not even root can create files there.
     fails("render", "bumps", *DIRECT, "-o", "/proc/a.exr", says="/proc/a.exr")
     fails("bench", "bumps", "--json", "/proc/a.json", says="/proc/a.json")
 
@@ -54,7 +54,7 @@ def test_output_with_too_long_a_name():
 
 
 def test_unwritable_output_is_told_before_work():
-    # A scene that does not exist would be the next error.
+    # The missing scene would be the next error.
     fails("render", "no-such-scene", *DIRECT, "-o", "none/a.exr", says="none/a.exr")
     fails("bench", "no-such-scene", "--json", "none/a.json", says="none/a.json")
 

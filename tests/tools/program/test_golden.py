@@ -1,7 +1,7 @@
-"""Pictures of the built-in scenes as they were when last looked at, in tests/golden. Drivers round
-differently: the pictures are lavapipe's, of the Mesa version in tests/golden/driver.txt, and are
-compared nowhere else. After a change that is meant, look at the new pictures, then
-`test_golden.py PROGRAM ROOT --write` replaces the old."""
+"""Compares pictures of the known scenes with the approved ones in tests/golden. Drivers round
+differently: the pictures are lavapipe's, with the Mesa version in tests/golden/driver.txt, and are
+compared only there. After an intended change, look at the new pictures, then replace the old ones
+with `test_golden.py PROGRAM ROOT --write`."""
 
 import json
 import sys

@@ -73,7 +73,7 @@ def installed(pattern):
 
 
 def flags(folder, *options):
-    """What pkg-config says of the library installed under another root."""
+    """The output of pkg-config for the library installed under another root."""
     package = next(folder.rglob("lobe.pc"))
     return run(["pkg-config", *options, "lobe"], PKG_CONFIG_PATH=str(package.parent),
                PKG_CONFIG_SYSROOT_DIR=str(folder)).split()
@@ -126,7 +126,7 @@ def test_installed_program_runs():
 
 
 def test_installed_program_draws_reports():
-    """By the script that was installed with it, wherever both are."""
+    """Uses the script that was installed with it, wherever both are."""
     moved = FOLDER / "moved"
     shutil.copytree(TARGET, moved, symlinks=True)
     results = FOLDER / "results.json"
@@ -183,7 +183,7 @@ def test_programs_of_the_document_on_embedding():
 
 
 def test_examples():
-    """What the program itself calls of Vulkan it links itself."""
+    """The program itself links the Vulkan functions that it calls."""
     examples = ROOT / "tools" / "examples"
     for source in sorted(examples.glob("*.c")):
         run([*C_COMPILER, "-std=c17", "-Wall", "-Wextra", "-Werror", source, "-o",
@@ -199,7 +199,7 @@ def test_program_in_c_linked_statically():
     run([*C_COMPILER, "-std=c17", FOLDER / "embed.c", "-o", FOLDER / "embed-static",
          *flags(static, "--static", "--cflags", "--libs")])
     run([FOLDER / "embed-static"])
-    # A function that is called as one of ours, and a file that C++ code finds fault with.
+    # A function with the name of one of ours, and a file that makes C++ code report an error.
     (FOLDER / "names.c").write_text(STATIC_PROGRAM)
     (FOLDER / "broken.gltf").write_text('{"asset": {"version": "2.0"}, "nodes": [{"name": "\\ud800')
     run([*C_COMPILER, "-std=c17", FOLDER / "names.c", "-o", FOLDER / "names",
@@ -208,7 +208,7 @@ def test_program_in_c_linked_statically():
 
 
 def test_hosts_with_vulkan_of_their_own():
-    """Shared and static, beside libvulkan and beside a volk; and neither is asked for by lobe."""
+    """Shared and static, beside libvulkan and beside a volk; lobe requires neither."""
     source = ROOT / "tests/engine/device/vulkan_host.c"
     static = FOLDER / "static"
     check("-lvulkan" not in flags(static, "--static", "--libs"), "lobe asks for libvulkan")

@@ -1,5 +1,5 @@
 """The manual pages that `lobe` prints from its own tables: one for the program and for each
-subcommand, complete, and free of faults."""
+subcommand, complete, and without errors."""
 
 import re
 import shutil
@@ -11,7 +11,7 @@ from program import FOLDER, check, is_wrong_usage, report, succeeds
 
 
 def subcommands():
-    """Those that the help lists."""
+    """The subcommands that the help lists."""
     text = succeeds("--help").stdout
     return re.findall(r"^  (\w+) ", text[text.index("Subcommands:"):], re.MULTILINE)
 
@@ -28,7 +28,7 @@ def pages():
 
 
 def shown(path):
-    """The page as it is read, in one line."""
+    """The rendered page, in one line."""
     result = subprocess.run(["man", "-l", path], text=True, capture_output=True, check=False,
                             env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8", "MANWIDTH": "1000",
                                  "MANOPT": "--no-hyphenation --no-justification"})
@@ -64,7 +64,8 @@ def test_pages_are_shown_as_meant():
                   "[1, 4096] (default 64)", "half, float (default half)", "see 'lobe filters'"):
         check(words in render, f"no '{words}' in {render}")
     check("mean of (a - b)^2 / (b^2 + 0.01)" in compare, compare)
-    check("epsilon0 0.95 [0, 1] below it one lobe becomes four" in shown(page("filters")), "knobs")
+    check("epsilon0 0.95 [0, 1] below this, one lobe becomes four" in shown(page("filters")),
+          "knobs")
     check("tablecloth a draped cloth" in shown(page("scenes")), "scenes")
     return None
 

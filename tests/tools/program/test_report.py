@@ -1,4 +1,4 @@
-"""What `lobe report` draws of a sweep, and how a browser shows it."""
+"""What `lobe report` draws from a sweep, and how a browser shows it."""
 
 import base64
 import copy
@@ -24,7 +24,7 @@ FILTERS = ("direct", "mipmap", "lobes", "moments", "reference")
 GREY = {"direct": 0.5, "mipmap": 0.4, "lobes": 0.3, "moments": 0.22, "reference": 0.201}
 TRUTH = 0.2
 MILLISECONDS = {"direct": 100, "mipmap": 130, "lobes": 310, "moments": 290, "reference": 12000}
-# Ratios of moments and another filter, as tools/targets hands them over.
+# Ratios of moments to another filter, in the form that tools/targets writes.
 TARGETS = [
     {"name": f"{measure}({a}) / {measure}({b})", "measure": kind, "scene": scene, "filter": a,
      "base": b, "limit": limit, "at_least": a == "reference"}
@@ -88,7 +88,7 @@ def make_results():
 
 
 def make_sweep(name, results=None):
-    """A folder with a sweep as the benchmark leaves it. Returns the file of results."""
+    """A folder with a sweep as the benchmark writes it. Returns the file of results."""
     folder = fresh_folder(name)
     (folder / "pictures").mkdir()
     for picture, grey in {**GREY, "truth": TRUTH}.items():
@@ -348,7 +348,7 @@ def test_what_was_not_measured_is_a_dash():
 
 
 def test_hostile_results_make_a_page_or_a_line():
-    """Values that a reader in another language would take in another way."""
+    """Values that a parser in another language would read differently."""
     for change in ({"device": "\x00\x1b[31m\x85<script>"}, {"scenes": make_results()["scenes"] * 2},
                    {"rows": make_results()["rows"] * 2}):
         make_report("hostile", {**make_results(), **change})
@@ -478,7 +478,7 @@ def test_what_draws_it_may_be_missing():
 
 
 def test_a_virtual_environment_comes_first():
-    """Packages of the system are not in it."""
+    """It does not contain the system's packages."""
     folder = fresh_folder("first")
     (folder / "bin").mkdir()
     (folder / "bin/python3").symlink_to("/usr/bin/python3")
@@ -561,7 +561,8 @@ def test_a_browser_shows_it():
         FOLDER / "shown/report/index.html", 1200, 5200, 0.5)
     check(messages == [], "\n".join(messages))
     check((width, height) == (600, 2600), f"{width}x{height}")
-    # The page's ground, text, the pictures of a filter in two scenes, and fills of bars.
+    # The page's background, text, the pictures of a filter in two scenes, and the bars' fill
+    # colours.
     check(count_near(pixels, (255, 255, 255)) > 0.5 * len(pixels), "no white")
     check(count_near(pixels, (27, 27, 27), 40) > 2000, "no text")
     check(count_near(pixels, (srgb(0.3),) * 3, 0) > 10000, "no pictures")

@@ -1,5 +1,5 @@
-"""The scripts around the program: set-up with packages that are missing, and the count of test
-cases. Nothing is installed: the commands they call are stand-ins that write down their arguments."""
+"""The scripts around the program: set-up with missing packages, and the count of test cases.
+Nothing is installed: the commands they call are stand-ins that record their arguments."""
 
 import json
 import os
@@ -17,8 +17,8 @@ echo "$(basename "$0") $*" >> "$CALLS"
 
 
 def set_up(folder, installed, fails="", arguments=("build",)):
-    """Runs a copy of tools/setup where only the packages `installed` are there, and the command
-    `fails` fails. Returns the result and the calls of other programs."""
+    """Runs a copy of tools/setup with only the packages `installed` present; the command `fails`
+    fails. Returns the result and the calls of other programs."""
     commands, calls = folder / "commands", folder / "calls"
     commands.mkdir()
     calls.touch()
@@ -75,7 +75,7 @@ def test_debian_packages_are_built_with_what_setup_installs():
     setup = (ROOT / "tools/setup").read_text()
     listed = setup[setup.index("packages=("):setup.index("# to test")].splitlines()[1:]
     words = {word for line in listed if "#" not in line for word in line.split()}
-    # There on every machine that builds packages, or only for running.
+    # Present on every machine that builds packages, or only needed for running.
     words -= {"gcc", "g++", "libc6-dev", "ninja-build", "mesa-vulkan-drivers",
               "vulkan-validationlayers", "python3-matplotlib", "python3-jinja2"}
     control = (ROOT / "tools/debian/control").read_text()

@@ -1,4 +1,4 @@
-"""What `lobe bench --sweep` measures and writes, and how it stops and goes on."""
+"""What `lobe bench --sweep` measures and writes, and how it stops and resumes."""
 
 import json
 import os
@@ -32,7 +32,7 @@ def settings_of(row):
 
 
 def without_times(row):
-    """All that must be the same in every run."""
+    """Everything that must be the same in every run."""
     kept = {name: value for name, value in row.items() if name not in TIMES}
     kept["passes"] = [{name: value for name, value in one.items() if "milliseconds" not in name}
                       for one in row["passes"]]
@@ -201,7 +201,7 @@ LIT = ["--filters", "direct", "--no-lights", "--set", "env_size=16", "--stations
 
 
 def write_hdr(path, texel):
-    """A Radiance picture of one colour with a brighter texel, not packed."""
+    """A Radiance picture of one colour with a brighter texel, uncompressed."""
     path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" +
                      bytes(texel) * 8 + bytes([*texel[:3], 132]) + bytes(texel) * 23)
     return path
@@ -237,7 +237,7 @@ def test_every_scene_is_measured_in_every_environment():
     for scene, environment in zip(results["scenes"], [*map(str, maps), None], strict=True):
         check((scene["scene"], scene["environment"], scene["lighting"]) ==
               ("bumps", environment, "no lights"), str(scene))
-        # Without an environment nothing is left to chance.
+        # Without an environment nothing is random.
         check((scene["noise"] is None) == (environment is None), str(scene))
         if environment:
             check(0 < scene["noise"] < 1, str(scene))
@@ -327,7 +327,7 @@ def start(*arguments):
 
 
 def interrupt_at(words, *arguments):
-    """Sends Ctrl-C when a line with these words appears. All that it said on standard error."""
+    """Sends Ctrl-C when a line with these words appears. Returns all of standard error."""
     with start(*arguments) as process:
         said = []
         for line in process.stderr:

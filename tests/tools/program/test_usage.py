@@ -1,4 +1,4 @@
-"""What `lobe` says about itself, and how it takes wrong usage: one line, exit status 2."""
+"""What `lobe` says about itself, and how it handles wrong usage: one line, exit status 2."""
 
 import sys
 

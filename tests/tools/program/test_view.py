@@ -1,4 +1,4 @@
-"""`lobe view` in a window: keys and mouse do what they say, and between events it sleeps."""
+"""`lobe view` in a window: keys and mouse work as documented, and it sleeps between events."""
 
 import json
 import shutil
@@ -22,7 +22,7 @@ OUT_OF_DATE, SURFACE_LOST = -1000001004, -1000000000
 
 
 def missing():
-    """Why there can be no window; None where there can."""
+    """Why there can be no window; None if there can."""
     for name in ("Xvfb", "xdotool"):
         if not shutil.which(name):
             return f"{name} is not installed"
@@ -63,7 +63,7 @@ def part_that_differs(one, other):
 
 
 def png_rows(path):
-    """A PNG as it would be seen: rows of B, G, R and another byte."""
+    """A PNG as it would be displayed: rows of B, G, R and another byte."""
     width, height, pixels = png_read(path)
     row_of = lambda y: pixels[y * width:(y + 1) * width]
     return [b"".join(bytes((*pixel[::-1], 0)) for pixel in row_of(y)) for y in range(height)]
@@ -81,7 +81,7 @@ def is_off(test, reference):
 
 
 def changes(*events):
-    """What is seen before the events and after; they must differ visibly."""
+    """The screen before and after the events; they must differ visibly."""
     before = seen()
     window().do(*events)
     after = seen()
@@ -268,7 +268,7 @@ def test_panel_takes_the_mouse():
         return missing()
     before = seen()
     window().do("key", "Tab")
-    # Down the choice of what is shown, to "normal".
+    # Moves down the list of outputs to "normal".
     changes("mousemove", 200, 64, "click", 1)
     window().do("mousemove", 150, 99)
     window().do("click", 1)
@@ -329,8 +329,8 @@ def colours():
 
 
 def test_monitors_of_other_dots():
-    """On one of twice the dots panels are twice as wide. The window may count in units of its own,
-    of which a pixel is a part: the mouse is where it is seen."""
+    """On a monitor with twice the resolution, panels are twice as wide. The window may use units
+    larger than pixels: the mouse position is still right."""
     if missing():
         return missing()
     plain = seen(640, 480)
@@ -346,7 +346,7 @@ def test_monitors_of_other_dots():
     for choice in (410, 394):
         window().do("mousemove", 200, 371, "click", 1)
         window().do("mousemove", 150, choice, "click", 1)
-        window().do("mousemove", 600, 100)  # nothing is explained then
+        window().do("mousemove", 600, 100)  # no explanation then
         expected = 1 if choice == 410 else len(radiance)
         check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
     window().meets("unit 1", "mousemove", 630, 470)
@@ -383,7 +383,7 @@ def test_surface_and_device_may_be_lost():
 
 
 def looks_rendered(*options):
-    """Whether the window shows what `lobe render` draws of something else."""
+    """Whether the window shows the same as `lobe render` with other arguments."""
     picture = STATE["folder"] / "dropped.png"
     succeeds("render", *options, "--size", TEXT, "--set", "env_size=16", "-o", picture)
     difference = largest_difference(seen(), png_rows(picture))
@@ -432,7 +432,7 @@ def test_closes():
 
 
 def save(name, old, new):
-    """Changes a shader in one stroke, as editors do."""
+    """Replaces a shader atomically, as editors do."""
     text = (SHADERS / name).read_text()
     check(text.count(old) == 1, f"{name}: '{old}' is not there once")
     (SHADERS / "saved").write_text(text.replace(old, new))
@@ -440,7 +440,7 @@ def save(name, old, new):
 
 
 def comes(condition):
-    """Whether it does within a minute."""
+    """Whether it does so within a minute."""
     for _ in range(600):
         if condition():
             return True

@@ -1,4 +1,4 @@
-// Preloaded into `lobe view`: makes Vulkan fail, and monitors change, as told by the file that
+// Preloaded into `lobe view`: makes Vulkan fail, and monitors change, as specified by the file that
 // LOBE_TEST_FAULT names. Its lines are executed in order and removed: "FUNCTION CODE" makes the
 // next call of a function return that VkResult, "scale NUMBER" sets the scale of the window's
 // content from then on, "unit NUMBER" the number of pixels of the window's unit. A device or a
@@ -38,7 +38,7 @@ static void take_line(const char *path, FILE *file) {
     fclose(shorter);
 }
 
-/// The number in the file's first line if that begins with this name; otherwise false.
+/// The number in the file's first line if it begins with this name; otherwise false.
 static bool is_told(const char *name, double *number) {
     const char *path = getenv("LOBE_TEST_FAULT");
     FILE *file = path ? fopen(path, "r") : NULL;

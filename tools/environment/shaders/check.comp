@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// What von Mises-Fisher lobes about many directions see of an environment, by one of the methods
-// that are fast enough for pictures.
+// The light that von Mises-Fisher lobes about many directions receive from an environment, by one
+// of the methods that are fast enough for rendering.
 
 #include "check.h"
 #include "lib/number/constants.glsl"
@@ -40,9 +40,9 @@ vec3 von_mises_fisher_sample(vec2 point, float kappa) {
 }
 
 // Krivanek, Colbert, 2008, Real-time Shading with Filtered Importance Sampling: samples distributed
-// as the lobe, each read where texels cover what it stands for of the sphere, 1/(N p). Without their
-// factor K = 4 to that, which trades noise for blur: it doubles the error of lobes from kappa = 64
-// on, and gains at 1 alone.
+// as the lobe, each read from the level whose texels cover the solid angle that it represents, 1/(N
+// p). Without the paper's additional factor K = 4, which trades noise for blur: it doubles the
+// error of lobes from kappa = 64 on, and helps only at 1.
 vec3 sampled_light(vec3 direction) {
     mat3 frame = tangent_frame(direction, vec4(0.0));
     float width = float(textureSize(radiance, 0).x);
@@ -66,7 +66,7 @@ vec3 mip_light(vec3 direction) {
     return textureLod(radiance, direction, solid_angle_level(width, solid_angle)).rgb;
 }
 
-// Lobes more concentrated than the finest ones are, in part, the radiance itself.
+// Lobes more concentrated than those of the finest level are blended with the unfiltered radiance.
 vec3 with_radiance(vec3 light, vec3 direction, float finest) {
     float size = float(textureSize(radiance, 0).x);
     float share = radiance_share(finest, size, constants.concentration);

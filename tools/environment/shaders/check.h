@@ -3,7 +3,7 @@
 
 #include "../../../shaders/interface/types.h"
 
-// How light is looked up: the specialisation constant CHECK_METHOD of check.comp.
+// The look-up method: the specialisation constant CHECK_METHOD of check.comp.
 #define CHECK_METHOD       0
 #define METHOD_PREFILTERED 0
 #define METHOD_MIP         1

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// What lobes about many directions see of an environment, texel by texel: partial sums of
+// The light that lobes about many directions receive from an environment, texel by texel: partial
+// sums of
 //   radiance * solid angle * exp(-kappa/2 |direction - texel|^2)
 // over some texels of the cube, for several kappa at once. Each group loads texels together.
 

@@ -1,4 +1,4 @@
-"""Which values an axis spans, on what scale, and where its ticks are."""
+"""The range, scale and ticks of an axis."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 WANTED_TICKS = 5
 TOLERANCE = 1e-9  # for values that are nice except for rounding
-LARGEST, SMALLEST = 1e18, 1e-200  # a plot ignores larger values; smaller ones are as good as 0
+LARGEST, SMALLEST = 1e18, 1e-200  # a plot ignores larger values; smaller ones count as 0
 
 
 @dataclass
@@ -25,7 +25,7 @@ class Axis:
 
 
 def nice_number(value: float) -> float:
-    """The least 1, 2 or 5 times a power of ten that is not below a positive value: Heckbert 1990,
+    """The smallest 1, 2 or 5 times a power of ten that is at least a positive value: Heckbert 1990,
     "Nice Numbers for Graph Labels", Graphics Gems."""
     power = 10.0 ** math.floor(math.log10(max(value, SMALLEST)))
     return next((multiple * power for multiple in (1, 2, 5)
@@ -40,7 +40,7 @@ def linear(maximum: float) -> Axis:
 
 
 def _logarithmic_ticks(minimum: float, maximum: float) -> list[float]:
-    """As many multiples of each power of ten as stay apart; not each power of very many."""
+    """As many multiples of each power of ten as stay apart; over many decades, not every power."""
     decades = math.log10(maximum) - math.log10(minimum)
     multiples = (1, 2, 5) if decades < 2.2 else (1, 3) if decades < 4 else (1,)
     powers = range(math.floor(math.log10(minimum)), math.floor(math.log10(maximum)) + 1,
@@ -50,7 +50,7 @@ def _logarithmic_ticks(minimum: float, maximum: float) -> list[float]:
 
 
 def _logarithmic(least: float, most: float) -> Axis:
-    """With room at both ends, so that no mark is cut."""
+    """Leaves room at both ends, so that no mark is clipped."""
     room = (most / least) ** 0.06
     minimum, maximum = least / room, most * room
     return Axis(minimum, maximum, True, _logarithmic_ticks(minimum, maximum))
@@ -61,9 +61,9 @@ def is_drawable(value: float) -> bool:
 
 
 def fit(values: list[float]) -> Axis:
-    """For drawable values; others are ignored. The axis is logarithmic where all are positive and
-    span more than a decade. Otherwise it begins at 0, or a little before where a value is 0, so
-    that its mark is not on the edge."""
+    """For drawable values; others are ignored. The axis is logarithmic if all are positive and span
+    more than a decade. Otherwise it begins at 0, or slightly below if a value is 0, so that its
+    mark is not on the edge."""
     values = [value if value > SMALLEST else 0 for value in values if is_drawable(value)]
     least, most = min(values, default=math.inf), max(values, default=0)
     if 0 < least and most > 10 * least:

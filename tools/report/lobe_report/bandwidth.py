@@ -1,4 +1,4 @@
-"""How fast passes that build maps move bytes, over the scenes, beside a plain copy."""
+"""Bandwidth of the passes that build maps, over the scenes, next to a plain copy."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .results import NAN, Pass, Results
 
 
 def speed(size: float, milliseconds: float) -> float:
-    """Gigabytes a second; NaN where one is not known."""
+    """Gigabytes per second; NaN if bytes or time are unknown."""
     return size / milliseconds * 1e-6 if size > 0 and milliseconds > 0 else NAN
 
 
@@ -32,7 +32,7 @@ def _bandwidth(index: int, name: str, passes: list[Pass]) -> Bandwidth:
 
 
 def of_results(results: Results) -> list[Bandwidth]:
-    """Of each filter's passes, in the order in which scenes bring them."""
+    """For each filter's passes, in the order in which they first appear in the scenes."""
     found: dict[tuple[int, str], list[Pass]] = {}
     for index, name in enumerate(results.filters):
         for scene in results.scenes:

@@ -1,4 +1,4 @@
-"""Stacked bars, lying, with a legend of their parts."""
+"""Horizontal stacked bars, with a legend of their parts."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def _draw_legend(figure, names: list[str], columns: int, height: float):
 
 
 def draw(bars: Bars) -> Markup:
-    """At least one bar with a part."""
+    """Needs at least one bar with a part."""
     names = [f"{i + 1} {shorten(kind)}" for i, kind in enumerate(bars.kinds)]
     columns = _legend_columns(names)
     bottom = AXIS + LINE * -(-len(names) // columns) + 4

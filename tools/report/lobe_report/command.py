@@ -1,4 +1,4 @@
-"""The command line of the script; `lobe report` gives it."""
+"""The script's command line, which `lobe report` passes."""
 
 import argparse
 import sys
@@ -32,9 +32,9 @@ def run(arguments):
         sys.stdout.buffer.write(text.encode("utf-8"))
         sys.stdout.flush()
     except picture_stream.Interrupted:
-        return 1  # the sender has said why
+        return 1  # the sender has reported the cause
     except ReportError as error:
         return _fail(str(error))
-    except Exception as error:  # a user is to see no traceback
+    except Exception as error:  # users should see no traceback
         return _fail(f"{options.results}: no report: {type(error).__name__}: {error}")
     return 0

@@ -1,4 +1,4 @@
-"""What a user is told when the report cannot be drawn."""
+"""The error reported to the user if the report cannot be drawn."""
 
 
 class ReportError(Exception):

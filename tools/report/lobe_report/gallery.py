@@ -1,4 +1,4 @@
-"""The pictures of a scene: its reference and those of the filters, with maps of their errors."""
+"""The pictures of a scene: the reference, and each filter's with its error map."""
 
 from __future__ import annotations
 
@@ -42,15 +42,15 @@ class Entry:
 class Gallery:
     reference: list[Shown]
     entries: list[Entry]
-    factor: int  # by which pictures are reduced
-    detail: pictures.Window | None  # shown pixel for pixel where they are
+    factor: int  # by which pictures are downscaled
+    detail: pictures.Window | None  # shown at full size if they are
     scale: float  # of all error maps
     scale_colours: list[str]
     scale_axis: axes.Axis
 
 
 def _receive(results: Results, scene: Scene, stream: PictureStream):
-    """The reference as on a screen, and an entry for each filter, in the order of filters."""
+    """The reference as displayed, and one entry per filter, in the order of filters."""
     reference, entries = None, {}
     for picture in stream.scene():
         if picture.row is None:
@@ -68,8 +68,8 @@ def _receive(results: Results, scene: Scene, stream: PictureStream):
 
 
 def _scale(maps: list[numpy.ndarray]) -> float:
-    """The worst tenth of all pixels is beyond the scale; else that of the worst filter would leave
-    the maps of the good ones black."""
+    """The worst tenth of all pixels is beyond the scale; otherwise the worst filter would set it,
+    and the maps of the good ones would be black."""
     most = pictures.quantile(maps, 0.9)
     return axes.nice_number(most) if most > 0 else 1.0
 
@@ -88,7 +88,7 @@ def _scale_colours(colours: numpy.ndarray) -> list[str]:
 
 
 def make(results: Results, scene: Scene, stream: PictureStream, width: int) -> Gallery | None:
-    """Of the scene that is next in the stream. None: it kept no pictures."""
+    """The gallery of the next scene in the stream; None if it kept no pictures."""
     reference, entries = _receive(results, scene, stream)
     if reference is None:
         return None

@@ -1,5 +1,5 @@
-"""Places labels beside points so that they cover each other, and what is drawn, as little as
-possible. y grows downwards."""
+"""Places labels beside points with as little overlap as possible, with each other and with what is
+drawn. y grows downwards."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _FONT = FontProperties(size=SIZE)
 
 
 def shorten(text: str) -> str:
-    """One line that fits in a plot."""
+    """Truncates the text to one line that fits in a plot."""
     text = " ".join(text.split())
     return text if len(text) <= LONGEST else text[:LONGEST - 1] + "…"
 
@@ -53,23 +53,23 @@ class Labels:
         self._costs = numpy.empty(0)  # of covering a unit of area of each
 
     def take(self, box: Box, cost: float = 1):
-        """From now on labels stay away from the box."""
+        """Labels placed from now on avoid the box."""
         self._taken = numpy.vstack([self._taken, box])
         self._costs = numpy.append(self._costs, cost)
 
     def _badness(self, box: Box) -> float:
-        """What it covers; to stick out of the plot is worse still."""
+        """The cost of what it covers; sticking out of the plot costs most."""
         outside = (box[2] - box[0]) * HEIGHT - _common_area(box, self._bounds)[0]
         return 10 * outside + float(self._costs @ _common_area(box, self._taken))
 
     def place(self, x: float, y: float, width: float) -> Box:
-        """Finds a place for a label of a point and takes it."""
+        """Finds a place for a point's label and reserves it."""
         # A label far from its point is nearly as bad as one that covers a little.
         choices = [(self._badness(box) + 1.2 * (distance - _DISTANCES[0]), box)
                    for distance in _DISTANCES
                    for box in (_beside(x, y, direction, distance, width)
                                for direction in _DIRECTIONS)]
         best = min(choices, key=lambda choice: choice[0])[1]
-        # Two texts on each other cannot be read; a mark behind a text still can.
+        # Overlapping texts are unreadable; a mark behind a text is still visible.
         self.take(best, 8)
         return best

@@ -1,4 +1,4 @@
-"""Finds matplotlib and Jinja2, which lobe itself can do without."""
+"""Finds matplotlib and Jinja2, which only reports need."""
 
 import logging
 import os
@@ -11,26 +11,26 @@ SYSTEM_PYTHON = "/usr/bin/python3"
 
 
 def _silence():
-    """Standard error is for lobe's own lines."""
-    os.environ["MPLBACKEND"] = "svg"  # a user's own may be one that is not installed
+    """Keeps the libraries' warnings off standard error, which is for lobe's own lines."""
+    os.environ["MPLBACKEND"] = "svg"  # the backend that the user configured may not be installed
     logging.getLogger("matplotlib").setLevel(logging.CRITICAL)
     warnings.simplefilter("ignore")
 
 
 def _try_system_python():
-    """Packages of the system are for its own Python; another one may come first in PATH, or a
-    virtual environment, whose program is a link to the same file."""
+    """Debian's packages serve only the system's Python. PATH may find another one first, or that of
+    a virtual environment, which is a link to the same file."""
     if sys.executable != SYSTEM_PYTHON and os.path.exists(SYSTEM_PYTHON):
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, "-B", *sys.argv])
 
 
 def require():
-    """Returns when both can be imported; ends the program otherwise."""
+    """Returns if both can be imported; otherwise exits."""
     _silence()
     try:
         import jinja2  # noqa: F401
         import matplotlib
-        # Nothing of a user's own settings, so that equal results give equal pages.
+        # Ignore the user's settings, so that equal results give equal pages.
         matplotlib.rc_file(Path(__file__).with_name("matplotlibrc"))
     except Exception as error:  # a broken installation may raise anything
         _try_system_python()

@@ -1,4 +1,4 @@
-"""Numbers of rows, and their means over scenes."""
+"""Measures of rows, and their means over scenes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Callable
 
 from .results import NAN, Results, Row
 
-Measure = Callable[[Row], float]  # NaN where it was not measured
+Measure = Callable[[Row], float]  # NaN if it was not measured
 
 
 def error(row: Row) -> float:
@@ -32,7 +32,7 @@ def texel_bytes(row: Row) -> float:
 
 
 def divide(a: float, b: float) -> float:
-    """As floating point numbers do: infinite, or NaN, where Python raises an exception."""
+    """IEEE division: infinity or NaN instead of Python's exception."""
     if b:
         return a / b
     return math.copysign(math.inf, a) if a else NAN
@@ -52,7 +52,7 @@ class Mean:
 
 
 def mean_of(values: list[float]) -> Mean:
-    """Of those that are finite."""
+    """Mean of the finite values."""
     values = [value for value in values if math.isfinite(value)]
     if not values:
         return Mean(NAN, NAN, 0)
@@ -66,13 +66,13 @@ def of_default(results: Results, measure: Measure, scene: str, name: str) -> flo
 
 
 def ratio(results: Results, measure: Measure, scene: str, name: str, base: str) -> float:
-    """A filter's measure over that of another, both at their defaults in a scene."""
+    """The ratio of two filters' measures in a scene, both at their defaults."""
     return divide(of_default(results, measure, scene, name),
                   of_default(results, measure, scene, base))
 
 
 def mean_ratio(results: Results, measure: Measure, name: str, base: str | None) -> Mean:
-    """Over the scenes; without a base, of the measure itself."""
+    """Means over the scenes of the ratio to the base; without one, of the measure itself."""
     if base is None:
         return mean_of([of_default(results, measure, scene.name, name)
                         for scene in results.scenes])
@@ -80,7 +80,7 @@ def mean_ratio(results: Results, measure: Measure, name: str, base: str | None) 
 
 
 def ratio_of_means(results: Results, measure: Measure, name: str, base: str) -> float:
-    """Over the scenes that have both."""
+    """The ratio of the means over the scenes that have both."""
     pairs = [(of_default(results, measure, scene.name, name),
               of_default(results, measure, scene.name, base)) for scene in results.scenes]
     pairs = [pair for pair in pairs if all(map(math.isfinite, pair))]

@@ -1,4 +1,4 @@
-"""How people read a number, and how a page holds it for programs as well."""
+"""Numbers as text for people, and in a form that programs can read from the page."""
 
 import math
 
@@ -6,7 +6,7 @@ from markupsafe import Markup
 
 
 def number_text(value: float, significant: int) -> str:
-    """So many significant digits, no exponent, no digit of the integer part left out: 0.00123,
+    """Text with this many significant digits, no exponent, and the complete integer part: 0.00123,
     0.163, 14.2, 1623."""
     if math.isnan(value):
         return "–"

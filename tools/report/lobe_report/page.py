@@ -1,4 +1,4 @@
-"""The page: what templates show, and templates."""
+"""The page: the data that templates show, and the templates."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .picture_stream import PictureStream
 from .results import Results, Row, Scene
 from .targets import Target
 
-# What the summary averages: a measure, and the filter that it is a ratio to.
+# A measure that the summary averages, and the filter that it is relative to.
 SUMMARY = ((measures.error, "direct"), (measures.error, "lobes"), (measures.flicker, None),
            (measures.rebuilt, "direct"), (measures.retained, "direct"),
            (measures.texel_bytes, None))
 
 
 def _summary(results: Results):
-    """Of each filter the number of scenes, and means."""
+    """For each filter the number of scenes, and the means."""
     for name in results.filters:
         means = [measures.mean_ratio(results, measure, name, base) for measure, base in SUMMARY]
         yield measures.mean_ratio(results, measures.rebuilt, name, None).scenes, means
@@ -40,8 +40,7 @@ def _methods(results: Results, scene: Scene):
 
 
 def _scene(results: Results, index: int, scene: Scene, pictures: PictureStream, width: int):
-    """What the template of a scene shows; pictures are taken from the stream also where the scene
-    has none."""
+    """The data for a scene's template. Reads the stream even if the scene has no pictures."""
     shown = gallery.make(results, scene, pictures, width)
     if scene.skipped:
         return {"scene": scene}
@@ -68,7 +67,7 @@ def _environment() -> jinja2.Environment:
 
 
 def draw(results: Results, targets: list[Target], pictures: PictureStream, width: int) -> str:
-    """`width`: wider pictures are reduced."""
+    """`width`: wider pictures are downscaled."""
     scenes = [_scene(results, index, scene, pictures, width)
               for index, scene in enumerate(results.scenes)]
     time = datetime.fromtimestamp(results.time, timezone.utc)

@@ -1,4 +1,4 @@
-"""Table 1 of Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", beside the same ratios here."""
+"""Table 1 of Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", next to the same ratios here."""
 
 from __future__ import annotations
 
@@ -7,18 +7,19 @@ from dataclasses import dataclass
 from . import measures
 from .results import Results
 
-# Their columns by the filters that stand for them here.
+# The filters here that correspond to the table's columns.
 FILTERS = ("direct", "mipmap", "lean", "reference", "lobes")
 
 
 @dataclass
 class PaperRow:
     theirs: str
-    ours: str  # the scene that has its role here
+    ours: str  # the scene that takes its place here
     milliseconds: tuple[float, ...]  # of FILTERS, on their machine
 
     def pairs(self, results: Results) -> list[tuple[float, float]]:
-        """What is printed and what was measured: direct in milliseconds, all others over it."""
+        """The printed and the measured values: direct in milliseconds, all others relative to
+        it."""
         rebuilt = measures.rebuilt
         direct = self.milliseconds[0]
         first = (direct, measures.of_default(results, rebuilt, self.ours, "direct"))

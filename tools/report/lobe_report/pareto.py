@@ -6,9 +6,9 @@ import math
 
 
 def front(costs: list[tuple[float, float]]) -> list[int]:
-    """Indices of the choices than which no other is better in one cost and at least as good in the
-    other, with rising first and falling second cost; of equal choices only the first. Costs that
-    are not finite are ignored."""
+    """Indices of the choices that no other dominates (better in one cost and at least as good in
+    the other), in order of rising first cost; of equal choices only the first. Choices with costs
+    that are not finite are ignored."""
     finite = [i for i, cost in enumerate(costs) if all(map(math.isfinite, cost))]
     kept: list[int] = []
     for index in sorted(finite, key=lambda i: costs[i]):

@@ -12,14 +12,14 @@ REFERENCE = 2 ** 32 - 1
 
 
 class Interrupted(Exception):
-    """The sender stopped: it has said why."""
+    """The sender stopped, and has reported the cause."""
 
 
 @dataclass
 class Picture:
     row: int | None  # index of the row in the results; None: the reference
     linear: numpy.ndarray  # height x width x 4 floats
-    shown: numpy.ndarray  # height x width x 3 bytes, as on a screen
+    shown: numpy.ndarray  # height x width x 3 bytes, as displayed
 
     @property
     def size(self) -> tuple[int, int]:
@@ -54,7 +54,7 @@ class PictureStream:
         return Picture(None if row == REFERENCE else row, linear, shown)
 
     def scene(self) -> Iterator[Picture]:
-        """The pictures of the next scene, its reference first; all have to be taken."""
+        """The pictures of the next scene, its reference first; the caller must consume all."""
         (count,) = self._numbers(1)
         for _ in range(count):
             yield self._picture()

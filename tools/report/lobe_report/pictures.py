@@ -1,5 +1,5 @@
-"""From renderings to the pictures that the report shows. Pictures are arrays of height x width,
-colours in a third dimension."""
+"""Turns renderings into the pictures that the report shows. Pictures are arrays of height x width,
+with colours in a third dimension."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Window:
 # Errors ---------------------------------------------------------------------------------------
 
 def error_map(linear: numpy.ndarray, reference: numpy.ndarray) -> numpy.ndarray:
-    """How far each pixel is from the reference: the length of the difference of their RGB over the
-    root mean square of the reference's length, so that the root mean square of all pixels is the
-    relative L2 error. Where the reference is black everywhere, nothing is finite."""
+    """The distance of each pixel from the reference: the length of the difference of their RGB,
+    divided by the root mean square of the reference's length, so that the root mean square of all
+    pixels is the relative L2 error. If the reference is completely black, nothing is finite."""
     truth = reference[..., :3].astype(float)
     with numpy.errstate(all="ignore"):
         difference = (linear[..., :3] - reference[..., :3]).astype(float)
@@ -40,7 +40,7 @@ def error_map(linear: numpy.ndarray, reference: numpy.ndarray) -> numpy.ndarray:
 
 
 def quantile(maps: list[numpy.ndarray], part: float) -> float:
-    """The value that a part [0, 1] of all finite errors do not exceed; 0 where there are none."""
+    """The value that a fraction [0, 1] of all finite errors do not exceed; 0 if there are none."""
     values = numpy.concatenate([errors.ravel() for errors in maps]) if maps else numpy.empty(0)
     values = values[numpy.isfinite(values)]
     if values.size == 0:
@@ -55,8 +55,8 @@ def _finite_sum(errors: numpy.ndarray) -> float:
 
 
 def worst_window(maps: list[numpy.ndarray], width: int, height: int) -> Window:
-    """Of the windows that begin at multiples of half their extent, the one where the sum of all
-    error maps is greatest."""
+    """The window with the largest sum of all error maps, among those that begin at multiples of
+    half their extent."""
     whole_height, whole_width = maps[0].shape
     worst, most = Window(0, 0, width, height), 0.0
     for y in range(0, whole_height - height + 1, (height + 1) // 2):
@@ -91,8 +91,8 @@ def srgb_encode(linear: numpy.ndarray) -> numpy.ndarray:
 
 
 def reduce(shown: numpy.ndarray, factor: int) -> numpy.ndarray:
-    """A picture for a screen, each block averaged as light: as the screen would show it from
-    farther away."""
+    """Downscales a display picture, averaging each block in linear light: as the screen would look
+    from farther away."""
     if factor == 1:
         return shown
     light = srgb_decode(numpy.arange(256) / 255)[shown]
@@ -101,7 +101,7 @@ def reduce(shown: numpy.ndarray, factor: int) -> numpy.ndarray:
 
 def heat_map(errors: numpy.ndarray, scale: float, factor: int,
              colours: numpy.ndarray) -> numpy.ndarray:
-    """A picture of errors up to `scale`; a block that is not finite counts as 0."""
+    """Downscales an error map, clamped to `scale`; a block that is not finite counts as 0."""
     with numpy.errstate(all="ignore"):
         values = _block_means(errors.astype(float), factor) / scale
     values = numpy.clip(numpy.where(numpy.isfinite(values), values, 0), 0, 1)
@@ -109,14 +109,14 @@ def heat_map(errors: numpy.ndarray, scale: float, factor: int,
 
 
 def reduction(width: int, maximum: int) -> int:
-    """The factor by which a picture is reduced that should not be wider than `maximum`."""
+    """The smallest factor that makes a picture at most `maximum` wide."""
     return -(-width // maximum)
 
 
 # Pages ----------------------------------------------------------------------------------------
 
 def data_uri(picture: numpy.ndarray) -> str:
-    """A PNG in a page."""
+    """A data URI with the picture as PNG."""
     file = io.BytesIO()
     Image.fromarray(numpy.ascontiguousarray(picture)).save(file, "png")
     return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()

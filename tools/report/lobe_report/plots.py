@@ -1,4 +1,4 @@
-"""The plots of a scene: error over what it costs, and the times of passes."""
+"""The plots of a scene: error against cost, and the times of passes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from markupsafe import Markup
 from . import axes, bars, measures, scatter
 from .results import Results, Row, Scene
 
-# Methods of integrating an environment that a sweep goes through, as the knob `env` calls them.
+# Methods of integrating an environment that a sweep measures: values of the knob `env`.
 METHODS = ("prefiltered", "mip", "sampled")
 
 
 @dataclass
 class Trade:
-    """Error over a cost."""
+    """A plot of error against one cost."""
     id: str
     title: str
     x_title: str
@@ -24,11 +24,11 @@ class Trade:
 
 
 TRADES = (
-    Trade("rebuilt", "Time and error, maps rebuilt", "milliseconds a frame, maps rebuilt", "ms",
+    Trade("rebuilt", "Time and error, maps rebuilt", "milliseconds per frame, maps rebuilt", "ms",
           measures.rebuilt),
-    Trade("retained", "Time and error, maps retained", "milliseconds a frame, maps retained", "ms",
-          measures.retained),
-    Trade("memory", "Memory and error", "bytes a texel of filtered maps", "bytes a texel",
+    Trade("retained", "Time and error, maps retained", "milliseconds per frame, maps retained",
+          "ms", measures.retained),
+    Trade("memory", "Memory and error", "bytes of filtered maps per texel", "bytes per texel",
           measures.texel_bytes),
 )
 
@@ -36,9 +36,9 @@ TRADES = (
 @dataclass
 class DrawnTrade:
     trade: Trade
-    plot: Markup  # empty where nothing was measured
+    plot: Markup  # empty if nothing was measured
     front: list[tuple[str, float, float]]  # name, cost, error
-    far: list[tuple[str, float, float]]  # what the plot leaves out
+    far: list[tuple[str, float, float]]  # what the plot omits
 
 
 def _name(row: Row) -> str:
@@ -74,7 +74,7 @@ def draw_trade(results: Results, scene: Scene, index: int, trade: Trade) -> Draw
 
 
 def draw_passes(results: Results, scene: Scene, index: int) -> Markup:
-    """Empty where no passes were timed."""
+    """Empty if no passes were timed."""
     rows = [row for _, row in results.filters_of(scene) if row.passes and not row.is_far]
     kinds = list(dict.fromkeys(item.name for row in rows for item in row.passes))
     drawn = [bars.Bar(row.filter, [

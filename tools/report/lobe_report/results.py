@@ -16,7 +16,7 @@ MAXIMUM_FILTERS = 64
 MAXIMUM_ROWS = 1024  # of a scene: more points make no plot
 NAN = float("nan")
 
-# What neither HTML nor SVG may hold.
+# Characters that neither HTML nor SVG may contain.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -67,8 +67,8 @@ class Row:
 
     @property
     def is_far(self) -> bool:
-        """Of the supersampling filter, whose time and error lie so far from those of all others
-        that plots leave it out: their captions name it."""
+        """True for the supersampling filter, whose time and error are so far from all others that
+        plots omit it; their captions give its figures."""
         return self.filter == "reference"
 
 
@@ -122,7 +122,7 @@ class Results:
 # Reading --------------------------------------------------------------------------------------
 
 def clean(value):
-    """A decoded document whose texts hold only what a page may show."""
+    """Replaces characters in all texts of a decoded document that a page must not contain."""
     if isinstance(value, str):
         return _FORBIDDEN.sub("\ufffd", value)
     if isinstance(value, list):
@@ -133,7 +133,7 @@ def clean(value):
 
 
 def parse_json(path: Path):
-    """Of members of one name the first counts, as for the reader in C."""
+    """If a member is repeated, the first counts, as in the C reader."""
     try:
         text = path.read_bytes().decode("utf-8-sig", "replace")
         return clean(json.loads(text, strict=False,
@@ -162,7 +162,7 @@ def _make_row(members):
 
 
 def without_noise(error: float, noise: float) -> float:
-    """A relative L2 error less what chance has left in the reference."""
+    """A relative L2 error without the reference's noise."""
     if math.isnan(noise) or math.isnan(error):
         return error
     return math.sqrt(max(error * error - noise * noise, 0))
@@ -185,7 +185,7 @@ def _check_limits(results: Results):
 
 
 def read(path: Path) -> Results:
-    """Errors (relative L2) are without the noise of the references."""
+    """Errors (relative L2) exclude the references' noise."""
     members = parse_json(path)
     results = _make(Results, members, path=path, time=path.stat().st_mtime,
                     scenes=[_make(Scene, entry) for entry in members["scenes"]],

@@ -1,5 +1,5 @@
-"""Choices by two costs: a mark for each, a ring and a stepped line for the Pareto front, whose
-marks are numbered from left to right."""
+"""A scatter plot of choices with two costs: a mark for each, and rings and a stepped line for the
+Pareto front, whose marks are numbered from left to right."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Point:
     y: float
     series: int  # index into the plot's
     origin: int | None  # index of the point it is a variation of
-    about: str  # shown where a pointer rests on the mark
+    about: str  # tooltip of the mark
     kind: int = 0  # of a variation: index into the plot's, below MAXIMUM_KINDS
 
     @property
@@ -50,13 +50,13 @@ class Scatter:
     y_title: str
     series: list[str]
     points: list[Point]
-    kinds: tuple[str, ...] = ()  # told apart by what is in a variation's mark; (): they are not
+    kinds: tuple[str, ...] = ()  # shown by the inside of a variation's mark; (): not shown
 
 
 # Marks ----------------------------------------------------------------------------------------
 
 def _marks(x: float, y: float, series: int, size: float, kind: int | None) -> list[Line2D]:
-    """A mark; `kind` is None for a full one."""
+    """A mark; `kind` is None for a filled one."""
     colour, width = style.colour(series), size * style.shape_size(series)
     full = kind is None
     parts = [Line2D([x], [y], linestyle="none", marker=style.shape(series), markersize=width,
@@ -81,7 +81,7 @@ def _draw_mark(plot: Axes, point: Point, index: int):
 
 
 def _draw_variation_line(plot: Axes, point: Point, origin: Point):
-    """So that the eye finds a filter's own trade."""
+    """Connects a filter's variations to its defaults."""
     plot.plot([point.x, origin.x], [point.y, origin.y], color=style.colour(point.series),
               linestyle=style.dashes(point.series), linewidth=0.8, alpha=0.65, zorder=2)
 
@@ -142,7 +142,7 @@ def _make_axes(figure, plot: Scatter, drawable: list[Point]) -> Axes:
 # Pareto front ---------------------------------------------------------------------------------
 
 def _draw_front(plot: Axes, points: list[Point]):
-    """Steps, as nothing is to be had between two choices: what lies above and right of them is
+    """Steps, because there is nothing between two choices: everything above and to the right is
     worse than some choice."""
     right, top = plot.get_xlim()[1], plot.get_ylim()[1]
     x, y = [], []
@@ -169,7 +169,7 @@ def _draw_label(plot: Axes, labels: Labels, x: float, y: float, text: str):
 
 
 def _draw_labels(plot: Axes, scatter: Scatter, shown: list[int], numbers: dict[int, int]):
-    """First those with names, which need the most room."""
+    """Named points first: their labels need the most room."""
     box = plot.get_window_extent()
     labels = Labels((box.x0, HEIGHT - box.y1, box.x1, HEIGHT - box.y0))
     places = {}
@@ -193,7 +193,7 @@ def _draw_labels(plot: Axes, scatter: Scatter, shown: list[int], numbers: dict[i
 # ----------------------------------------------------------------------------------------------
 
 def draw(scatter: Scatter) -> tuple[Markup, list[int]]:
-    """The plot, empty where there is no point to draw, and the numbered points."""
+    """The plot, empty if there is no point to draw, and the numbered points."""
     points = scatter.points
     shown = [i for i, point in enumerate(points) if point.is_drawable]
     if not shown:

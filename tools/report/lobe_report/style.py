@@ -1,5 +1,5 @@
-"""How filters and passes are told apart: by colour on a screen, by shape, dashes and hatching in
-print and by those who see colours differently. The same index looks the same in every plot."""
+"""How filters and passes are distinguished: by colour on a screen; by shape, dashes and hatching in
+print and by people with colour blindness. The same index looks the same in every plot."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ def shape(series: int):
 
 
 def shape_size(series: int) -> float:
-    """To be multiplied with the diameter of a marker."""
+    """Scales the marker's diameter."""
     return SHAPES[series % len(SHAPES)][1]
 
 
 def fill(kind: int) -> tuple[str, str, str]:
-    """Of an area: its colour, that of its hatching, and the hatching. Light enough for text."""
-    # The hatching moves on where colours begin again.
+    """Fill colour, hatching colour and hatching of an area, light enough for text."""
+    # When colours repeat, the hatching changes.
     hatching = HATCHINGS[(kind + kind // len(TINTS)) % len(HATCHINGS)]
     return *TINTS[kind % len(TINTS)], hatching
 

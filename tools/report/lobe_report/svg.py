@@ -1,4 +1,4 @@
-"""A figure of matplotlib as an SVG element that stands in a page among others."""
+"""Converts a matplotlib figure to an SVG element for a page with several."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from markupsafe import Markup
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-# Artists say by their gid what they are: a class, and behind a colon the index of a tooltip.
+# An artist's gid holds its class and, after a colon, the index of a tooltip.
 _GID = re.compile(r"(mark|part|ring|front|label|halo|overlay)(?::(\d+))?")
-_UNITS = 72  # of an SVG to an inch
+_UNITS = 72  # pixels per inch of an SVG
 
 
 def make_figure(width: float, height: float) -> Figure:
@@ -28,7 +28,7 @@ def _print(figure: Figure) -> ElementTree.Element:
 
 
 def _remove_namespaces(root: ElementTree.Element):
-    """HTML knows the elements of SVG without their names' addresses."""
+    """HTML uses SVG elements without namespaces."""
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
         for name in list(element.attrib):
@@ -37,7 +37,7 @@ def _remove_namespaces(root: ElementTree.Element):
 
 
 def _remove_unused(root: ElementTree.Element):
-    """Metadata, a style for the whole page, and the white ground."""
+    """Removes metadata, a style for the whole page, and the white background."""
     for parent in list(root.iter()):
         for child in list(parent):
             if child.tag in ("metadata", "style") or child.get("id") == "patch_1":
@@ -58,7 +58,7 @@ def _describe_groups(root: ElementTree.Element, tooltips: list[str]):
 
 
 def _make_names_unique(root: ElementTree.Element, prefix: str):
-    """Ids that something refers to get the prefix, others are not needed."""
+    """Adds the prefix to ids that are referred to, and removes the others."""
     text = ElementTree.tostring(root, encoding="unicode")
     used = set(re.findall(r"[\"(]#([^\")]+)[\")]", text))
     for element in root.iter():
@@ -84,7 +84,7 @@ def _round(match: re.Match) -> str:
 
 
 def _compact(root: ElementTree.Element):
-    """A page has dozens of plots: spaces and digits that no one sees double its size."""
+    """A page has dozens of plots: spaces and invisible digits would double its size."""
     for element in root.iter():
         element.tail = None
         if element.text and not element.text.strip():
@@ -98,7 +98,7 @@ def _compact(root: ElementTree.Element):
 
 
 def _name(root: ElementTree.Element, prefix: str, title: str, description: str):
-    """For those who cannot see it."""
+    """A title and description for screen readers."""
     root.attrib = {"class": "plot", "viewBox": root.get("viewBox"), "role": "img",
                    "aria-labelledby": f"{prefix}-title {prefix}-text"}
     for index, (tag, part, text) in enumerate((("title", "title", title),

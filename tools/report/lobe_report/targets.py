@@ -1,5 +1,5 @@
-"""Limits of ratios between filters, from a file, and whether results keep them. The file is a list
-of objects with the members of Target; tools/targets writes one."""
+"""Reads limits of ratios between filters from a file, and tests results against them. The file is a
+list of objects with the members of Target; tools/targets writes one."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Target:
         return number_text(100 * (excess - 1), 2)
 
     def absence(self, results: Results) -> str:
-        """Why there is no value."""
+        """The reason why there is no value."""
         for name in (self.filter, self.base):
             if name not in results.filters:
                 return f"the filter {name} is not in the results"

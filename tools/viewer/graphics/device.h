@@ -10,8 +10,8 @@
 
 struct GLFWwindow;
 
-/// The viewer's own Vulkan objects, which lobe uses as a guest: an instance with window surfaces, a
-/// surface, a device that presents to it. All zero: none.
+/// The viewer's own Vulkan objects, which lobe imports: an instance with window surfaces, a
+/// surface, and a device that presents to it. All zero: none.
 typedef struct viewer_device {
     engine_validation validation;
     _Atomic uint64_t fault_count; ///< messages of the validation layer
@@ -22,8 +22,8 @@ typedef struct viewer_device {
     lobe_device *lobe;
 } viewer_device;
 
-/// The structure must stay where it is until it is closed. On failure it is closed.
-/// Errors: LOBE_ERROR_NO_DEVICE, LOBE_ERROR_UNSUPPORTED (the device cannot present here),
+/// The structure must not be moved until it is closed. On failure it is closed. Errors:
+/// LOBE_ERROR_NO_DEVICE, LOBE_ERROR_UNSUPPORTED (the device cannot present here),
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result viewer_device_open(const device_options *options, struct GLFWwindow *window,
                                const lobe_host *host, viewer_device *device);

@@ -18,7 +18,7 @@ typedef struct viewer_look {
     viewer_comparison comparison;
     double exposure;      ///< stops
     double divider;       ///< part of the window's width
-    double error_maximum; ///< relative error that is shown brightest
+    double error_maximum; ///< relative error shown brightest
 } viewer_look;
 
 /// Turns pictures into the window's content, and draws the panels over it: passes of the viewer on

@@ -92,7 +92,7 @@ lobe_result viewer_graphics_handle_result(viewer *v, viewer_shown shown, lobe_re
         return LOBE_OK;
     if (shown == VIEWER_FAILED)
         return result;
-    viewer_redraw_panels(v); // draw the frame again that was not shown
+    viewer_redraw_panels(v); // redraw the frame that was not shown
     if (shown == VIEWER_BUSY)
         return LOBE_OK;
     v->swapchain_is_stale = true;

@@ -2,7 +2,7 @@
 
 #include "engine/device/vulkan_check.h"
 
-/// Nanoseconds: as long as the mouse and keys may have to wait for a window that is covered.
+/// Nanoseconds: how long mouse and keys may wait while the window is covered.
 #define PATIENCE 100000000
 
 static viewer_shown judge(const viewer_device *device, VkResult code, const char *what,
@@ -18,7 +18,8 @@ static viewer_shown judge(const viewer_device *device, VkResult code, const char
     return *result == LOBE_OK ? VIEWER_SHOWN : VIEWER_FAILED;
 }
 
-/// Colours leave the viewer's shader encoded: a format that encoded them again would not do.
+/// The viewer's shader encodes colours itself, so an _SRGB format, which would encode them again,
+/// is not usable.
 static bool is_usable(const VkSurfaceFormatKHR *format) {
     return (format->format == VK_FORMAT_B8G8R8A8_UNORM ||
             format->format == VK_FORMAT_R8G8B8A8_UNORM) &&
@@ -41,7 +42,7 @@ static viewer_shown choose_format(const viewer_device *device, VkSurfaceFormatKH
     }
     if (asked == VIEWER_SHOWN)
         *result = lobe_host_fail(&device->host, LOBE_ERROR_UNSUPPORTED,
-                                 "window: takes no pictures of 8 bits a channel");
+                                 "window: does not support images with 8 bits per channel");
     return asked == VIEWER_SHOWN ? VIEWER_FAILED : asked;
 }
 
@@ -169,8 +170,8 @@ viewer_shown viewer_swapchain_acquire(const viewer_device *device, viewer_swapch
     return judge(device, code, "vkAcquireNextImageKHR", result);
 }
 
-/// An image that fits badly shows, but the next swapchain may fit. Not where none ever has: then
-/// there would be no end of it.
+/// A suboptimal image is shown, but the next swapchain may be optimal. Not if none ever was: that
+/// would recreate it forever.
 static viewer_shown judge_fit(viewer_swapchain *swapchain, VkResult code) {
     const bool badly = swapchain->fits_badly || code == VK_SUBOPTIMAL_KHR;
     const bool fitted = swapchain->fits;

@@ -7,7 +7,7 @@
 
 #define VIEWER_MAXIMUM_IMAGES 16
 
-/// The images that a window shows in turn. One frame is in flight at a time. All zero: none.
+/// The images of a window. One frame is in flight at a time. All zero: none.
 typedef struct viewer_swapchain {
     VkSwapchainKHR swapchain;
     VkFormat format;
@@ -17,14 +17,14 @@ typedef struct viewer_swapchain {
     VkSemaphore drawn[VIEWER_MAXIMUM_IMAGES]; ///< of each: it may be shown
     VkSemaphore acquired;                     ///< the one acquired last may be drawn into
     uint32_t current;                         ///< that one
-    bool fits;                                ///< an image was shown as the surface likes it best
-    bool fits_badly; ///< it would like the one acquired last to be other than it is
+    bool fits;                                ///< an image was presented without being suboptimal
+    bool fits_badly; ///< the surface reported the one acquired last as suboptimal
 } viewer_swapchain;
 
 /// Result of showing a frame, or of preparing for it.
 typedef enum viewer_shown {
     VIEWER_SHOWN,
-    VIEWER_BUSY,         ///< the window accepts no picture now: it may be covered
+    VIEWER_BUSY,         ///< the window accepts no image now: it may be covered
     VIEWER_OUT_OF_DATE,  ///< the window has changed: recreate the swapchain
     VIEWER_SURFACE_LOST, ///< recreate the surface, too
     VIEWER_FAILED,       ///< the log says why

@@ -6,7 +6,7 @@
 /// An image of linear radiance that lobe draws into and the viewer's own shader reads. All zero:
 /// none.
 typedef struct viewer_target {
-    lobe_vulkan_image image; ///< as it is when a frame starts
+    lobe_vulkan_image image; ///< in its state when a frame starts
     VkDeviceMemory memory;
 } viewer_target;
 
@@ -15,7 +15,7 @@ lobe_result viewer_target_renew(const viewer_device *device, uint32_t width, uin
                                 viewer_target *target);
 void viewer_target_destroy(const viewer_device *device, viewer_target *target);
 
-/// It holds a picture from now on: of this frame's further commands, too.
+/// Marks that it holds a picture from now on, also for later commands of this frame.
 void viewer_target_is_drawn(viewer_target *target);
 
 #endif

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Linear pictures to what the window shows, encoded with the sRGB curve; as lobe_display_encode and
-// lobe_heat_colour do it.
+// Converts linear pictures to the window's content, encoded with the sRGB curve, as
+// lobe_display_encode and lobe_heat_colour do.
 
 #include "display.h"
 
@@ -62,8 +62,8 @@ float luminance(vec3 rgb) {
     return dot(rgb, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// The difference as a part of the reference's luminance. What is dark is seen against a grey of
-// 1/50 of white, so that no blackness counts as infinitely wrong.
+// The difference relative to the reference's luminance plus 1/50 of white, so that errors in black
+// areas are not infinite.
 float relative_error(vec3 tested, vec3 reference) {
     vec3 difference = abs(tested - reference);
     return display.gain * luminance(difference) /
@@ -73,7 +73,7 @@ float relative_error(vec3 tested, vec3 reference) {
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool second = display.comparison == DISPLAY_SPLIT && gl_FragCoord.x > display.divider;
-    // Where the window has just grown, pictures may be smaller than it.
+    // Just after the window has grown, pictures may be smaller than it.
     vec4 first = texelFetch(first_picture, min(pixel, textureSize(first_picture, 0) - 1), 0);
     vec4 other = texelFetch(second_picture, min(pixel, textureSize(second_picture, 0) - 1), 0);
     vec3 colour;

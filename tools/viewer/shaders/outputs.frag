@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Normals or depth in place of the picture, as linear colours.
+// Normals or depth instead of the picture, as linear colours.
 
 #include "outputs.h"
 

@@ -6,7 +6,7 @@
 // Push constants of outputs.frag.
 struct outputs_constants {
     uint depth;  // 1: depth, 0: normals
-    float scale; // metres at which depth is a middle grey
+    float scale; // metres at which depth is middle grey
     uint padding_0;
     uint padding_1;
 };

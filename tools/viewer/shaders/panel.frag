@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Colours of the panels are encoded, as the window wants them; their alpha is straight.
+// The panels' colours are already encoded for the window; alpha is straight.
 
 #include "panel.h"
 

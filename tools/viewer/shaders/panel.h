@@ -5,7 +5,7 @@
 
 // Push constants of panel.vert and panel.frag.
 struct panel_constants {
-    float4 clip;       // left, top, right, bottom in pixels: what is outside is not drawn
+    float4 clip;       // left, top, right, bottom in pixels: clip rectangle
     float pixel_width; // in clip space
     float pixel_height;
     uint padding_0;

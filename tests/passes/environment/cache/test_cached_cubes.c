@@ -21,7 +21,7 @@ static void coloured(const double direction[3], float radiance[3]) {
         radiance[i] = (float)(1 + 0.9 * direction[i]);
 }
 
-/// A square of rough metal, which is lit by lobes of both kinds.
+/// A square of rough metal, lit by lobes of both kinds.
 static lobe_scene *metal_square(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material;
@@ -35,7 +35,7 @@ static lobe_scene *metal_square(void) {
     return scene;
 }
 
-/// Turns the environment around.
+/// Reverses the environment.
 static void turn(lobe_scene *scene) {
     float *texels = scene->environment->image.texels;
     size_t count = (size_t)4 * scene->environment->image.width * scene->environment->image.height;
@@ -120,7 +120,7 @@ static size_t kept(void) {
     return temporary_folder_count(&test_folder);
 }
 
-/// Saved by the first renderer, loaded by the second; neither looks a second time.
+/// Saved by the first renderer, loaded by the second; neither searches the folder a second time.
 static void one_renderer_saves_and_another_loads(void **state) {
     lobe_scene *scene = metal_square();
     uint64_t expected = plain_picture(*state, scene);

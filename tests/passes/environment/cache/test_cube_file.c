@@ -68,7 +68,7 @@ static void cubes_survive_a_file(void **state) {
 }
 
 /// In each direction of the format, the file holds the cube's texel, on every level; the format's
-/// further levels hold the mean of all directions, which is none.
+/// further levels hold the mean of all directions, which is zero.
 static void files_are_oriented_as_the_format_says(void **state) {
     (void)state;
     const char *path = temporary_folder_file(&test_folder, "cube.exr");
@@ -207,7 +207,7 @@ static void change_a_texel(cube_image *cube) {
     lobe_exr_contents_free(&contents);
 }
 
-/// Truncated, one bit flipped, of another key, of another size, no picture at all: none is loaded,
+/// Truncated, with a flipped bit, of another key, of another size, not a picture: none is loaded,
 /// and the next save replaces each.
 static void damaged_and_foreign_files_are_replaced(void **state) {
     (void)state;

@@ -17,7 +17,7 @@
 #include "tests/reference/map/box_reduction.h"
 #include "tests/reference/mixture/lobe_mixture.h"
 
-/// What is asked of lobe_clustering.
+/// The request to lobe_clustering.
 typedef struct request {
     lobe_map_space space;
     uint32_t subdivision;
@@ -25,7 +25,7 @@ typedef struct request {
     bool half_floats;
 } request;
 
-/// What came back.
+/// The result.
 typedef struct clusters {
     mixture_map mixture;
     float *texels; ///< all levels
@@ -81,7 +81,7 @@ static clusters cluster(fixture *f, const lobe_scene *scene, const request *aske
 static void check_texel(const float *texel, const double *exact, bool mean, double tolerance,
                         const char *where) {
     for (int i = 0; i < 4; i++) {
-        // The mean of 1 - |r| may be tiny, and must be right all the same.
+        // The mean of 1 - |r| may be tiny, but must still be accurate.
         double bound = mean && i == 3 ? 10 * tolerance * exact[i] + 1e-9 : tolerance;
         if (!(fabs((double)texel[i] - exact[i]) <= bound))
             fail_msg("%s, channel %d: %.9g instead of %.9g", where, i, (double)texel[i], exact[i]);
@@ -186,8 +186,8 @@ static void what_is_asked_for_is_stored(void **state) {
     }
 }
 
-/// Every distribution, with normals that are themselves spread inside a texel, and maps of
-/// different sizes of which neither is the larger one both ways.
+/// Every distribution, with normals that vary inside a texel, and maps of different sizes, neither
+/// of which is larger in both directions.
 static void widths_are_convolved_and_mapped(void **state) {
     static const lobe_distribution distributions[] = {
         LOBE_DISTRIBUTION_GGX, LOBE_DISTRIBUTION_BECKMANN, LOBE_DISTRIBUTION_BLINN_PHONG,
@@ -317,7 +317,7 @@ static void every_level_integrates_to_one(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Object and camera space
 
-/// A rotation as its columns, and where in the atlas there is anything.
+/// A rotation as its columns, and the part of the atlas that is covered.
 typedef struct patch {
     double columns[3][3];
     double low[2], high[2];
@@ -374,8 +374,8 @@ static void turn_square(double rotation[3][3], double frame[3][3]) {
     }
 }
 
-/// In object space a turned square has the lobes of tangent space, turned by the mesh's own frame:
-/// wherever the instance is put.
+/// In object space a rotated square has the lobes of tangent space, rotated by the mesh's own
+/// frame, wherever the instance is.
 static void object_space_is_tangent_space_turned(void **state) {
     const double axis[3] = {1, -2, 0.5};
     double rotation[3][3];
@@ -398,7 +398,8 @@ static void object_space_is_tangent_space_turned(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// In camera space the instance's and the camera's rotation come on top; scale and place do not.
+/// In camera space the instance's and the camera's rotations are added; scale and position have no
+/// effect.
 static void camera_space_is_tangent_space_turned(void **state) {
     for (int perspective = 0; perspective < 2; perspective++) {
         const double axis[3] = {0.3, 0.2, -1};

@@ -1,4 +1,4 @@
-// How many clusters a material gets by itself: as few as come near its lobes.
+// The number of clusters chosen automatically: as few as come close to the material's lobes.
 
 #include "tests/passes/support/fixture.h"
 
@@ -9,7 +9,7 @@
 #include "passes/upload/scene_upload.h"
 #include "tests/passes/support/scene_builder.h"
 
-/// Uploads a scene of one square and gives what is chosen for its material.
+/// Uploads a scene of one square and returns the choice for its material.
 static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *material) {
     scene_add_square(scene, material, 1, NULL);
     scene_look_down(scene, 2);
@@ -53,14 +53,15 @@ static void as_many_as_directions_need(void **state) {
     static const double one_side[][2] = {{2, 5}, {35, 5}};
     assert_int_equal(choose_for_normals(*state, 20, flat, 1), 0);
     assert_int_equal(choose_for_normals(*state, 20, nearly_flat, 3), 0);
-    // Sectors tell opposite sides apart, halves what is tilted from what is not.
+    // Sectors distinguish opposite sides, halves distinguish tilted from upright lobes.
     assert_int_equal(choose_for_normals(*state, 300, two_sides, 2), 1);
     assert_int_equal(choose_for_normals(*state, 300, one_side, 2), 2);
-    // Lobes so broad that nothing shows of either.
+    // Lobes so broad that neither is visible.
     assert_int_equal(choose_for_normals(*state, 0.05f, one_side, 2), 0);
 }
 
-/// Two base lobes to either side, as of a woven cloth, need sectors where the normals are flat.
+/// Two base lobes on opposite sides, like those of a woven cloth, need sectors even if the normals
+/// are flat.
 static void base_lobes_count_as_well(void **state) {
     static const double flat[][2] = {{0, 0}};
     lobe_scene *scene = scene_begin();
@@ -91,7 +92,7 @@ static void any_map_has_an_answer(void **state) {
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         lobe_scene *scene = scene_begin();
         lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 100);
-        // All zero: straight down in snorm, of no direction otherwise.
+        // All zero: straight down in snorm, no direction otherwise.
         material.normal_map = scene_add_map(scene, map_image(formats[i], 8, 8));
         assert_in_range(choose(*state, scene, &material), 0, 2);
     }

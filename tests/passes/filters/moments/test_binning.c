@@ -15,9 +15,9 @@
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
-/// How a map is made, and how near it must come.
+/// How a map is made, and how accurate it must be.
 typedef struct map_request {
-    uint32_t kind, bins; ///< of the partition, as asked for
+    uint32_t kind, bins; ///< of the partition, as requested
     bool colour;
     double colour_scale;
     const char *base; ///< assignment
@@ -29,7 +29,7 @@ typedef struct map_request {
 static const map_request usual = {
     .colour_scale = 1, .base = "base=exact", .format = LOBE_FORMAT_RGBA32_FLOAT, .tolerance = 2e-5};
 
-/// Looks at a map, read back: layers within levels.
+/// A map that was read back: layers within levels.
 typedef void (*map_check)(const float *texels, const moment_map *map, const reference_layers *exact,
                           const reference_moment_bins *bins, const map_request *request);
 
@@ -41,7 +41,7 @@ static float number_at(const void *data, size_t i, lobe_format format) {
     return fmaxf((float)((const int16_t *)data)[i] / 32767, -1);
 }
 
-/// To free by the caller.
+/// The caller frees the result.
 static float *read_map(fixture *f, const moment_map *map) {
     size_t size = 0;
     const void *data = lobe_graph_data(f->graph, map->map.resource, &size);
@@ -72,7 +72,7 @@ static moment_map build_map(fixture *f, const device_scene *scene, const map_req
     return map;
 }
 
-/// The scene is destroyed after.
+/// Destroys the scene afterwards.
 static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
                      const map_request *request, map_check check) {
     scene_add_square(scene, material, 1, NULL);
@@ -113,7 +113,7 @@ static lobe_material microfacet_material(int distribution) {
     return material;
 }
 
-/// Three lobes that lean, of different widths and colours.
+/// Three tilted lobes of different widths and colours.
 static lobe_material leaning_lobes(lobe_distribution distribution) {
     lobe_material material = half_vector_material(distribution, 30);
     material.lobe_count = 3;
@@ -177,7 +177,7 @@ static void lobes_of_any_size(void **state) {
     }
 }
 
-/// Without a normal map every texel is upright, and only widths tell bins apart.
+/// Without a normal map every texel is upright, and only widths distinguish bins.
 static void widths_alone(void **state) {
     for (uint32_t kind = 0; kind < KINDS; kind++) {
         lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX);
@@ -190,7 +190,7 @@ static void widths_alone(void **state) {
     }
 }
 
-/// 16 bits keep numbers in [-1, 1] to half a step a level, or float16's eleven digits.
+/// 16 bits keep numbers in [-1, 1] to half a step per level, or to float16's eleven binary digits.
 static void sixteen_bits_are_within_a_step(void **state) {
     static const struct {
         lobe_format format;
@@ -213,7 +213,7 @@ static void sixteen_bits_are_within_a_step(void **state) {
     }
 }
 
-/// Bins together have what one bin for all lobes has, in every texel of every level.
+/// The bins add up to a single bin for all lobes, in every texel of every level.
 static void check_sums(const float *texels, const moment_map *map, const reference_layers *exact,
                        const reference_moment_bins *bins, const map_request *request) {
     (void)exact;

@@ -1,5 +1,5 @@
 // The filter "moments" through the whole renderer: against double precision, linear where theory
-// says so, with colours that keep to their directions, and the same in every storage.
+// requires it, with colours that stay with their directions, and the same in every storage format.
 
 #include "tests/passes/support/fixture.h"
 
@@ -25,7 +25,7 @@ static void directions_at(int i, double outgoing[3], double incoming[3]) {
     slope_plane_direction(angles[i % 4], 0.4 + 0.7 * i, incoming);
 }
 
-/// Maps of a plane of which one pixel sees all texels, many times.
+/// Maps of a plane; a single pixel sees all texels, many times.
 typedef struct ground {
     lobe_material material;
     lobe_image normals, widths; ///< widths: may have no texels
@@ -81,7 +81,7 @@ static void draw_pixel(fixture *f, const ground *g, const char *const settings[6
 // ---------------------------------------------------------------------------------------------
 // Against double precision
 
-/// How lobes are distributed over bins, for the filter and for its reference.
+/// How lobes are distributed over bins, for the filter and its reference.
 typedef struct sharing {
     const char *what;
     const char *settings[6];
@@ -186,7 +186,7 @@ static void microfacets_are_shaded_by_their_moments(void **state) {
                                                : random_normal_map(8, 8, 0.7, 402),
                         .widths = roughness_map(ways[i]->colour, 403)};
             g.material.base_colour[1] = 0.5f;
-            // With one roughness, the bin of what is rough is empty.
+            // With one roughness, the bin for rough lobes is empty.
             if (ways[i] == &hats && j == 1)
                 lobe_image_free(&g.widths);
             check_shading(*state, &g, ways[i], j ? "GGX" : "Beckmann");
@@ -217,7 +217,7 @@ static void lobes_are_shaded_by_their_moments(void **state) {
     }
 }
 
-/// More lights than are prepared for at once.
+/// More lights than are prepared at once.
 static void lights_add_up(void **state) {
     enum { LIGHTS = 6 };
     ground g = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.7, 0.4),
@@ -321,8 +321,8 @@ static void two_sides_are_the_mean_of_both(void **state) {
     check_mean_of_two(*state, &metal, 2, "Beckmann");
 }
 
-/// Sides that are not apart, with widths and metal of their own: what the filter makes of both is
-/// what the weighted sum of each side's moments, in the bins of both, gives.
+/// Sides that overlap, with their own widths and metalness: the filter's result for both equals
+/// that of the weighted sum of each side's moments in the common bins.
 static void moments_of_two_sides_add_up(void **state) {
     ground both = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1),
                    .normals = two_sides(2, 15),
@@ -379,7 +379,7 @@ static ground two_coloured_sawtooth(double degrees) {
     return g;
 }
 
-/// What the texels reflect on the average.
+/// The texels' mean reflection.
 static void mean_of_texels(const ground *g, double degrees, const double outgoing[3],
                            const double incoming[3], double mean[3]) {
     mean[0] = mean[1] = mean[2] = 0;
@@ -401,7 +401,7 @@ static void bins_keep_colours_with_directions(void **state) {
         double outgoing[3] = {0, 0, 1}, incoming[3], exact[3];
         float own[3], mean[3];
         int lit = side ? 2 : 0;
-        // What facets of the side mirror to the viewer.
+        // What facets of that side reflect to the viewer.
         slope_plane_direction(side ? 40 : -40, 0, incoming);
         mean_of_texels(&g, 20, outgoing, incoming, exact);
         draw_pixel(*state, &g, in_bins, outgoing, incoming, own);
@@ -410,7 +410,7 @@ static void bins_keep_colours_with_directions(void **state) {
                       side ? "right" : "left", exact[0], exact[1], exact[2], (double)own[0],
                       (double)own[1], (double)own[2], (double)mean[0], (double)mean[1],
                       (double)mean[2]);
-        // The other colour is a seventh of what the truth has, or less.
+        // The other colour is at most a seventh of the right one.
         assert_true(exact[2 - lit] < 0.15 * exact[lit]);
         for (int i = 0; i < 3; i++)
             assert_true(fabs((double)own[i] - exact[i]) <= 0.02 * exact[lit]);
@@ -469,7 +469,7 @@ static void storages_are_close(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Knobs at their ends together, which one at a time do not reach.
+/// Combinations of knobs at their limits, which varying one at a time does not reach.
 static void knobs_at_their_ends_together(void **state) {
     static const char *const settings[][5] = {
         {"bins=1", "colour=bins", "storage=snorm16", "least_share=0.1"},
@@ -495,7 +495,8 @@ static void knobs_at_their_ends_together(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
-/// Skipped bins are a small part of the footprint, however broad and heavy other texels' lobes are.
+/// Skipped bins are a small part of the footprint, however broad and massive other texels' lobes
+/// are.
 static void small_shares_alone_are_passed_over(void **state) {
     static const char *const all[6] = {"bins=3", "colour=mean", "least_share=0"};
     static const char *const most[6] = {"bins=3", "colour=mean", "least_share=0.1"};

@@ -1,5 +1,5 @@
 // How a material's lobes are distributed over bins: which lobes are separated, how many bins that
-// takes, and that nothing lies beyond the ranges.
+// takes, and that nothing exceeds the ranges.
 
 #include "tests/passes/support/fixture.h"
 
@@ -15,8 +15,8 @@
 /// A number of bins to be chosen.
 enum { AUTOMATIC = 0 };
 
-/// Uploads a scene of one square and looks at its material's partition. The scene is destroyed
-/// after, unless `keep`.
+/// Uploads a scene of one square and returns its material's partition. Destroys the scene
+/// afterwards, unless `keep`.
 static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_material *material,
                                      uint32_t kind, uint32_t bins, bool keep) {
     scene_add_square(scene, material, 1, NULL);
@@ -36,8 +36,8 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
     return partition;
 }
 
-/// A map whose texels take turns at `count` normals, each tilted from the pole towards +X by so
-/// many degrees.
+/// A map whose texels take turns at `count` normals, each tilted from the pole towards +X by an
+/// angle in degrees.
 static lobe_image tilts_in_turn(uint32_t width, uint32_t height, const double *tilts,
                                 uint32_t count) {
     lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
@@ -114,7 +114,7 @@ static void as_many_bins_as_pay(void **state) {
     assert_int_equal(partition_of_tilts(*state, 300, two_sides, 2, AUTOMATIC).bins, 2);
     assert_int_equal(partition_of_widths(*state, two_widths, 2, AUTOMATIC).bins, 2);
     assert_int_equal(partition_of_tilts(*state, 300, three, 3, AUTOMATIC).bins, 3);
-    // Lobes so broad that nothing shows of the normals.
+    // Lobes so broad that the normals have no visible effect.
     assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
 }
 
@@ -160,7 +160,7 @@ static lobe_scene *random_scene(uint64_t seed, uint32_t width, uint32_t height,
     return scene;
 }
 
-/// No number of any texel's moments is beyond [-1, 1], whatever base lobes are taken for.
+/// No moment of any texel is outside [-1, 1], however base lobes are represented.
 static void ranges_hold_all_lobes(void **state) {
     for (uint64_t seed = 400; seed < 424; seed++) {
         lobe_material material;
@@ -205,7 +205,7 @@ static void assert_sound(const moment_partition *partition) {
                         isfinite(partition->constants.hats[j]));
 }
 
-/// Of any size and width, and of normals that point nowhere or down.
+/// Of any size and width, and with normals that have no direction or point down.
 static void any_map_has_a_partition(void **state) {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 2}, {3, 5}, {25, 23}, {671, 3}};
     static const float widths[] = {0, 1e6f, 1e-3f};
@@ -251,7 +251,7 @@ static lobe_frame draw_normals(fixture *f, const lobe_material *base, lobe_image
     return frame;
 }
 
-/// One bin for all, of the widest range there is, which leaves the picture fewer digits.
+/// One bin for all, with the widest possible range, which makes the picture less precise.
 static void unreadable_maps_are_drawn(void **state) {
     lobe_material materials[2] = {half_vector_material(LOBE_DISTRIBUTION_VMF, 60)};
     lobe_material_default(&materials[1]);

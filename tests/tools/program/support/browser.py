@@ -17,7 +17,8 @@ def _find():
 
 
 def _environment():
-    """Without what is meant for our own program: sanitizers and their preloaded libraries."""
+    """The environment without what is set for our own program: sanitizers and their preloaded
+    libraries."""
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("LD_PRELOAD", "ASAN_", "LSAN_", "UBSAN_", "MALLOC_"))}
     return {**environment, "HOME": str(FOLDER), "XDG_CACHE_HOME": str(FOLDER / "cache"),

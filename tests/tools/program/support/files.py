@@ -1,4 +1,5 @@
-"""Just enough of OpenEXR, PNG and glTF to look into what `lobe` writes, and to give it to read."""
+"""Minimal readers and writers of OpenEXR, PNG and glTF, to inspect what `lobe` writes and to create
+its input."""
 
 import base64
 import json
@@ -41,7 +42,7 @@ def exr_header(path):
 
 
 def exr_pixels(path):
-    """What follows the header and the table of places: all channels, as they are stored."""
+    """The data after the header and the offset table: all channels, as stored."""
     attributes, data = _header(path)
     window = attributes["dataWindow"]
     lines = {0: 1, 2: 1, 3: 16}[attributes["compression"][0]]

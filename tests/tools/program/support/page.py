@@ -1,4 +1,4 @@
-"""Just enough of HTML5 to look into the pages that `lobe` writes."""
+"""A minimal HTML5 parser, to inspect the pages that `lobe` writes."""
 
 from html.parser import HTMLParser
 
@@ -10,7 +10,7 @@ class Element:
         self.tag, self.attributes, self.parent, self.children = tag, attributes, parent, []
 
     def all(self, tag, **attributes):
-        """All elements within of that tag and these attributes; "class_" stands for "class"."""
+        """All descendants with that tag and these attributes; "class_" means "class"."""
         wanted = {name.rstrip("_"): value for name, value in attributes.items()}
         found = []
         for child in self.children:
@@ -56,7 +56,7 @@ class _Reader(HTMLParser):
 
 
 def parse(text):
-    """The page as a tree. Fails where tags do not match."""
+    """The page as a tree. Fails if tags do not match."""
     reader = _Reader()
     reader.feed(text)
     reader.close()
@@ -71,7 +71,7 @@ def by_id(root, name):
 
 
 def rows(table):
-    """The body's rows: each cell a number where it has a machine's form of it, else its text."""
+    """The body's rows: each cell as a number if it has a machine-readable one, else its text."""
     result = []
     for row in table.all("tbody")[0].all("tr"):
         cells = [cell for cell in row.children if isinstance(cell, Element)]

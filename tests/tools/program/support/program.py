@@ -14,7 +14,7 @@ ASSETS = ROOT.parent / "shared" / "assets"
 FOLDER = Path(tempfile.mkdtemp(prefix="lobe-test-"))
 atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
 # Each test file has its own cache folder for lobe. The driver's cache of compiled shaders is shared:
-# compiling them again would be half of the time of small pictures.
+# recompiling them would take half the time of small pictures.
 os.environ.setdefault("MESA_SHADER_CACHE_DIR",
                       os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache"))
 
@@ -48,14 +48,14 @@ def succeeds(*arguments, **keywords):
 
 
 def error_lines(result):
-    """Lines on standard error but warnings and notices of what went on before."""
+    """Lines on standard error except warnings and notices."""
     lines = result.stderr.splitlines()
     return [line for line in lines if line.startswith("lobe: error: ") or
             not line.startswith("lobe: ")]
 
 
 def fails(*arguments, status=1, says=(), **keywords):
-    """The program ends with that status, and one line that holds all the words of `says`."""
+    """The program exits with that status, and prints one line that contains all words of `says`."""
     result = lobe(*arguments, **keywords)
     check(result.returncode == status, report(result))
     lines = error_lines(result) if status == 1 else result.stderr.splitlines()
@@ -79,6 +79,6 @@ def fresh_folder(name):
 
 
 def leaves(folder, *names):
-    """The folder holds these files and nothing else."""
+    """The folder contains exactly these files."""
     found = sorted(path.name for path in folder.iterdir())
     check(found == sorted(names), f"{folder} holds {found}, not {sorted(names)}")

@@ -11,12 +11,12 @@ from pathlib import Path
 from program import FOLDER, PROGRAM, check
 
 WIDTH, HEIGHT = 800, 600
-# What window_faults.c is to do next.
+# What window_faults.c should do next.
 FAULT = FOLDER / "fault"
 
 
 class Screen:
-    """An X server whose picture lies in a file, in the format of xwd."""
+    """An X server whose frame buffer is a file, in the format of xwd."""
 
     def __init__(self):
         self.folder = FOLDER / "screen"
@@ -35,12 +35,12 @@ class Screen:
         self.server.wait()
 
     def do(self, *words):
-        """Events: xdotool's words."""
+        """Sends events, in xdotool's syntax."""
         subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "DISPLAY": self.name})
 
     def picture(self, left=0, top=0, width=WIDTH, height=HEIGHT):
-        """Part of what is to be seen: rows of B, G, R and a byte without meaning a pixel."""
+        """Part of the screen: rows of B, G, R and an unused byte per pixel."""
         data = (self.folder / "Xvfb_screen0").read_bytes()
         header = struct.unpack(">25I", data[:100])
         start, stride = header[0] + 12 * header[19], header[12]
@@ -49,19 +49,19 @@ class Screen:
 
 
 def threads(process):
-    """Of each thread: what it does ("S": sleeps) and how many ticks it has taken."""
+    """For each thread: its state ("S": sleeping) and its CPU time in ticks."""
     found = []
     for task in Path(f"/proc/{process}/task").iterdir():
         try:
             fields = (task / "stat").read_text().rsplit(")", 1)[1].split()
         except (FileNotFoundError, ProcessLookupError):
-            continue  # it has just ended
+            continue  # it has just exited
         found.append((fields[0], int(fields[11]) + int(fields[12])))
     return found
 
 
 class Window:
-    """`lobe view`, as large as it is asked to be, in the top left corner of a screen."""
+    """`lobe view`, at the requested size, in the top left corner of a screen."""
 
     def __init__(self, screen, *arguments, program=PROGRAM, faults=None):
         self.screen = screen
@@ -95,11 +95,11 @@ class Window:
         raise AssertionError(f"no window: {self.said()}")
 
     def seconds(self):
-        """Time of processors that the program has taken."""
+        """CPU time of the program."""
         return sum(ticks for _, ticks in threads(self.process.pid)) / os.sysconf("SC_CLK_TCK")
 
     def settle(self):
-        """Waits until the program sleeps, and the server, too."""
+        """Waits until both the program and the server sleep."""
         quiet, before = 0, None
         for _ in range(2000):
             time.sleep(0.02)
@@ -112,12 +112,12 @@ class Window:
         raise AssertionError(f"never comes to rest: {self.said()}")
 
     def do(self, *words):
-        """Events, and what comes of them."""
+        """Sends events and waits for their effect."""
         self.screen.do(*words)
         self.settle()
 
     def foretell(self, *lines):
-        """What window_faults.c does from now on."""
+        """Sets what window_faults.c does from now on."""
         changed = FAULT.with_suffix(".new")
         changed.write_text("".join(f"{line}\n" for line in lines))
         changed.rename(FAULT)
@@ -129,13 +129,13 @@ class Window:
         check(not FAULT.exists(), f"{line}: nothing came of it")
 
     def drop(self, *paths):
-        """Files or folders, from another program's window."""
+        """Drops files or folders from another program's window."""
         with Client(self.screen.name) as client:
             client.drop(self.number, paths)
         self.settle()
 
     def minimise(self):
-        """As window managers do."""
+        """Resizes the window as window managers do."""
         with Client(self.screen.name) as client:
             client.set_state(self.number, ICONIC)
         self.screen.do("windowunmap", self.number)
@@ -146,28 +146,28 @@ class Window:
         self.screen.do("windowmap", "--sync", self.number, "windowfocus", self.number)
 
     def close(self):
-        """As by the cross in the window's corner: the message that window managers send."""
+        """Closes the window as its close button does: with the message that window managers
+        send."""
         with Client(self.screen.name) as client:
             client.close_window(self.number)
             return self.process.wait(timeout=60)
 
 
 class Event(ctypes.Structure):
-    """Beginning of each of Xlib's events, in what any of them takes."""
+    """The common start of Xlib's events, padded to the size of any of them."""
     _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
                 ("display", ctypes.c_void_p), ("window", ctypes.c_ulong),
                 ("rest", ctypes.c_ulong * 24)]
 
 
-# Numbers of X11/X.h.
+# From X11/X.h.
 SELECTION_REQUEST, SELECTION_NOTIFY, CLIENT_MESSAGE = 30, 31, 33
-# Of X11/Xutil.h: states of windows.
+# From X11/Xutil.h: states of windows.
 NORMAL, ICONIC = 1, 3
 
 
 class Client:
-    """A program that sends the messages of window managers, and of those that files are dragged
-    from."""
+    """An X client that sends the messages of window managers and of drag sources."""
 
     def __init__(self, name):
         self.xlib = ctypes.CDLL("libX11.so.6")
@@ -208,7 +208,7 @@ class Client:
         self.xlib.XFlush(self.display)
 
     def wait_for(self, kind):
-        """The next event of that type that comes within ten seconds."""
+        """The next event of that type within ten seconds."""
         event = Event()
         for _ in range(500):
             if self.xlib.XCheckTypedEvent(self.display, kind, ctypes.byref(event)):
@@ -217,8 +217,8 @@ class Client:
         raise AssertionError(f"no event of type {kind}")
 
     def drop(self, window, paths):
-        """XDND, version 5: says that files have come, where they are, and that they were let go;
-        then hands their names over when asked for them."""
+        """XDND, version 5: announces files, their position and the drop; then delivers their names
+        on request."""
         root = ctypes.c_ulong(self.xlib.XDefaultRootWindow(self.display))
         source = self.xlib.XCreateSimpleWindow(self.display, root, 700, 500, 9, 9, 0,
                                                ctypes.c_ulong(0), ctypes.c_ulong(0))

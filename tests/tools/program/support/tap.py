@@ -6,7 +6,7 @@ import traceback
 
 def run(module):
     """Runs all functions of a module (its globals()) whose names start with "test_", in the order
-    they stand there. Returns the exit status."""
+    of their definition. Returns the exit status."""
     cases = [(name, value) for name, value in module.items() if name.startswith("test_")]
     print(f"1..{len(cases)}", flush=True)
     failed = 0
@@ -15,7 +15,7 @@ def run(module):
             reason = function()
             skip = f" # SKIP {reason}" if reason else ""
             print(f"ok {number} - {name}{skip}", flush=True)
-        except Exception:  # whatever goes wrong is a failed case, and the next one runs
+        except Exception:  # any exception is a failed case, and the next one runs
             failed += 1
             print(f"not ok {number} - {name}")
             for line in traceback.format_exc().splitlines():

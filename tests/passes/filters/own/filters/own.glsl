@@ -1,5 +1,5 @@
-// The shading of the test's own filter: a material shines in the mean colour of its map, whatever
-// its normals, times the knob "gain", with red and blue exchanged where the knob "order" says so.
+// The shading of the test's own filter: a material emits the mean colour of its map, whatever its
+// normals, times the knob "gain", with red and blue exchanged if the knob "order" requests it.
 
 #include "shading/unfiltered_maps.glsl"
 
