@@ -27,7 +27,12 @@ typedef struct knob_feed {
 #define KNOB_FEEDS_SHARED(member)                                                                  \
     { KNOB_SHARED_NUMBER, offsetof(struct shared_knobs, member) }
 #define KNOB_FEEDS_FILTER(structure, member)                                                       \
-    { KNOB_FILTER_NUMBER, offsetof(struct structure, member) }
+    { KNOB_FILTER_NUMBER, offsetof(struct structure, member) + KNOB_CHECK_SIZE(structure) }
+
+/// Largest struct of numbers, bytes. The check is 0, or does not compile.
+#define KNOB_BLOCK_SIZE 128
+#define KNOB_CHECK_SIZE(structure)                                                                 \
+    (0 * sizeof(char[sizeof(struct structure) <= KNOB_BLOCK_SIZE ? 1 : -1]))
 
 /// A knob, and where its value goes. C code refers to the object to read the value, so that a
 /// misspelt knob does not compile.

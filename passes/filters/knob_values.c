@@ -85,7 +85,7 @@ void passes_knobs_specialise(const filter_context *context, specialisation_list 
 /// A block of floats as large as the shader's, whose size is a multiple of 16 bytes.
 static void bind_numbers(const filter_context *context, knob_route route, size_t size,
                          const char *name, lobe_pass *pass) {
-    float block[LOBE_MAXIMUM_KNOBS + 3] = {0};
+    float block[KNOB_BLOCK_SIZE / sizeof(float)] = {0};
     const filter_knob *knob;
     for (size_t i = 0; (knob = passes_filter_knob(context->filter, i)); i++) {
         if (knob->feeds.route != route)

@@ -85,8 +85,7 @@ static void choices_are_constants_and_numbers_are_uniforms(void **state) {
             if (route != KNOB_HOST)
                 assert_int_equal(route == KNOB_CONSTANT, !number);
             if (route == KNOB_SHARED_NUMBER || route == KNOB_FILTER_NUMBER)
-                assert_true(knob->feeds.place % 4 == 0 &&
-                            knob->feeds.place < LOBE_MAXIMUM_KNOBS * 4);
+                assert_true(knob->feeds.place % 4 == 0 && knob->feeds.place < KNOB_BLOCK_SIZE);
         }
     }
 }
