@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks includes: a folder may include only what is below it; Vulkan stays inside engine/ and out
-of reach of the folders in ROOMS; the folders in ACYCLIC have no cycle of includes; what a filter
-has in its own folder stays there. Checks allocations: in the library, everything except one file
-uses the host's allocator. Prints each line that breaks a rule and fails if there is one. Also fails
-if it does not find the errors in a small tree that breaks each rule."""
+of reach of the folders in ROOMS; a folder in STRATA includes only those before it; the folders in
+ACYCLIC have no cycle of includes; what a filter has in its own folder stays there. Checks
+allocations: in the library, everything except one file uses the host's allocator. Prints each line
+that breaks a rule and fails if there is one. Also fails if it does not find the errors in a small
+tree that breaks each rule."""
 
 import re
 import sys
@@ -34,10 +35,10 @@ OWNED = {
 ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/include/")}
 # Folders in which no file may include itself through others. A header and its source count as one.
 ACYCLIC = ("engine/base/", "engine/graph/", "engine/image/", "passes/", "scenes/", "tools/")
-# Files that may not include headers of the folders named, in the same library: uploading a scene
-# must not depend on filters, and what a filter has in its own folder is private to it.
-UNAWARE = {"passes/upload/": ("passes/environment/", "passes/filters/", "passes/maps/",
-                              "passes/renderer/")}
+# Folders of which each may include headers of those before it alone.
+STRATA = ("passes/upload/", "passes/context/", "passes/maps/", "passes/environment/",
+          "passes/filters/", "passes/renderer/")
+# What a filter has in its own folder is private to it.
 PRIVATE = ("passes/filters/lobes/", "passes/filters/moments/")
 VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")
 
@@ -121,8 +122,8 @@ def check_room(root, path, public):
 def check_private(relative, text):
     """Headers that belong to others, among what a file of the library includes."""
     forbidden = [folder for folder in PRIVATE if not relative.startswith(folder)]
-    for folder, others in UNAWARE.items():
-        forbidden += others if relative.startswith(folder) else ()
+    for place, folder in enumerate(STRATA):
+        forbidden += STRATA[place + 1:] if relative.startswith(folder) else ()
     return [f"{relative} includes {name}: it may not know {folder}"
             for _, name in INCLUDE.findall(text) for folder in forbidden if name.startswith(folder)]
 

@@ -392,14 +392,6 @@ lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_para
     return result;
 }
 
-const engine_shader_binding *engine_pipeline_binding(const engine_pipeline *pipeline,
-                                                     const char *name) {
-    for (size_t i = 0; i < pipeline->binding_count; i++)
-        if (!strcmp(pipeline->bindings[i].name, name))
-            return &pipeline->bindings[i];
-    return NULL;
-}
-
 lobe_result engine_sampler(lobe_device *device, const lobe_sampler *settings, VkSampler *sampler) {
     pthread_mutex_lock(&device->found_mutex);
     const lobe_result result =

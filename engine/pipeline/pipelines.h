@@ -36,10 +36,6 @@ lobe_result engine_pipeline_compute(lobe_device *device,
 lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
                                    const engine_pipeline **pipeline);
 
-/// Finds a binding by name; NULL if the pipeline has none.
-const engine_shader_binding *engine_pipeline_binding(const engine_pipeline *pipeline,
-                                                     const char *name);
-
 /// Finds or creates the sampler for these settings. It lives as long as the device.
 lobe_result engine_sampler(lobe_device *device, const lobe_sampler *settings, VkSampler *sampler);
 

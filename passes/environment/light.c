@@ -2,11 +2,11 @@
 
 #include <string.h>
 
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/environment/directional_albedo.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
-#include "passes/filters/knob_values.h"
-#include "passes/filters/shared_knobs.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 

@@ -1,9 +1,9 @@
 #ifndef PASSES_ENVIRONMENT_LIGHT_H
 #define PASSES_ENVIRONMENT_LIGHT_H
 
+#include "passes/context/filter.h"
+#include "passes/context/material_specialisation.h"
 #include "passes/environment/cache/cached_cubes.h"
-#include "passes/filters/filter.h"
-#include "passes/renderer/material_specialisation.h"
 #include "shaders/interface/specialisation.h"
 
 /// What a renderer keeps of an environment's maps between frames; all zero: nothing.

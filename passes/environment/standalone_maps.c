@@ -2,8 +2,8 @@
 
 #include <string.h>
 
+#include "passes/context/pass_times.h"
 #include "passes/environment/cache/cached_cubes.h"
-#include "passes/renderer/pass_times.h"
 
 struct lobe_environment_maps {
     lobe_device *device;

@@ -1,4 +1,4 @@
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "shaders/interface/knobs.h"
 
 /// Off by default: this filter shows what a single sample gives.

@@ -1,4 +1,4 @@
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/parameter_averaging.h"
 

@@ -1,4 +1,4 @@
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 const lobe_filter passes_filter_reference = {
     .name = "reference",

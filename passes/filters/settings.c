@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {
     *settings = (lobe_settings){{0}};
@@ -117,7 +117,7 @@ void lobe_settings_print(const lobe_filter *filter, const lobe_settings *setting
                          char *text, size_t size) {
     const lobe_knob *description = lobe_filter_knob(filter, knob);
     double value = settings->values[knob];
-    if (description->kind == LOBE_KNOB_CHOICE)
+    if (description->kind == LOBE_KNOB_CHOICE && allows(description, value))
         snprintf(text, size, "%s", description->choices[(size_t)value]);
     else
         snprintf(text, size, "%g", value);

@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_SLOTS_H
 #define PASSES_FILTERS_SLOTS_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 /// What filters prepared for a scene's materials: a slot for each filter and material, so that two
 /// alternating filters (a split view, a benchmark) prepare each material once. A list with an entry

@@ -1,4 +1,4 @@
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 // One line per filter, in the order of `lobe filters`; each refers to passes_filter_NAME.
 #define FILTERS                                                                                    \

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "passes/filters/knob_values.h"
+#include "passes/context/knob_values.h"
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
 #include "passes/upload/material_maps.h"

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_FILTERED_MAPS_H
 #define PASSES_MAPS_FILTERED_MAPS_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 /// Adds what shaders/shading/filtered_maps.glsl reads: the colour maps of a material, filtered
 /// linearly (each image once for all materials), and the knobs of the footprint.

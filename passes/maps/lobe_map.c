@@ -2,14 +2,10 @@
 
 #include <stdio.h>
 
+#include "passes/context/material_specialisation.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/clustering.h"
-#include "shaders/interface/slope_moments.h"
-
-static_assert(sizeof(struct clustering_constants) == sizeof(struct slope_moments_constants),
-              "one kind of push constants");
+#include "shaders/interface/lobe_grid.h"
 
 void passes_base_maps_read(const filter_context *context, const device_material *material,
                            bool colours, lobe_pass *pass) {
@@ -54,7 +50,7 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
         pass, &(lobe_binding){kind->binding, map.resource, .range = {0, 1, 0, map.layers}});
     specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);
-    const struct clustering_constants extent = {grid.width, grid.height};
+    const struct lobe_grid_constants extent = {grid.width, grid.height};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = kind->shader,
                                  .threads = {map.width, map.height, 1},

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_LOBE_MAP_H
 #define PASSES_MAPS_LOBE_MAP_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/maps/level_reduction.h"
 
 /// Maps that filters make of a material's lobes: built from its lobe_grid, reduced to all levels,

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "passes/renderer/camera.h"
+#include "passes/context/camera.h"
 
 /// The smallest depth of the instance's bounds along the view axis.
 static float nearest_depth(const filter_context *context, size_t index) {

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_MAGNIFICATION_H
 #define PASSES_MAPS_MAGNIFICATION_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 /// Whether any pixel of the picture may see level 0 of a map of `width` x `height` texels on
 /// instances of the material: a pixel at their nearest point, facing the viewer where the map is

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "passes/renderer/sample_pattern.h"
+#include "passes/context/sample_pattern.h"
 #include "passes/upload/material_maps.h"
 
 /// Xu et al. 2017, Eq. 6, as in shaders/lib/lobe/von_mises_fisher.glsl.

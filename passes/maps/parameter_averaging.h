@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_PARAMETER_AVERAGING_H
 #define PASSES_MAPS_PARAMETER_AVERAGING_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/maps/level_reduction.h"
 
 /// Adds the pass that averages normals and concentrations like colours, and the reduction of what

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_SLOPE_MOMENTS_H
 #define PASSES_MAPS_SLOPE_MOMENTS_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/maps/level_reduction.h"
 
 /// Adds the pass that takes moments of a material's slopes, and the reduction of what it writes.

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_SURFACE_ATLAS_H
 #define PASSES_MAPS_SURFACE_ATLAS_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 /// The surface frame of an instance's mesh over its own texture coordinates, in object space.
 typedef struct surface_atlas {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "passes/renderer/camera.h"
+#include "passes/context/camera.h"
 #include "shaders/interface/background.h"
 
 /// The direction of a pixel is centre + x right + y down, with x and y in [-1, 1], in the world. An

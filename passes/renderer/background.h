@@ -1,7 +1,7 @@
 #ifndef PASSES_RENDERER_BACKGROUND_H
 #define PASSES_RENDERER_BACKGROUND_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 /// Adds a draw of the scene's environment to a raster pass; it must be the first draw. `cube`: the
 /// environment's radiance with all its levels. `sample`: position in the pixel, [0, 1] each.

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "passes/renderer/pass_times.h"
+#include "passes/context/pass_times.h"
 
 frame_delivery passes_delivery_of(const lobe_render_parameters *parameters) {
     return (frame_delivery){

@@ -1,7 +1,7 @@
+#include "passes/context/sample_pattern.h"
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/picture_drawing.h"
-#include "passes/renderer/sample_pattern.h"
 
 /// Few enough that one submission stays short on a slow device.
 #define SAMPLES_PER_SUBMISSION 8

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "passes/filters/knob_values.h"
+#include "passes/context/camera.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/material_specialisation.h"
 #include "passes/renderer/background.h"
-#include "passes/renderer/camera.h"
-#include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"

@@ -1,8 +1,8 @@
 #ifndef PASSES_RENDERER_SHADING_H
 #define PASSES_RENDERER_SHADING_H
 
+#include "passes/context/filter.h"
 #include "passes/environment/light.h"
-#include "passes/filters/filter.h"
 
 /// What the shading pass draws into. passes_shading_targets_declare declares the images; each
 /// shading pass clears them and stores their new versions here.

@@ -4,7 +4,7 @@
 #include "types.h"
 
 // The numeric knobs, in uniform blocks (std140): a new value compiles nothing. In C, only the
-// knob's entry refers to its member (passes/filters/knob.h).
+// knob's entry refers to its member (passes/context/knob.h).
 //
 // Those that several filters have. A filter without such a knob reads 0.
 struct shared_knobs {

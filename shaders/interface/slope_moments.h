@@ -20,14 +20,6 @@
 // would too.
 #define SLOPE_MAXIMUM 8.0
 
-// Push constants of slope_moments.
-struct slope_moments_constants {
-    uint width; // of the base maps, texels
-    uint height;
-};
-INTERFACE_SIZE(slope_moments_constants, 8)
-INTERFACE_OFFSET(slope_moments_constants, height, 4)
-
 #define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
 // uint, [0, 2], of `leadr`: 3, 5 or 7 slopes along each axis of a grid
 #define SPECIALISE_GRID (SPECIALISE_FILTER + 21)

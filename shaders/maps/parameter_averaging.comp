@@ -5,14 +5,14 @@
 // Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
 
 #include "maps/base_maps.glsl"
-#include "interface/clustering.h"
+#include "interface/lobe_grid.h"
 #include "lib/map/box_reduction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray parameter_map;
 
-layout(push_constant) uniform constants_block { clustering_constants constants; };
+layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void main() {
     ivec2 position = ivec2(gl_GlobalInvocationID.xy);

@@ -7,6 +7,7 @@
 // those of the directions, because masking and the mean reflecting normal need both.
 
 #include "maps/base_maps.glsl"
+#include "interface/lobe_grid.h"
 #include "interface/slope_moments.h"
 #include "lib/map/box_reduction.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
@@ -16,7 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
 
-layout(push_constant) uniform constants_block { slope_moments_constants constants; };
+layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 struct moment_sums {
     vec4 first, second;

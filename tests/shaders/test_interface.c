@@ -9,13 +9,14 @@
 #include "engine/shader/shaders.h"
 #include "shaders/interface/atlas.h"
 #include "shaders/interface/background.h"
-#include "shaders/interface/clustering.h"
+#include "shaders/interface/clustering_atlas.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/irradiance_harmonics.h"
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/light.h"
+#include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
@@ -43,8 +44,8 @@ static known_member known[] = {
     MEMBER(background_constants, centre, 0),
     MEMBER(background_constants, right, 1),
     MEMBER(background_constants, down, 2),
-    MEMBER(clustering_constants, width, 0),
-    MEMBER(clustering_constants, height, 1),
+    MEMBER(lobe_grid_constants, width, 0),
+    MEMBER(lobe_grid_constants, height, 1),
     MEMBER(atlas_constants, rotation, 0),
     MEMBER(atlas_constants, eye, 1),
     MEMBER(atlas_constants, width, 2),

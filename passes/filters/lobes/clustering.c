@@ -5,13 +5,14 @@
 
 #include <cglm/cglm.h>
 
+#include "passes/context/camera.h"
+#include "passes/context/material_specialisation.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/surface_atlas.h"
-#include "passes/renderer/camera.h"
-#include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/clustering.h"
+#include "shaders/interface/clustering_atlas.h"
+#include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/mixture.h"
 
 static uint32_t layers_of(uint32_t subdivision) {
@@ -88,7 +89,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     passes_material_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
-    struct clustering_constants tangent_constants = {grid.width, grid.height};
+    struct lobe_grid_constants tangent_constants = {grid.width, grid.height};
     struct atlas_constants atlas_constants = {.width = grid.width, .height = grid.height};
     lobe_dispatch dispatch = {
         .shader = "filters/lobes/clustering.comp",

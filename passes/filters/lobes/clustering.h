@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_LOBES_CLUSTERING_H
 #define PASSES_FILTERS_LOBES_CLUSTERING_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/maps/level_reduction.h"
 
 /// A map of lobe mixtures. Its layers are described in shaders/interface/mixture.h.

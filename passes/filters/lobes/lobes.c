@@ -1,7 +1,7 @@
 #include <math.h>
 
-#include "passes/filters/filter.h"
-#include "passes/filters/knob_values.h"
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
 #include "passes/filters/lobes/clustering.h"
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"

@@ -2,12 +2,12 @@
 
 #include <stdio.h>
 
-#include "passes/filters/knob_values.h"
-#include "passes/filters/shared_knobs.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/material_specialisation.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
-#include "passes/renderer/material_specialisation.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/clustering.h"
+#include "shaders/interface/lobe_grid.h"
 
 static void read_colours(const filter_context *context, const device_material *material,
                          lobe_pass *pass) {
@@ -58,7 +58,7 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
         pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
     specialisation_list list = {.graph = context->graph};
     specialise_binning(context, material, partition, colour, &list);
-    const struct clustering_constants constants = {partition->width, partition->height};
+    const struct lobe_grid_constants constants = {partition->width, partition->height};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = "filters/moments/binning.comp",
                                  .threads = {result.map.width, result.map.height, 1},

@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_MOMENTS_BINNING_H
 #define PASSES_FILTERS_MOMENTS_BINNING_H
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/filters/moments/partition.h"
 #include "passes/maps/level_reduction.h"
 

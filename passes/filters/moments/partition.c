@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/context/sample_pattern.h"
 #include "passes/maps/material_patch.h"
-#include "passes/renderer/sample_pattern.h"
 #include "passes/upload/material_maps.h"
 
 // More samples or iterations do not change a picture.

@@ -97,8 +97,7 @@ lobe_environment_maps_describe(const lobe_environment_maps *maps);
 
 /// The concentration kappa of the lobe that a level of a filtered cube is filtered with, if level 0
 /// has `width` texels along a face; twice that for LOBE_ENVIRONMENT_BETWEEN. Lobes of other
-/// concentrations are interpolated between levels, or between the two cubes: see
-/// shaders/lib/light/environment_level.glsl.
+/// concentrations are interpolated between levels, or between the two cubes.
 LOBE_API double lobe_environment_level_concentration(uint32_t width, uint32_t level);
 
 /// Copies one face of one level to host memory: RGBA32_FLOAT, rows from top to bottom as in

@@ -80,6 +80,7 @@ LOBE_API lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings 
 LOBE_API lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
                                        const char *name, double *value, const lobe_host *host);
 /// Writes a knob's value as a user would ("0.95", "camera") into `text`.
+/// `knob` is below lobe_filter_knob_count.
 LOBE_API void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings,
                                   size_t knob, char *text, size_t size);
 

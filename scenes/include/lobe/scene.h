@@ -125,7 +125,7 @@ typedef struct lobe_material {
 /// A white microfacet material: GGX, roughness 1, metallic 0, no maps.
 LOBE_API void lobe_material_default(lobe_material *material);
 
-/// Shared with shaders/interface/vertex.h: the same 18 floats.
+/// 18 floats, read by the shaders as they are.
 typedef struct lobe_scene_vertex {
     float position[3];
     float normal[3];  ///< unit length

@@ -5,12 +5,12 @@
 // instant BRDF map of Xu et al. 2017 has one lobe per texel, so it needs no memory of its own. The
 // mixture starts where texels are averaged, at half the base maps' size.
 
-#include "interface/clustering.h"
+#include "interface/lobe_grid.h"
 #include "filters/lobes/clustering.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(push_constant) uniform constants_block { clustering_constants constants; };
+layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void main() {
     ivec2 position = ivec2(gl_GlobalInvocationID.xy);

@@ -5,7 +5,7 @@
 // each texel's tangent frame from the mesh's surface atlas. Texels that face away from the camera
 // are left out (Xu et al. 2017, section 4, Generation of instant BRDF map).
 
-#include "interface/clustering.h"
+#include "interface/clustering_atlas.h"
 #include "filters/lobes/clustering.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

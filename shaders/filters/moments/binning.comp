@@ -7,7 +7,7 @@
 // The texels' own lobes are level 0; the map starts where texels are averaged.
 
 #include "maps/base_maps.glsl"
-#include "interface/clustering.h"
+#include "interface/lobe_grid.h"
 #include "lib/lobe/bin_membership.glsl"
 #include "lib/map/box_reduction.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
@@ -27,7 +27,7 @@ layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
 layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants binning; };
 
-layout(push_constant) uniform constants_block { clustering_constants constants; };
+layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 struct bin_sums {
     vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g

@@ -43,6 +43,14 @@ static const engine_pipeline *compute(const lobe_specialisation *values, size_t 
     return pipeline;
 }
 
+/// NULL if the pipeline has no binding of that name.
+static const engine_shader_binding *binding_of(const engine_pipeline *pipeline, const char *name) {
+    for (size_t i = 0; i < pipeline->binding_count; i++)
+        if (!strcmp(pipeline->bindings[i].name, name))
+            return &pipeline->bindings[i];
+    return NULL;
+}
+
 // ---------------------------------------------------------------------------------------------
 // Compute
 
@@ -68,7 +76,7 @@ static VkDescriptorSet bind_buffer(const engine_pipeline *pipeline, VkBuffer buf
     const VkWriteDescriptorSet write = {
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
         .dstSet = set,
-        .dstBinding = engine_pipeline_binding(pipeline, "Target")->binding,
+        .dstBinding = binding_of(pipeline, "Target")->binding,
         .descriptorCount = 1,
         .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
         .pBufferInfo = &whole,
@@ -177,10 +185,9 @@ static void stages_are_merged(void **state) {
     const engine_pipeline *pipeline = raster(&parameters);
     const VkShaderStageFlags both = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     assert_int_equal(pipeline->binding_count, 2);
-    assert_int_equal(engine_pipeline_binding(pipeline, "Vertices")->stages, both);
-    assert_int_equal(engine_pipeline_binding(pipeline, "colours")->stages,
-                     VK_SHADER_STAGE_FRAGMENT_BIT);
-    assert_null(engine_pipeline_binding(pipeline, "elsewhere"));
+    assert_int_equal(binding_of(pipeline, "Vertices")->stages, both);
+    assert_int_equal(binding_of(pipeline, "colours")->stages, VK_SHADER_STAGE_FRAGMENT_BIT);
+    assert_null(binding_of(pipeline, "elsewhere"));
     assert_int_equal(pipeline->push_constant_size, 32);
     assert_int_equal(pipeline->push_constant_stages, both);
     assert_int_equal(pipeline->output_locations, 1u << 0 | 1u << 2);

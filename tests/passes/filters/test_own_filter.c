@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "engine/shader/shaders.h"
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "passes/upload/material_maps.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "passes/filters/filter.h"
-#include "passes/filters/knob_values.h"
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
 #include "tests/engine/support/vulkan_faults.h"

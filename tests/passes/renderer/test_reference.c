@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "passes/context/sample_pattern.h"
 #include "passes/renderer/accumulation.h"
-#include "passes/renderer/sample_pattern.h"
 #include "passes/renderer/shading.h"
 #include "passes/upload/scene_upload.h"
 #include "tests/passes/support/picture.h"

@@ -135,6 +135,7 @@ void scene_look_from(lobe_scene *scene, const double towards[3], double height) 
 void scene_look_along(lobe_scene *scene) {
     scene_add_sun(scene, (double[]){0.2, 1, 0.3}, 2);
     scene_add_sun(scene, (double[]){0, 1, -3}, 2);
+    scene->has_camera = true;
     scene->camera = (lobe_camera){.eye = {0.5f, 0.4f, 1.4f},
                                   .up = {0, 1, 0},
                                   .vertical_field_of_view = 0.9f,

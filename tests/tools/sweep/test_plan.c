@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 #include "tests/engine/support/log_recorder.h"
 #include "tools/sweep/sweep.h"
 

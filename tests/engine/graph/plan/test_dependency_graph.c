@@ -209,7 +209,7 @@ static void a_range_has_several_sources(void **state) {
 
 static void order_is_that_of_declaration_where_it_can_be(void **state) {
     (void)state;
-    char names[8][8];
+    char names[8][12];
     for (int i = 0; i < 8; i++) {
         snprintf(names[i], sizeof names[i], "%d", i);
         lobe_resource x = transient(names[i], 1);

@@ -352,7 +352,8 @@ static void save(const char *path, const file_content *content, size_t size) {
 /// The four numbers of a window attribute.
 static uint8_t *find_window(const file_content *content, const char *name) {
     uint8_t *found = memmem(content->data, content->size, name, strlen(name) + 1);
-    assert_non_null(found);
+    if (!found)
+        fail_msg("no attribute '%s'", name);
     return found + strlen(name) + 1 + strlen("box2i") + 1 + 4;
 }
 

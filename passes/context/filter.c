@@ -1,4 +1,4 @@
-#include "passes/filters/filter.h"
+#include "passes/context/filter.h"
 
 #include <stdio.h>
 #include <string.h>

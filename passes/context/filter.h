@@ -1,11 +1,11 @@
-#ifndef PASSES_FILTERS_FILTER_H
-#define PASSES_FILTERS_FILTER_H
+#ifndef PASSES_CONTEXT_FILTER_H
+#define PASSES_CONTEXT_FILTER_H
 
 #include <lobe/filter.h>
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
-#include "passes/filters/knob.h"
+#include "passes/context/knob.h"
 #include "passes/upload/device_scene.h"
 
 #define FILTER_MAXIMUM_BINDINGS        8

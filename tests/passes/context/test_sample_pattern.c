@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/renderer/sample_pattern.h"
+#include "passes/context/sample_pattern.h"
 
 static void one_sample_is_the_centre(void **state) {
     (void)state;

@@ -1,4 +1,4 @@
-#include "passes/renderer/material_specialisation.h"
+#include "passes/context/material_specialisation.h"
 
 #include <assert.h>
 

@@ -1,5 +1,5 @@
-#ifndef PASSES_FILTERS_KNOB_H
-#define PASSES_FILTERS_KNOB_H
+#ifndef PASSES_CONTEXT_KNOB_H
+#define PASSES_CONTEXT_KNOB_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -21,7 +21,9 @@ typedef struct knob_feed {
 
 /// Initialisers of a knob's feed. Choices, and integers that bound loops, are constants: unused
 /// code is compiled out, and lavapipe recompiles a shader at every draw if a uniform bounds its
-/// loops. Numbers, which users drag, are uniforms: a new value compiles nothing.
+/// loops. Numbers, which users drag, are uniforms: a new value compiles nothing, unless it decides
+/// whether code is needed at all (`bias`: does any pixel see level 0? `epsilon0`: can one lobe
+/// ever suffice?), where each answer has its own pipeline.
 #define KNOB_FEEDS_CONSTANT(id)                                                                    \
     { KNOB_CONSTANT, (id) }
 #define KNOB_FEEDS_SHARED(member)                                                                  \

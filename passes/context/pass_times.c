@@ -1,4 +1,4 @@
-#include "passes/renderer/pass_times.h"
+#include "passes/context/pass_times.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,10 +1,10 @@
-#ifndef PASSES_FILTERS_KNOB_VALUES_H
-#define PASSES_FILTERS_KNOB_VALUES_H
+#ifndef PASSES_CONTEXT_KNOB_VALUES_H
+#define PASSES_CONTEXT_KNOB_VALUES_H
 
 #include <lobe/graph.h>
 
-#include "passes/filters/filter.h"
-#include "passes/renderer/material_specialisation.h"
+#include "passes/context/filter.h"
+#include "passes/context/material_specialisation.h"
 
 /// The knob's value in this frame, or its default if the filter does not have the knob. For a
 /// choice, the index.

@@ -1,5 +1,5 @@
-#ifndef PASSES_RENDERER_CAMERA_H
-#define PASSES_RENDERER_CAMERA_H
+#ifndef PASSES_CONTEXT_CAMERA_H
+#define PASSES_CONTEXT_CAMERA_H
 
 #include <cglm/cglm.h>
 

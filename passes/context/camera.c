@@ -1,4 +1,4 @@
-#include "passes/renderer/camera.h"
+#include "passes/context/camera.h"
 
 #include <math.h>
 

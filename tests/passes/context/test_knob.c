@@ -6,9 +6,9 @@
 
 #include "engine/graph/state.h"
 #include "engine/shader/shader.h"
-#include "passes/filters/filter.h"
-#include "passes/filters/knob_values.h"
-#include "passes/filters/shared_knobs.h"
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/maps/filtered_maps.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"

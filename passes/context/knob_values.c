@@ -1,6 +1,6 @@
-#include "passes/filters/knob_values.h"
+#include "passes/context/knob_values.h"
 
-#include "passes/filters/shared_knobs.h"
+#include "passes/context/shared_knobs.h"
 #include "shaders/interface/knobs.h"
 
 static size_t own_knob_count(const lobe_filter *filter) {

@@ -1,7 +1,7 @@
-#ifndef PASSES_FILTERS_SHARED_KNOBS_H
-#define PASSES_FILTERS_SHARED_KNOBS_H
+#ifndef PASSES_CONTEXT_SHARED_KNOBS_H
+#define PASSES_CONTEXT_SHARED_KNOBS_H
 
-#include "passes/filters/knob.h"
+#include "passes/context/knob.h"
 
 /// Knobs of every filter, listed after its own; NULL-terminated.
 extern const filter_knob *const passes_shared_knobs[];

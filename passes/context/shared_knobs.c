@@ -1,4 +1,4 @@
-#include "passes/filters/shared_knobs.h"
+#include "passes/context/shared_knobs.h"
 
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/specialisation.h"

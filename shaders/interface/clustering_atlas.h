@@ -1,16 +1,7 @@
-#ifndef INTERFACE_CLUSTERING_H
-#define INTERFACE_CLUSTERING_H
+#ifndef INTERFACE_CLUSTERING_ATLAS_H
+#define INTERFACE_CLUSTERING_ATLAS_H
 
 #include "types.h"
-
-// Push constants of lobe_clustering, parameter_averaging and moment_binning. They bound the loops
-// over texels: with a uniform block instead, lavapipe would recompile the shader for each content.
-struct clustering_constants {
-    uint width; // of the base maps, texels: the larger of the normal and the width map
-    uint height;
-};
-INTERFACE_SIZE(clustering_constants, 8)
-INTERFACE_OFFSET(clustering_constants, height, 4)
 
 // Push constants of filters/lobes/clustering_atlas.comp.
 struct atlas_constants {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "passes/renderer/camera.h"
+#include "passes/context/camera.h"
 #include "scenes/builtin/random.h"
 
 enum { WIDTH = 40, HEIGHT = 30 };

@@ -1,4 +1,4 @@
-#include "passes/renderer/sample_pattern.h"
+#include "passes/context/sample_pattern.h"
 
 #include <math.h>
 

@@ -1,0 +1,16 @@
+#ifndef INTERFACE_LOBE_GRID_H
+#define INTERFACE_LOBE_GRID_H
+
+#include "types.h"
+
+// Push constants of the passes that make one texel of lobes for each texel of a material's maps:
+// lobe_clustering, parameter_averaging, slope_moments and moment_binning. They bound loops over
+// texels: with a uniform block instead, lavapipe would recompile the shader for each content.
+struct lobe_grid_constants {
+    uint width; // of the base maps, texels: the larger of the normal and the width map
+    uint height;
+};
+INTERFACE_SIZE(lobe_grid_constants, 8)
+INTERFACE_OFFSET(lobe_grid_constants, height, 4)
+
+#endif
