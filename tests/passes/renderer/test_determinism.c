@@ -110,17 +110,14 @@ static void run(const char *threads, char text[TEXT]) {
     assert_int_equal(lines, lobe_filter_count() * lobe_builtin_scene_count() + 4);
 }
 
+/// Two runs with different numbers of threads: if they agree, neither matters.
 static void pixels_do_not_depend_on_run_or_threads(void **state) {
     (void)state;
-    static const char *const threads[] = {"2", "2", "1"};
     static char first[TEXT], other[TEXT];
-    run(threads[0], first);
-    for (int i = 1; i < 3; i++) {
-        run(threads[i], other);
-        if (strcmp(first, other) != 0)
-            fail_msg("LP_NUM_THREADS=%s:\n%snot as with %s:\n%s", threads[i], other, threads[0],
-                     first);
-    }
+    run("2", first);
+    run("1", other);
+    if (strcmp(first, other) != 0)
+        fail_msg("LP_NUM_THREADS=1:\n%snot as with 2:\n%s", other, first);
 }
 
 /// Hashes differ between pictures.
