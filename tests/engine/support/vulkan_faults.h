@@ -9,7 +9,7 @@
 /// fail on demand. vulkan_calls.py checks that every fallible function that lobe calls is among
 /// them. Calls by the test itself go to libvulkan and do not count.
 typedef struct vulkan_faults {
-    int calls;             ///< so far, of those that can fail; set to 0 to count anew
+    int calls;             ///< so far, of those that can fail; set to 0 to count again
     int failing;           ///< which call fails; 0: none
     VkResult fault;        ///< with this
     const char *failed;    ///< its name, once it has
