@@ -231,6 +231,7 @@ static int run(int argc, char **argv) {
                    "  relative_l2   |a - b| / |b|, Euclidean lengths\n"
                    "  relative_l1   sum of |a - b| / sum of |b|\n"
                    "  psnr          decibels below the reference's largest value (PNG: below 1)\n"
+                   "  mean_ratio    sum of a / sum of b: above 1, a is too bright on the whole\n"
                    "  flip          mean of FLIP (Andersson et al. 2020, 2021) [0, 1]",
         .options = options,
         .option_count = sizeof options / sizeof options[0],

@@ -53,7 +53,7 @@ static lobe_result check_images(const lobe_image *test, const lobe_image *refere
 
 typedef struct error_sums {
     double count, squares, relative_squares, reference_squares;
-    double absolutes, reference_absolutes, peak;
+    double absolutes, reference_absolutes, sum, reference_sum, peak;
 } error_sums;
 
 static void add(error_sums *sums, double test, double reference) {
@@ -64,6 +64,8 @@ static void add(error_sums *sums, double test, double reference) {
     sums->reference_squares += reference * reference;
     sums->absolutes += fabs(difference);
     sums->reference_absolutes += fabs(reference);
+    sums->sum += test;
+    sums->reference_sum += reference;
     sums->peak = fmax(sums->peak, reference);
 }
 
@@ -87,6 +89,11 @@ static double ratio(double error, double reference) {
     return error == 0.0 ? 0.0 : error / reference;
 }
 
+/// Black is as bright as black.
+static double mean_ratio(double sum, double reference) {
+    return sum == reference ? 1.0 : sum / reference;
+}
+
 static void derive(const error_sums *sums, bool linear, error_metrics *metrics) {
     double mse = sums->squares / sums->count;
     double peak = linear ? sums->peak : 1.0;
@@ -95,6 +102,7 @@ static void derive(const error_sums *sums, bool linear, error_metrics *metrics) 
         .relative_mse = sums->relative_squares / sums->count,
         .relative_l2 = sqrt(ratio(sums->squares, sums->reference_squares)),
         .relative_l1 = ratio(sums->absolutes, sums->reference_absolutes),
+        .mean_ratio = mean_ratio(sums->sum, sums->reference_sum),
         .psnr = mse == 0.0 ? INFINITY : 10.0 * log10(peak * peak / mse),
     };
 }
@@ -137,6 +145,7 @@ static const struct {
     {"relative_l2", offsetof(error_metrics, relative_l2)},
     {"relative_l1", offsetof(error_metrics, relative_l1)},
     {"psnr", offsetof(error_metrics, psnr)},
+    {"mean_ratio", offsetof(error_metrics, mean_ratio)},
     {"flip", offsetof(error_metrics, flip)},
 };
 

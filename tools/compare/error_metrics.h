@@ -18,7 +18,9 @@ typedef struct error_metrics {
     double relative_l1;  ///< sum|a - b| / sum|b|; infinite against a black reference
     double psnr;         ///< 10 log10(peak^2 / mean((a - b)^2)) decibels; infinite where equal.
                          ///< Peak: largest value of the reference for high dynamic range, else 1
-    double flip;         ///< mean FLIP error [0, 1], see tools/compare/flip.h
+    double mean_ratio; ///< sum(a) / sum(b): brighter than the reference above 1; infinite against a
+                       ///< black reference
+    double flip;       ///< mean FLIP error [0, 1], see tools/compare/flip.h
 } error_metrics;
 
 typedef struct error_metrics_parameters {
@@ -36,7 +38,7 @@ lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *refe
                                   error_metrics *metrics, lobe_image *flip_errors);
 
 /// The metrics in the order they are shown.
-#define ERROR_METRICS_COUNT 6
+#define ERROR_METRICS_COUNT 7
 /// "rmse" and so on; `index` below ERROR_METRICS_COUNT.
 const char *error_metrics_name(int index);
 double error_metrics_value(const error_metrics *metrics, int index);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "tools/bench/bench.h"
+
 const sweep_scene *sweep_results_scene(const sweep_results *results, const char *name) {
     for (size_t i = 0; i < results->scene_count; i++) {
         if (strcmp(results->scenes[i].name, name) == 0)
@@ -24,12 +26,50 @@ bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *env
 
 /// The reference is the mean of two independent ones. Products of a picture's distances from both
 /// estimate its squared error; what exceeds that in the squared distance from the mean is noise
-/// (see merge_parts in measure.c).
+/// (see merge_parts in truth.c).
 double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
     const double error = row->error.relative_l2;
     if (isnan(scene->noise) || isnan(error))
         return error;
     return error > scene->noise ? sqrt(error * error - scene->noise * scene->noise) : 0;
+}
+
+/// The number of samples at which supersampling has an error, between two measured.
+static double interpolate(const sweep_supersampling *a, const sweep_supersampling *b,
+                          double error) {
+    const double part = log(a->relative_l2 / error) / log(a->relative_l2 / b->relative_l2);
+    return a->samples * pow((double)b->samples / a->samples, part);
+}
+
+double sweep_worth_in_samples(const sweep_scene *scene, const sweep_row *row) {
+    const sweep_supersampling *steps = scene->supersampling;
+    const size_t count = scene->supersampling_count;
+    const double error = sweep_error_without_noise(scene, row);
+    if (count == 0 || isnan(error))
+        return (double)NAN;
+    if (error >= steps[0].relative_l2)
+        return steps[0].samples * pow(steps[0].relative_l2 / error, 2);
+    for (size_t i = 1; i < count; i++)
+        if (error >= steps[i].relative_l2)
+            return interpolate(&steps[i - 1], &steps[i], error);
+    return steps[count - 1].samples;
+}
+
+static const sweep_row *reference_row(const sweep_results *results, const sweep_scene *scene) {
+    for (size_t i = 0; i < results->row_count; i++)
+        if (strcmp(results->rows[i].scene, scene->name) == 0 &&
+            strcmp(results->rows[i].filter, "reference") == 0)
+            return &results->rows[i];
+    return NULL;
+}
+
+double sweep_gain_in_time(const sweep_results *results, const sweep_scene *scene,
+                          const sweep_row *row) {
+    const sweep_row *reference = reference_row(results, scene);
+    if (!reference || !(row->retained_ms > 0))
+        return (double)NAN;
+    const double sample_ms = reference->retained_ms / BENCH_TIMED_SAMPLES;
+    return sweep_worth_in_samples(scene, row) * sample_ms / row->retained_ms;
 }
 
 const char *sweep_row_value(const sweep_row *row, const char *knob) {

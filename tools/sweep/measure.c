@@ -22,7 +22,7 @@ typedef struct scene_run {
     lobe_host errors; ///< only errors pass: a filter's warnings should not repeat
     sweep_row *rows;
     row_times *times; ///< one per row
-    lobe_image truth, truth_lobe_base;
+    sweep_truth truth;
     sweep_path path;
 } scene_run;
 
@@ -64,108 +64,17 @@ static double time_work(const sweep_job *job) {
 }
 
 double sweep_scene_work(const sweep_job *job) {
-    double truths = job->brief ? 1 : 2;
-    double work = truths * job->bench.samples + 4.0 * job->stations * job->path_samples;
+    double work = sweep_truth_work(job) + 4.0 * job->stations * job->path_samples;
     for (size_t i = 0; i < job->plan.count; i++)
         work += still_work(job, &job->plan.variants[i]);
     return work + time_work(job);
 }
 
-// ---------------------------------------------------------------------------------------------
-// Truth
-
-/// A reference consists of one or two parts with independent samples.
-typedef struct truth_parts {
-    const sweep_variant *reference;
-    const char *kind; ///< for people
-    uint32_t samples[2];
-} truth_parts;
-
-static lobe_result render_part(const scene_run *run, lobe_renderer *renderer,
-                               const truth_parts *parts, uint32_t part, lobe_frame *frame) {
-    const bench_job *bench = &run->job->bench;
-    const uint32_t samples = parts->samples[part];
-    *frame = (lobe_frame){0};
-    if (samples == 0 || sweep_stopped(run->job))
-        return LOBE_OK;
-    progress_step(bench->progress, "%s: %s, samples per pixel: %u", run->name, parts->kind,
-                  samples);
-    progress_weigh(bench->progress, samples);
-    lobe_render_parameters parameters = sweep_parameters(run->job, parts->reference);
-    parameters.reference.samples = samples;
-    // If there are two parts, neither uses the sample pattern of the filter reference, which is
-    // compared with them.
-    parameters.reference.pattern = parts->samples[1] > 0 ? part + 1 : 0;
-    parameters.discard = false;
-    parameters.host.progress = sweep_show_progress;
-    return lobe_renderer_render(renderer, &parameters, frame);
-}
-
-/// `first` becomes the mean of all samples. Returns the remaining noise as relative L2: with n and
-/// m samples, the squared distance of the parts is on average 1/n + 1/m times a sample's variance,
-/// and that of the mean is 1/(n + m) times the variance.
-static double merge_parts(lobe_image *first, const lobe_image *second, const uint32_t samples[2]) {
-    const double all = (double)samples[0] + samples[1], weight = samples[1] / all;
-    const float *other = second->texels;
-    float *texels = first->texels;
-    double distances = 0, squares = 0;
-    for (size_t i = 0; i < 4 * (size_t)first->width * first->height; i++) {
-        const double difference = (double)other[i] - texels[i];
-        texels[i] += (float)(weight * difference);
-        distances += i % 4 != 3 ? difference * difference : 0;
-        squares += i % 4 != 3 ? (double)texels[i] * texels[i] : 0;
-    }
-    return sqrt(weight * (1 - weight) * distances / squares);
-}
-
-static lobe_result render_parts(const scene_run *run, lobe_renderer *renderer,
-                                const truth_parts *parts, lobe_frame *frame, double *noise) {
-    *noise = (double)NAN;
-    lobe_frame second = {0};
-    lobe_result result = render_part(run, renderer, parts, 0, frame);
-    if (result == LOBE_OK)
-        result = render_part(run, renderer, parts, 1, &second);
-    if (result == LOBE_OK && second.radiance.texels)
-        *noise = merge_parts(&frame->radiance, &second.radiance, parts->samples);
-    lobe_frame_free(&second);
-    return result;
-}
-
-/// With an environment, each sample sees it in a random direction. The reference then consists of
-/// two independent parts, which show how much of it is noise.
-static lobe_result render_truth(const scene_run *run, lobe_renderer *renderer,
-                                const lobe_settings *settings, const char *kind, sweep_scene *entry,
-                                lobe_image *image) {
-    const bench_job *bench = &run->job->bench;
-    sweep_variant reference = {.filter.settings = *settings, .varied = ""};
-    lobe_result result = lobe_filter_find("reference", bench->host, &reference.filter.filter);
-    if (result != LOBE_OK)
-        return result;
-    const uint32_t half = run->scene->environment ? bench->samples / 2 : 0;
-    const truth_parts parts = {&reference, kind, {bench->samples - half, half}};
-    lobe_frame frame = {0};
-    double noise;
-    result = render_parts(run, renderer, &parts, &frame, &noise);
-    if (entry)
-        entry->noise = noise;
-    if (result == LOBE_OK && entry && !run->job->brief && !sweep_stopped(run->job))
-        result = sweep_pictures_write(run->job, entry->name, &reference, bench->samples, "", &frame,
-                                      &entry->reference);
-    *image = frame.radiance;
-    frame.radiance = (lobe_image){0};
-    lobe_frame_free(&frame);
-    return result;
-}
-
 static lobe_result render_truths(scene_run *run, sweep_scene *entry) {
-    const bench_job *bench = &run->job->bench;
     lobe_renderer *renderer = NULL;
     lobe_result result = open_renderer(run, &run->errors, &renderer);
     if (result == LOBE_OK)
-        result = render_truth(run, renderer, &bench->truth, "reference", entry, &run->truth);
-    if (result == LOBE_OK && !run->job->brief)
-        result = render_truth(run, renderer, &bench->truth_lobe_base,
-                              "reference with base lobes converted", NULL, &run->truth_lobe_base);
+        result = sweep_truth_render(run->job, run->scene, renderer, entry, &run->truth);
     if (result == LOBE_OK)
         result = sweep_path_render(run->job, run->scene, renderer, &run->path);
     lobe_renderer_destroy(&renderer);
@@ -236,10 +145,10 @@ static lobe_result compare(const scene_run *run, const lobe_image *image, const 
 
 static lobe_result measure_error(const scene_run *run, const sweep_variant *variant,
                                  const lobe_frame *still, sweep_row *row) {
-    lobe_result result = compare(run, &still->radiance, &run->truth, row, &row->error);
+    lobe_result result = compare(run, &still->radiance, &run->truth.image, row, &row->error);
     if (result != LOBE_OK || run->job->brief)
         return result;
-    result = compare(run, &still->radiance, &run->truth_lobe_base, row, &row->error_lobe_base);
+    result = compare(run, &still->radiance, &run->truth.lobe_base, row, &row->error_lobe_base);
     if (result == LOBE_OK && row->varied[0] == '\0')
         result = sweep_pictures_write(run->job, row->scene, variant, sample_count(variant),
                                       row->filter, still, &row->picture);
@@ -519,8 +428,7 @@ static void close_run(scene_run *run) {
     }
     free(run->times);
     sweep_path_free(run->job, &run->path);
-    lobe_image_free(&run->truth);
-    lobe_image_free(&run->truth_lobe_base);
+    sweep_truth_free(&run->truth);
 }
 
 lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,

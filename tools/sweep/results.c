@@ -27,6 +27,7 @@ typedef enum member_kind {
     MEMBER_EXTENT,          ///< uint32_t[2]
     MEMBER_STRUCTURE,       ///< a nested structure
     MEMBER_LIST,            ///< a pointer to structures, their number at count_offset
+    MEMBER_OPTIONAL_LIST,   ///< the same; empty if it is missing
 } member_kind;
 
 typedef struct structure structure;
@@ -55,6 +56,8 @@ struct structure {
     { #name, MEMBER_STRUCTURE, offsetof(type, name), 0, 0, element }
 #define LIST(type, name, count, element)                                                           \
     { #name, MEMBER_LIST, offsetof(type, name), 0, offsetof(type, count), element }
+#define OPTIONAL_LIST(type, name, count, element)                                                  \
+    { #name, MEMBER_OPTIONAL_LIST, offsetof(type, name), 0, offsetof(type, count), element }
 #define STRUCTURE(type, members)                                                                   \
     { sizeof(type), members, COUNT_OF(members) }
 
@@ -81,6 +84,7 @@ static const member errors_members[] = {
     MEMBER(error_metrics, relative_l2, MEMBER_NUMBER),
     MEMBER(error_metrics, relative_l1, MEMBER_NUMBER),
     MEMBER(error_metrics, psnr, MEMBER_NUMBER),
+    MEMBER(error_metrics, mean_ratio, MEMBER_OPTIONAL_NUMBER),
     MEMBER(error_metrics, flip, MEMBER_NUMBER),
 };
 static const structure errors_structure = STRUCTURE(error_metrics, errors_members);
@@ -107,6 +111,13 @@ static const member row_members[] = {
 };
 static const structure row_structure = STRUCTURE(sweep_row, row_members);
 
+static const member supersampling_members[] = {
+    MEMBER(sweep_supersampling, samples, MEMBER_COUNT),
+    MEMBER(sweep_supersampling, relative_l2, MEMBER_NUMBER),
+};
+static const structure supersampling_structure =
+    STRUCTURE(sweep_supersampling, supersampling_members);
+
 static const member scene_members[] = {
     MEMBER(sweep_scene, name, MEMBER_TEXT),
     MEMBER(sweep_scene, scene, MEMBER_OPTIONAL_TEXT),
@@ -114,6 +125,7 @@ static const member scene_members[] = {
     MEMBER(sweep_scene, lighting, MEMBER_OPTIONAL_TEXT),
     MEMBER(sweep_scene, triangles, MEMBER_LONG_COUNT),
     MEMBER(sweep_scene, noise, MEMBER_OPTIONAL_NUMBER),
+    OPTIONAL_LIST(sweep_scene, supersampling, supersampling_count, &supersampling_structure),
     MEMBER(sweep_scene, reference, MEMBER_OPTIONAL_TEXT),
     MEMBER(sweep_scene, skipped, MEMBER_OPTIONAL_TEXT),
 };
@@ -144,7 +156,7 @@ static void free_members(const structure *structure, void *object) {
         char *field = (char *)object + member->offset;
         if (member->kind == MEMBER_TEXT || member->kind == MEMBER_OPTIONAL_TEXT)
             free(*(char **)field);
-        if (member->kind != MEMBER_LIST)
+        if (member->kind != MEMBER_LIST && member->kind != MEMBER_OPTIONAL_LIST)
             continue;
         char *elements = *(char **)field;
         size_t count = *(size_t *)((char *)object + member->count_offset);
@@ -360,7 +372,7 @@ static lobe_result read_member(reader *reader, const member *member, const cJSON
     char *field = (char *)object + member->offset;
     if (member->kind == MEMBER_OPTIONAL_TEXT && (!item || cJSON_IsNull(item)))
         return LOBE_OK;
-    if (member->kind == MEMBER_OPTIONAL_FLAG && !item)
+    if ((member->kind == MEMBER_OPTIONAL_FLAG || member->kind == MEMBER_OPTIONAL_LIST) && !item)
         return LOBE_OK;
     if (member->kind == MEMBER_OPTIONAL_NUMBER && !item) {
         *(double *)field = (double)NAN;

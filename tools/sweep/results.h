@@ -62,6 +62,12 @@ typedef struct sweep_row {
     char *picture;
 } sweep_row;
 
+/// What plain supersampling with the filter reference reaches.
+typedef struct sweep_supersampling {
+    uint32_t samples;   ///< per pixel
+    double relative_l2; ///< against the scene's reference, without its noise
+} sweep_supersampling;
+
 typedef struct sweep_scene {
     char *name;        ///< unique in the results: the scene's, or "tablecloth in courtyard"
     char *scene;       ///< as given by the user; NULL: the same as `name`
@@ -71,6 +77,8 @@ typedef struct sweep_scene {
     /// Noise in the reference: relative L2 distance from its limit at infinitely many samples. NAN:
     /// unknown. A row's error without it is the root of error^2 - noise^2.
     double noise;
+    sweep_supersampling *supersampling; ///< with more and more samples
+    size_t supersampling_count;         ///< 0: not measured
     char *reference; ///< EXR file of the reference, relative to the JSON file; NULL: none
     char *skipped;   ///< why the scene was not measured; NULL: it was
 } sweep_scene;
@@ -114,6 +122,17 @@ bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *env
 
 /// A row's relative L2 error without the noise in its scene's reference; 0 if it is not larger.
 double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row);
+
+/// A row's worth in samples: how many samples per pixel supersampling needs for the same error,
+/// interpolated between those measured (straight lines of logarithms). The largest number measured
+/// if the row is better than that; below 1 if it is worse than one sample, as if errors fell as
+/// the root of the number. NAN: not measured.
+double sweep_worth_in_samples(const sweep_scene *scene, const sweep_row *row);
+
+/// The time that supersampling takes for the same error, over that of the row with maps retained.
+/// NAN: not measured, or the results have no row of the filter reference.
+double sweep_gain_in_time(const sweep_results *results, const sweep_scene *scene,
+                          const sweep_row *row);
 
 /// The value of a row's knob; NULL if it has no such knob.
 const char *sweep_row_value(const sweep_row *row, const char *knob);

@@ -19,6 +19,7 @@
 ///     job.c        what every part needs to render
 ///     subject.c    a scene in an environment: its name, and a check of earlier results
 ///     plan.c       which rows there are
+///     truth.c      references, and the error of supersampling
 ///     measure.c    all rows of one scene
 ///     flicker.c    change along the scene's path
 ///     bandwidth.c  plain copies of as many bytes as passes move
@@ -123,6 +124,23 @@ bool sweep_subject_has_environment(const sweep_subject *subject);
 /// light. Errors: LOBE_ERROR_INVALID_ARGUMENT.
 lobe_result sweep_subject_check(const sweep_job *job, const sweep_subject *subject,
                                 const sweep_scene *former);
+
+// ---------------------------------------------------------------------------------------------
+// truth.c
+
+/// The references of a scene.
+typedef struct sweep_truth {
+    lobe_image image, lobe_base; ///< the second with base lobes converted; empty in brief sweeps
+} sweep_truth;
+
+/// Work of sweep_truth_render, in the unit of progress_expect: frames of one sample.
+double sweep_truth_work(const sweep_job *job);
+
+/// Renders the references; `entry` gets picture, noise and, unless the sweep is brief, the error of
+/// supersampling. Free with sweep_truth_free, also after a failure.
+lobe_result sweep_truth_render(const sweep_job *job, const lobe_scene *scene,
+                               lobe_renderer *renderer, sweep_scene *entry, sweep_truth *truth);
+void sweep_truth_free(sweep_truth *truth);
 
 // ---------------------------------------------------------------------------------------------
 // measure.c

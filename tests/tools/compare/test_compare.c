@@ -100,16 +100,17 @@ static void each_metric_has_a_line(void **state) {
     (void)state;
     RUN(near_test, reference);
     expect_success();
-    assert_int_equal(captured_output_lines(captured.output), 6);
-    double values[6];
+    assert_int_equal(captured_output_lines(captured.output), 7);
+    double values[7];
     assert_int_equal(sscanf(captured.output,
                             "rmse %lf\nrelative_mse %lf\nrelative_l2 %lf\nrelative_l1 %lf\n"
-                            "psnr %lf\nflip %lf\n",
-                            &values[0], &values[1], &values[2], &values[3], &values[4], &values[5]),
-                     6);
+                            "psnr %lf\nmean_ratio %lf\nflip %lf\n",
+                            &values[0], &values[1], &values[2], &values[3], &values[4], &values[5],
+                            &values[6]),
+                     7);
     assert_true(fabs(values[0] - 0.125) < 1e-6);
     assert_true(fabs(values[4] - 20.0 * log10(2.5 / 0.125)) < 1e-3); // peak 2.5
-    assert_true(values[5] > 0.0);
+    assert_true(values[5] > 0.0 && values[6] > 0.0);
 }
 
 static void an_image_equals_itself(void **state) {
@@ -117,7 +118,7 @@ static void an_image_equals_itself(void **state) {
     RUN(reference, reference);
     expect_success();
     assert_string_equal(captured.output, "rmse 0\nrelative_mse 0\nrelative_l2 0\nrelative_l1 0\n"
-                                         "psnr inf\nflip 0\n");
+                                         "psnr inf\nmean_ratio 1\nflip 0\n");
 }
 
 static void json_says_the_same(void **state) {

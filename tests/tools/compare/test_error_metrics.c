@@ -38,6 +38,7 @@ static void sums_are_those_of_the_definitions(void **state) {
     assert_true(near(metrics.relative_l2, sqrt(4.5 / (1.0 + 4.0 + 0.25 + 9.0 + 16.0))));
     assert_true(near(metrics.relative_l1, 3.0 / (1.0 + 2.0 + 0.5 + 3.0 + 4.0)));
     assert_true(near(metrics.psnr, 10.0 * log10(16.0 / (4.5 / 6.0))));
+    assert_true(near(metrics.mean_ratio, 8.5 / 10.5));
     assert_true(metrics.flip > 0.0 && metrics.flip <= 1.0);
 }
 
@@ -72,8 +73,10 @@ static void a_black_reference_leaves_nothing_to_divide_by(void **state) {
     assert_true(near(metrics.rmse, 0.1f));
     assert_true(near(metrics.relative_mse, 1.0));
     assert_true(isinf(metrics.relative_l2) && isinf(metrics.relative_l1));
+    assert_true(isinf(metrics.mean_ratio));
     metrics = measure(&reference, &reference, true);
     assert_true(metrics.relative_l2 == 0.0 && metrics.relative_l1 == 0.0);
+    assert_true(metrics.mean_ratio == 1.0);
 }
 
 static void the_error_map_has_the_mean_that_is_told(void **state) {
@@ -130,9 +133,9 @@ static void images_that_cannot_be_compared_are_named(void **state) {
 
 static void metrics_are_listed_by_name(void **state) {
     (void)state;
-    error_metrics metrics = {1, 2, 3, 4, 5, 6};
-    const char *const names[] = {"rmse",        "relative_mse", "relative_l2",
-                                 "relative_l1", "psnr",         "flip"};
+    error_metrics metrics = {1, 2, 3, 4, 5, 6, 7};
+    const char *const names[] = {"rmse", "relative_mse", "relative_l2", "relative_l1",
+                                 "psnr", "mean_ratio",   "flip"};
     for (int index = 0; index < ERROR_METRICS_COUNT; index++) {
         assert_string_equal(error_metrics_name(index), names[index]);
         assert_true(error_metrics_value(&metrics, index) == index + 1);

@@ -39,9 +39,14 @@ TARGETS = [
 BYTES = {"direct": 0, "mipmap": 8, "lobes": 33, "moments": 30, "reference": 0}
 
 
+# Supersampling falls from the first error to the last on a straight line of logarithms.
+STEPS = [{"samples": 1, "relative_l2": 2}, {"samples": 64, "relative_l2": 0.001}]
+
+
 def metrics(error):
     return {"rmse": error / 7, "relative_mse": error / 3, "relative_l2": error,
-            "relative_l1": error / 2, "psnr": None, "flip": error / 5}
+            "relative_l1": error / 2, "psnr": None, "mean_ratio": 1 + error,
+            "flip": error / 5}
 
 
 def one_pass(name, milliseconds, building=False, traffic=0.0, copy_milliseconds=0.0):
@@ -79,7 +84,7 @@ def make_results():
                 if BYTES[name]:
                     rows.append(one_row(scene, name, 1.3, "knob<1>", "b & c"))
     scenes = [{"name": name, "triangles": 12 + i, "reference": "pictures/truth.exr",
-               "skipped": None} for i, name in enumerate(SCENES)]
+               "supersampling": STEPS, "skipped": None} for i, name in enumerate(SCENES)]
     scenes[2].update(reference=None, skipped="the folder <none> is missing")
     return {"version": "0.1.0", "device": "a device", "driver": "a driver & more",
             "device_type": "CPU", "size": [WIDTH, HEIGHT], "reference_samples": 256,
@@ -209,10 +214,14 @@ def test_plots_show_all_points_and_the_front():
 # Numbers ---------------------------------------------------------------------------------------
 
 def expected_cells(row):
+    worth = 64 ** (math.log(2 / row["error"]["relative_l2"]) / math.log(2000))
+    scale = 1 + 0.07 * SCENES.index(row["scene"]) * len("reference")
+    gain = worth * 0.75 * MILLISECONDS["reference"] * scale / 64 / row["retained_ms"]
     return [row["rebuilt_ms"], row["retained_ms"], row["building_ms"], row["shading_ms"],
             row["bytes_per_texel"], row["memory_bytes"] / 2 ** 20, row["error"]["relative_l2"],
             row["error"]["relative_l1"], row["error"]["flip"],
-            row["error_lobe_base"]["relative_l2"], row["flicker"]]
+            row["error_lobe_base"]["relative_l2"], row["error"]["mean_ratio"], row["flicker"],
+            worth, gain]
 
 
 def check_cells(cells, row):

@@ -1,6 +1,7 @@
 """What `lobe bench --sweep` measures and writes, and how it stops and resumes."""
 
 import json
+import math
 import os
 import re
 import shutil
@@ -18,7 +19,7 @@ QUICK = ["--sweep", "--filters", ",".join(FILTERS), "--size", "64x36", "--sample
          "--frames", "1", "--stations", "2", "--path-samples", "2"]
 TIMES = ["rebuilt_ms", "rebuilt_p95_ms", "retained_ms", "retained_p95_ms", "building_ms",
          "shading_ms"]
-ERRORS = ["flip", "psnr", "relative_l1", "relative_l2", "relative_mse", "rmse"]
+ERRORS = ["flip", "mean_ratio", "psnr", "relative_l1", "relative_l2", "relative_mse", "rmse"]
 
 
 def sweep(folder, *arguments):
@@ -64,6 +65,8 @@ def test_results_have_their_form():
     check([one["name"] for one in results["scenes"]] == ["bumps", "checkerboard"], "scenes")
     for scene in results["scenes"]:
         check(scene["triangles"] > 0 and scene["skipped"] is None, str(scene))
+        check([step["samples"] for step in scene["supersampling"]] == [1, 2, 4], str(scene))
+        check(all(step["relative_l2"] >= 0 for step in scene["supersampling"]), str(scene))
     for row in results["rows"]:
         check(all(isinstance(row[name], (int, float)) and row[name] >= 0 for name in TIMES),
               str(row))
@@ -186,11 +189,12 @@ def test_tables_are_made_from_json():
                             capture_output=True, text=True, check=False)
     check(result.returncode == 0, result.stderr)
     check("| error(lobes) / error(direct) | – | – |" in result.stdout, result.stdout)
-    check(result.stdout.count("\n| bumps |") == 3, result.stdout)
+    check(result.stdout.count("\n| bumps |") == 5, result.stdout)
     check(re.search(r"^\| `direct` \| \d\.\d{3} \| 1\.0 \| 1\.0 \| \d+ \|$", result.stdout,
                     re.MULTILINE), result.stdout)
-    errors = [row["error"]["relative_l2"] for row in results["rows"]
-              if row["scene"] == "bumps" and row["varied"] == ""]
+    noise = next(scene["noise"] for scene in results["scenes"] if scene["name"] == "bumps")
+    errors = [math.sqrt(max(row["error"]["relative_l2"] ** 2 - noise ** 2, 0))
+              for row in results["rows"] if row["scene"] == "bumps" and row["varied"] == ""]
     check("| bumps | " + " | ".join(f"{error:.3f}" for error in errors) + " |" in result.stdout,
           result.stdout)
 
@@ -237,7 +241,7 @@ def test_every_scene_is_measured_in_every_environment():
     for scene, environment in zip(results["scenes"], [*map(str, maps), None], strict=True):
         check((scene["scene"], scene["environment"], scene["lighting"]) ==
               ("bumps", environment, "no lights"), str(scene))
-        # Without an environment nothing is random.
+        # Without any light there is nothing to be relative to.
         check((scene["noise"] is None) == (environment is None), str(scene))
         if environment:
             check(0 < scene["noise"] < 1, str(scene))

@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 import tap
-from lobe_report import bandwidth, measures, paper, results, targets
+from lobe_report import bandwidth, measures, paper, results, supersampling, targets
 from lobe_report.errors import ReportError
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -88,6 +88,30 @@ def test_what_is_no_json_is_refused():
         refuses(results.parse_json, "not JSON")
     FILE.unlink()
     refuses(results.parse_json, "No such file")
+
+
+def test_worth_is_where_supersampling_has_the_same_error():
+    steps = [results.Supersampling(1, 0.8), results.Supersampling(2, 0.4),
+             results.Supersampling(4, 0.1)]
+    for error, samples in ((0.8, 1), (1.6, 0.25), (0.4, 2), (0.8 / 2 ** 0.5, 2 ** 0.5), (0.2, 8 ** 0.5),
+                           (0.1, 4), (0.01, 4), (0, 4)):
+        check(math.isclose(supersampling.samples_for(steps, error), samples), error)
+    check(math.isnan(supersampling.samples_for([], 0.1)))
+    check(math.isnan(supersampling.samples_for(steps, math.nan)))
+
+
+def test_gain_is_the_time_of_those_samples():
+    described = document(row("a", "lobes", retained_ms=4, error={**ERRORS, "relative_l2": 0.4}),
+                         row("a", "reference", retained_ms=128))
+    described["scenes"][0]["supersampling"] = [{"samples": 1, "relative_l2": 0.8},
+                                               {"samples": 8, "relative_l2": 0.4}]
+    found = read(described)
+    supersampling.add_worth(found)
+    first = found.rows[0]
+    check((first.worth, first.gain) == (8, 8 * 2 / 4), first)
+    check(supersampling.is_most(found.scenes[0], first), first)
+    check(supersampling.curve(found, found.scenes[0]) == [(2, 0.8), (16, 0.4)])
+    check(supersampling.curve(found, found.scenes[1]) == [])
 
 
 def test_noise_is_taken_out_of_errors():

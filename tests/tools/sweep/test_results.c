@@ -36,7 +36,7 @@ static sweep_row rows[] = {
      .pass_count = 2,
      .memory_bytes = 6000000001,
      .bytes_per_texel = 21.5,
-     .error = {0.125, 0.25, 0.5, 0.0625, 33.5, 0.75},
+     .error = {0.125, 0.25, 0.5, 0.0625, 33.5, 1.5, 0.75},
      .error_lobe_base = {.psnr = INFINITY},
      .flicker = 0.0078125,
      .picture = "a.pictures/cloth-lobes.exr"},
@@ -47,8 +47,14 @@ static sweep_row rows[] = {
      .varied = "epsilon0",
      .flicker = -1},
 };
+static sweep_supersampling steps[] = {{1, 0.8}, {2, 0.4}, {4, 0.1}};
 static sweep_scene scenes[] = {
-    {.name = "cloth", .triangles = 1234, .noise = 0.3, .reference = "a.pictures/cloth.exr"},
+    {.name = "cloth",
+     .triangles = 1234,
+     .noise = 0.3,
+     .supersampling = steps,
+     .supersampling_count = 3,
+     .reference = "a.pictures/cloth.exr"},
     {.name = "\"dragon\" in sun",
      .scene = "\"dragon\"",
      .environment = "a/sun.exr",
@@ -187,6 +193,11 @@ static void everything_comes_back(void **state) {
         assert_texts_equal(read.scenes[i].lighting, scenes[i].lighting);
         assert_int_equal(read.scenes[i].triangles, scenes[i].triangles);
         assert_int_equal(isnan(read.scenes[i].noise), isnan(scenes[i].noise));
+        assert_int_equal(read.scenes[i].supersampling_count, scenes[i].supersampling_count);
+        for (size_t k = 0; k < scenes[i].supersampling_count; k++) {
+            assert_int_equal(read.scenes[i].supersampling[k].samples, steps[k].samples);
+            assert_true(read.scenes[i].supersampling[k].relative_l2 == steps[k].relative_l2);
+        }
         assert_texts_equal(read.scenes[i].reference, scenes[i].reference);
         assert_texts_equal(read.scenes[i].skipped, scenes[i].skipped);
     }
@@ -228,6 +239,14 @@ static void what_older_files_lack_is_unknown(void **state) {
     write_changed("\"noise\"", "\"nose\"");
     assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
     assert_true(isnan(read.scenes[0].noise));
+    sweep_results_free(&read);
+    write_changed("\"supersampling\"", "\"sampling\"");
+    assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
+    assert_int_equal(read.scenes[0].supersampling_count, 0);
+    sweep_results_free(&read);
+    write_changed("\"mean_ratio\"", "\"ratio\"");
+    assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
+    assert_true(isnan(read.rows[0].error.mean_ratio));
     sweep_results_free(&read);
 }
 
@@ -330,6 +349,39 @@ static void knobs_have_values(void **state) {
     assert_null(sweep_row_value(&rows[1], "epsilon"));
 }
 
+/// Interpolated on straight lines of logarithms, beyond the first number as noise falls.
+static void rows_are_worth_samples(void **state) {
+    (void)state;
+    const sweep_scene scene = {
+        .name = "a", .noise = NAN, .supersampling = steps, .supersampling_count = 3};
+    static const double worths[][2] = {{1.6, 0.25}, {0.8, 1},  {0.4, 2},
+                                       {0.1, 4},    {0.01, 4}, {0, 4}};
+    for (size_t i = 0; i < sizeof worths / sizeof *worths; i++) {
+        const sweep_row row = {.error.relative_l2 = worths[i][0]};
+        assert_true(fabs(sweep_worth_in_samples(&scene, &row) - worths[i][1]) < 1e-12);
+    }
+    const sweep_row between = {.error.relative_l2 = 0.2};
+    assert_true(fabs(sweep_worth_in_samples(&scene, &between) - sqrt(8)) < 1e-12);
+    const sweep_scene unknown = {.name = "a", .noise = NAN};
+    assert_true(isnan(sweep_worth_in_samples(&unknown, &between)));
+}
+
+/// The reference's row takes 64 samples.
+static void gain_is_the_time_of_those_samples(void **state) {
+    (void)state;
+    sweep_scene scene = {
+        .name = "a", .noise = NAN, .supersampling = steps, .supersampling_count = 3};
+    sweep_row measured[] = {
+        {.scene = "a", .filter = "lobes", .retained_ms = 4, .error.relative_l2 = 0.1},
+        {.scene = "b", .filter = "reference", .retained_ms = 1},
+        {.scene = "a", .filter = "reference", .retained_ms = 128},
+    };
+    sweep_results results = {.scenes = &scene, .scene_count = 1, .rows = measured, .row_count = 3};
+    assert_true(sweep_gain_in_time(&results, &scene, &measured[0]) == 4 * 2.0 / 4);
+    results.row_count = 2;
+    assert_true(isnan(sweep_gain_in_time(&results, &scene, &measured[0])));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(everything_comes_back),
@@ -344,6 +396,8 @@ int main(void) {
         IN_TEST_FOLDER(what_older_files_lack_is_unknown),
         cmocka_unit_test(scenes_are_told_apart_by_their_light),
         cmocka_unit_test(noise_is_left_out_of_errors),
+        cmocka_unit_test(rows_are_worth_samples),
+        cmocka_unit_test(gain_is_the_time_of_those_samples),
         cmocka_unit_test(knobs_have_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from . import page, picture_stream, results, targets
+from . import page, picture_stream, results, supersampling, targets
 from .errors import ReportError
 
 
@@ -26,6 +26,7 @@ def run(arguments):
     options = _parse(arguments)
     try:
         measured = results.read(options.results)
+        supersampling.add_worth(measured)
         wanted = targets.read(options.targets) if options.targets else []
         pictures = picture_stream.PictureStream(sys.stdin.buffer)
         text = page.draw(measured, wanted, pictures, options.picture_width)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from . import axes, bars, measures, scatter
+from . import axes, bars, measures, scatter, supersampling
 from .results import Results, Row, Scene
 
 # Methods of integrating an environment that a sweep measures: values of the knob `env`.
@@ -21,6 +21,7 @@ class Trade:
     x_title: str
     unit: str
     cost: measures.Measure
+    is_time: bool = True
 
 
 TRADES = (
@@ -29,7 +30,7 @@ TRADES = (
     Trade("retained", "Time and error, maps retained", "milliseconds per frame, maps retained",
           "ms", measures.retained),
     Trade("memory", "Memory and error", "bytes of filtered maps per texel", "bytes per texel",
-          measures.texel_bytes),
+          measures.texel_bytes, False),
 )
 
 
@@ -66,7 +67,8 @@ def draw_trade(results: Results, scene: Scene, index: int, trade: Trade) -> Draw
     points = _points(results, rows, trade.cost)
     plot, front = scatter.draw(scatter.Scatter(
         f"scene-{index}-{trade.id}", trade.title, trade.x_title, "error, relative L2",
-        results.filters, points, METHODS if scene.environment else ()))
+        results.filters, points, METHODS if scene.environment else (),
+        supersampling.curve(results, scene) if trade.is_time else []))
     far = [(row.filter, trade.cost(row), measures.error(row))
            for _, row in results.filters_of(scene) if row.is_far]
     return DrawnTrade(trade, plot, [(points[i].about, points[i].x, points[i].y) for i in front],

@@ -36,6 +36,7 @@ class Errors:
     relative_l2: float
     relative_l1: float
     flip: float
+    mean_ratio: float = NAN
 
 
 @dataclass
@@ -56,6 +57,8 @@ class Row:
     flicker: float
     environment_ms: float = NAN
     picture: str | None = None
+    worth: float = field(default=NAN, init=False)  # in samples, see supersampling.py
+    gain: float = field(default=NAN, init=False)  # time of those samples, over retained_ms
 
     @property
     def is_default(self) -> bool:
@@ -73,12 +76,19 @@ class Row:
 
 
 @dataclass
+class Supersampling:
+    samples: int
+    relative_l2: float
+
+
+@dataclass
 class Scene:
     name: str
     triangles: int
     environment: str | None = None
     lighting: str | None = None
     noise: float = NAN
+    supersampling: list[Supersampling] = field(default_factory=list)
     reference: str | None = None
     skipped: str | None = None
 
@@ -174,6 +184,11 @@ def _remove_noise(results: Results):
         row.error.relative_l2 = without_noise(row.error.relative_l2, noise.get(row.scene, NAN))
 
 
+def _make_scene(members):
+    return _make(Scene, members, supersampling=[_make(Supersampling, entry)
+                                                for entry in members.get("supersampling", [])])
+
+
 def _check_limits(results: Results):
     if len(results.filters) > MAXIMUM_FILTERS:
         raise ReportError(f"{results.path}: more than {MAXIMUM_FILTERS} filters")
@@ -188,7 +203,7 @@ def read(path: Path) -> Results:
     """Errors (relative L2) exclude the references' noise."""
     members = parse_json(path)
     results = _make(Results, members, path=path, time=path.stat().st_mtime,
-                    scenes=[_make(Scene, entry) for entry in members["scenes"]],
+                    scenes=[_make_scene(entry) for entry in members["scenes"]],
                     rows=[_make_row(entry) for entry in members["rows"]])
     _remove_noise(results)
     _check_limits(results)

@@ -4,7 +4,7 @@ Pareto front, whose marks are numbered from left to right."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from markupsafe import Markup
 from matplotlib.axes import Axes
@@ -19,6 +19,7 @@ WIDTH, HEIGHT = 560, 400
 LEFT, RIGHT, TOP, BOTTOM, LEGEND_LINE = 62, 16, 6, 44, 17
 MAIN_SIZE, SMALL_SIZE, KIND_SIZE, RING_SIZE = 10.4, 6.4, 8.4, 18
 MAXIMUM_KINDS = 3
+CURVE_REACH = 4
 GREY = "#555555"
 
 
@@ -51,6 +52,7 @@ class Scatter:
     series: list[str]
     points: list[Point]
     kinds: tuple[str, ...] = ()  # shown by the inside of a variation's mark; (): not shown
+    curve: list[tuple[float, float]] = field(default_factory=list)  # to compare with
 
 
 # Marks ----------------------------------------------------------------------------------------
@@ -130,12 +132,25 @@ def _set_axis(plot: Axes, name: str, axis: axes.Axis, title: str):
     drawn.set_major_formatter(FuncFormatter(lambda tick, _: axes.label(tick)))
 
 
+def _near_curve(plot: Scatter, drawable: list[Point]) -> list[tuple[float, float]]:
+    """The part of the curve that is not far to the right of all points."""
+    right = CURVE_REACH * max(point.x for point in drawable)
+    return [(x, y) for x, y in plot.curve
+            if axes.is_drawable(x) and axes.is_drawable(y) and x <= right]
+
+
 def _make_axes(figure, plot: Scatter, drawable: list[Point]) -> Axes:
+    curve = _near_curve(plot, drawable)
     top = _draw_legends(figure, plot) + 4
     made = figure.add_axes([LEFT / WIDTH, BOTTOM / HEIGHT, (WIDTH - LEFT - RIGHT) / WIDTH,
                             (HEIGHT - top - BOTTOM) / HEIGHT])
-    _set_axis(made, "x", axes.fit([point.x for point in drawable]), plot.x_title)
-    _set_axis(made, "y", axes.fit([point.y for point in drawable]), plot.y_title)
+    _set_axis(made, "x", axes.fit([point.x for point in drawable] + [x for x, _ in curve]),
+              plot.x_title)
+    _set_axis(made, "y", axes.fit([point.y for point in drawable] + [y for _, y in curve]),
+              plot.y_title)
+    if curve:
+        made.plot(*zip(*curve), color=GREY, linewidth=1.1, linestyle=":", marker=".", gid="curve",
+                  markersize=4, zorder=2.4)
     return made
 
 
