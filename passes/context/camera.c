@@ -7,20 +7,30 @@ static void copy(const float source[3], vec3 target) {
         target[i] = source[i];
 }
 
+/// In double precision, in which squares of tiny and of huge lengths are neither 0 nor infinite.
+/// False, with `vector` unchanged, if it has no length.
+static bool normalise(vec3 vector) {
+    double length = sqrt((double)vector[0] * vector[0] + (double)vector[1] * vector[1] +
+                         (double)vector[2] * vector[2]);
+    for (int i = 0; i < 3 && length > 0; i++)
+        vector[i] = (float)(vector[i] / length);
+    return length > 0;
+}
+
 static void view_direction(const lobe_camera *camera, vec3 forward) {
     vec3 eye, target;
     copy(camera->eye, eye);
     copy(camera->target, target);
     glm_vec3_sub(target, eye, forward);
-    if (glm_vec3_norm(forward) == 0)
+    if (!normalise(forward))
         forward[2] = -1;
-    glm_vec3_normalize(forward);
 }
 
 void passes_camera_rotation(const lobe_camera *camera, mat3 rotation) {
     vec3 forward, up, right;
     view_direction(camera, forward);
     copy(camera->up, up);
+    normalise(up);
     glm_vec3_cross(forward, up, right);
     if (glm_vec3_norm(right) < 1e-6f) {
         // Looking along the up vector: use any other.
@@ -75,7 +85,8 @@ static void perspective(const lobe_camera *camera, float aspect, mat4 projection
 static void orthographic(const lobe_camera *camera, float aspect, float far_plane,
                          mat4 projection) {
     float scale = 2 / camera->orthographic_height;
-    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f);
+    // Where all lies before the near plane, any depth will do.
+    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f * camera->near_plane);
     glm_mat4_identity(projection);
     projection[0][0] = scale / aspect;
     projection[1][1] = -scale;

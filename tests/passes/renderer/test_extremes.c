@@ -303,32 +303,10 @@ static void places_at_their_limits(void **state) {
     check_all(*state, extremes, sizeof extremes / sizeof *extremes);
 }
 
-/// Scale does not change a picture under distant light.
-static void size_does_not_matter(void **state) {
-    static const extreme as_it_is = {"as it is", NULL, NULL};
-    static const float scales[] = {1, 1e6f, 1e-4f};
-    lobe_frame frames[3];
-    for (int i = 0; i < 3; i++) {
-        lobe_scene *scene = extreme_scene(&as_it_is, true);
-        scene->lights[0].intensity[0] = scene->lights[0].intensity[1] =
-            scene->lights[0].intensity[2] = 0;
-        scale_scene(scene, scales[i]);
-        picture_request request = {
-            .filter = "lobes", .settings = {NULL}, .width = EXTENT, .height = EXTENT};
-        frames[i] = draw_scene(*state, scene, &request);
-        assert_true(largest_value(&frames[i].radiance) > 0.01);
-        assert_true(relative_l2(&frames[i].radiance, &frames[0].radiance) < 1e-3);
-        lobe_scene_destroy(&scene);
-    }
-    for (int i = 0; i < 3; i++)
-        lobe_frame_free(&frames[i]);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(materials_at_their_limits),
         cmocka_unit_test(places_at_their_limits),
-        cmocka_unit_test(size_does_not_matter),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
