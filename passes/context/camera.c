@@ -1,6 +1,9 @@
 #include "passes/context/camera.h"
 
+#include <float.h>
 #include <math.h>
+
+#include "passes/upload/number_check.h"
 
 static void copy(const float source[3], vec3 target) {
     for (int i = 0; i < 3; i++)
@@ -24,6 +27,39 @@ static void view_direction(const lobe_camera *camera, vec3 forward) {
     glm_vec3_sub(target, eye, forward);
     if (!normalise(forward))
         forward[2] = -1;
+}
+
+static lobe_result check_numbers(const number_owner *owner, const lobe_camera *camera) {
+    const double angle = camera->vertical_field_of_view;
+    lobe_result result = passes_check_numbers(owner, "eye", camera->eye, 3, -INFINITY, INFINITY);
+    result = result ? result
+                    : passes_check_numbers(owner, "target", camera->target, 3, -INFINITY, INFINITY);
+    result =
+        result ? result : passes_check_numbers(owner, "up", camera->up, 3, -INFINITY, INFINITY);
+    // The greatest float below pi.
+    result =
+        result ? result : passes_check_number(owner, "vertical_field_of_view", angle, 0, 3.1415925);
+    result = result ? result
+                    : passes_check_number(owner, "near_plane", camera->near_plane, (double)FLT_MIN,
+                                          INFINITY);
+    if (result != LOBE_OK || angle > 0)
+        return result;
+    return passes_check_number(owner, "orthographic_height (the field of view is 0)",
+                               camera->orthographic_height, (double)FLT_MIN, INFINITY);
+}
+
+lobe_result passes_camera_check(const lobe_camera *camera, const lobe_host *host) {
+    const number_owner owner = {host, "render", "camera", NULL, SIZE_MAX};
+    vec3 up, difference;
+    lobe_result result = check_numbers(&owner, camera);
+    copy(camera->up, up);
+    for (int i = 0; i < 3; i++)
+        difference[i] = camera->target[i] - camera->eye[i];
+    if (!result && !normalise(difference))
+        result = passes_fail_vector(&owner, "eye", camera->eye, "the target is at the same place");
+    if (!result && !normalise(up))
+        result = passes_fail_vector(&owner, "up", camera->up, "expected a vector with a length");
+    return result == LOBE_ERROR_MALFORMED ? LOBE_ERROR_INVALID_ARGUMENT : result;
 }
 
 void passes_camera_rotation(const lobe_camera *camera, mat3 rotation) {

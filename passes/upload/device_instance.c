@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "passes/upload/frame_check.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
 
@@ -63,7 +64,7 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
                                                const lobe_host *host) {
     const lobe_instance *instance = &scene->instances[index];
     if (instance->mesh < scene->mesh_count && instance->material < scene->material_count)
-        return LOBE_OK;
+        return passes_check_transform(scene, index, host);
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                           "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
                           index, instance->mesh, scene->mesh_count, instance->material,

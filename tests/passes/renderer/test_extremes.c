@@ -246,10 +246,6 @@ static void view_along_the_plane(lobe_scene *scene) {
     scene->camera.eye[1] = 0;
 }
 
-static void eye_on_the_target(lobe_scene *scene) {
-    memcpy(scene->camera.eye, scene->camera.target, sizeof scene->camera.eye);
-}
-
 static void wide_view(lobe_scene *scene) {
     scene->camera.vertical_field_of_view = 3.1f;
 }
@@ -275,10 +271,6 @@ static void tiny_scene(lobe_scene *scene) {
     scale_scene(scene, 1e-4f);
 }
 
-static void flat_instance(lobe_scene *scene) {
-    memset(scene->instances[0].transform, 0, 12 * sizeof(float));
-}
-
 static void strong_light(lobe_scene *scene) {
     scene->lights[1].intensity[0] = 1e20f;
 }
@@ -291,11 +283,9 @@ static void places_at_their_limits(void **state) {
         {"light opposite the viewer", NULL, light_opposite_the_viewer},
         {"grazing view", NULL, grazing_view},
         {"view along the plane", NULL, view_along_the_plane},
-        {"eye on the target", NULL, eye_on_the_target},
         {"wide view", NULL, wide_view},
         {"huge scene", NULL, huge_scene},
         {"tiny scene", NULL, tiny_scene},
-        {"instance without extent", NULL, flat_instance},
         {"strong light", NULL, strong_light},
         {"smooth and grazing", smooth, grazing_view},
         {"smooth, light opposite the viewer", smooth, light_opposite_the_viewer},
