@@ -132,7 +132,12 @@ static lobe_result draw(rendering *r, lobe_frame *frame) {
 
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
                                  lobe_frame *frame) {
-    *frame = (lobe_frame){0};
+    if (frame)
+        *frame = (lobe_frame){0};
+    if (!renderer || !parameters || !frame)
+        return lobe_host_fail(
+            renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_renderer_render: renderer, parameters and frame must not be NULL");
     rendering r = {
         .renderer = renderer,
         .parameters = parameters,
