@@ -19,8 +19,13 @@ static bool is_folder(const char *path) {
 
 lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
                                  const lobe_host *host, lobe_scene **result) {
+    if (result)
+        *result = NULL;
+    if (!parameters || !parameters->scene || !result)
+        return lobe_host_fail(
+            host, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_scene_open_with: parameters, their scene (a name) and result must not be NULL");
     const char *scene = parameters->scene;
-    *result = NULL;
     if (parameters->data)
         return scenes_gltf_open(parameters, host, result);
     const builtin_scene *builtin = scenes_builtin_find(scene);

@@ -70,6 +70,8 @@ void *lobe_reallocate(const lobe_allocator *allocator, void *memory, size_t coun
 }
 
 char *lobe_copy_text(const lobe_allocator *allocator, const char *text) {
+    if (!text)
+        return NULL;
     const size_t size = strlen(text) + 1;
     char *copy = lobe_allocate(allocator, size, 1);
     return copy ? memcpy(copy, text, size) : NULL;

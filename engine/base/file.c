@@ -85,7 +85,11 @@ static lobe_result read_to_end(file_reader *reader) {
 
 lobe_result lobe_file_read(const char *path, const char *owner, const lobe_host *host,
                            uint8_t **data, size_t *size) {
-    *data = NULL;
+    if (data)
+        *data = NULL;
+    if (!path || !data || !size)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_file_read: path, data and size must not be NULL");
     *size = 0;
     file_reader reader = {.path = path, .owner = owner, .host = host};
     lobe_result result = open_regular_file(&reader);
@@ -173,6 +177,9 @@ static lobe_result write_and_rename(const char *path, const void *data, size_t s
 
 lobe_result lobe_file_write(const char *path, const void *data, size_t size,
                             const lobe_host *host) {
+    if (!path || (!data && size > 0))
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_file_write: path and data must not be NULL");
     struct stat status;
     if (stat(path, &status) != 0)
         return write_and_rename(path, data, size, host);

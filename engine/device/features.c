@@ -55,6 +55,8 @@ static void list_present(lobe_vulkan_features *present,
 }
 
 const lobe_device_feature *lobe_vulkan_feature_list(size_t *count) {
+    if (!count)
+        return known;
     *count = ENGINE_FEATURE_COUNT;
     return known;
 }

@@ -102,10 +102,14 @@ static lobe_result take_host(const lobe_vulkan_device *import, lobe_device *devi
 lobe_result lobe_vulkan_import_device(const lobe_vulkan_device *import,
                                       const lobe_device_parameters *parameters,
                                       lobe_device **device) {
+    if (device)
+        *device = NULL;
+    if (!import || !device)
+        return lobe_host_fail(parameters ? parameters->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_vulkan_import_device: import and device must not be NULL");
     static const lobe_device_parameters defaults = {0};
     if (!parameters)
         parameters = &defaults;
-    *device = NULL;
     lobe_result result = check_host(import, parameters, parameters->host);
     if (result == LOBE_OK)
         result = engine_device_allocate(parameters, device);
@@ -131,6 +135,8 @@ static void unlock_queue(void *device) {
 }
 
 void lobe_vulkan_export_device(lobe_device *device, lobe_vulkan_device *handles) {
+    if (!device || !handles)
+        return;
     *handles = (lobe_vulkan_device){
         .get_instance_proc_addr = device->instance.api.vkGetInstanceProcAddr,
         .instance = device->instance.vulkan,

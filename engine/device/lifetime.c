@@ -172,6 +172,9 @@ lobe_result engine_device_equip(lobe_device *device, const lobe_device_parameter
 // Public
 
 lobe_result lobe_device_create(const lobe_device_parameters *parameters, lobe_device **device) {
+    if (!device)
+        return lobe_host_fail(parameters ? parameters->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_device_create: device must not be NULL");
     static const lobe_device_parameters defaults = {0};
     if (!parameters)
         parameters = &defaults;
@@ -202,7 +205,7 @@ static void destroy_vulkan(lobe_device *device) {
 }
 
 void lobe_device_destroy(lobe_device **device) {
-    if (!*device)
+    if (!device || !*device)
         return;
     if ((*device)->vulkan)
         destroy_vulkan(*device);
@@ -215,15 +218,24 @@ void lobe_device_destroy(lobe_device **device) {
 }
 
 const lobe_allocator *lobe_device_allocator(const lobe_device *device) {
+    if (!device)
+        return NULL;
     return device->host.allocator;
 }
 
 const lobe_device_information *lobe_device_describe(const lobe_device *device) {
+    if (!device)
+        return NULL;
     return &device->information;
 }
 
 lobe_result lobe_device_list(const lobe_device_parameters *parameters,
                              lobe_device_information **devices, size_t *count) {
+    if (devices)
+        *devices = NULL;
+    if (!devices || !count)
+        return lobe_host_fail(parameters ? parameters->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_device_list: devices and count must not be NULL");
     const lobe_host *host = parameters ? parameters->host : NULL;
     const engine_instance_parameters wanted = {
         .get_instance_proc_addr = parameters ? parameters->get_instance_proc_addr : NULL,
@@ -256,6 +268,8 @@ cleanup:
 }
 
 void lobe_device_list_free(lobe_device_information **devices, size_t count) {
+    if (!devices)
+        return;
     for (size_t i = 0; *devices && i < count; i++)
         lobe_release((void *)(*devices)[i].features);
     lobe_release(*devices);
@@ -263,14 +277,20 @@ void lobe_device_list_free(lobe_device_information **devices, size_t count) {
 }
 
 void lobe_device_memory_query(const lobe_device *device, lobe_device_memory *memory) {
+    if (!device || !memory)
+        return;
     engine_memory_query(device->memory, memory);
 }
 
 void lobe_device_memory_reset_peak(lobe_device *device) {
+    if (!device)
+        return;
     engine_memory_reset_peak(device->memory);
 }
 
 uint64_t lobe_device_validation_count(const lobe_device *device) {
+    if (!device)
+        return 0;
     return atomic_load(&device->validation_count);
 }
 

@@ -18,6 +18,8 @@ static const lobe_vulkan_extension known[] = {
 _Static_assert(KNOWN_COUNT <= LOBE_VULKAN_MAXIMUM_EXTENSIONS, "names of all must fit");
 
 const lobe_vulkan_extension *lobe_vulkan_extension_list(size_t *count) {
+    if (!count)
+        return known;
     *count = KNOWN_COUNT;
     return known;
 }
@@ -60,6 +62,8 @@ static bool load_functions(const lobe_vulkan_device *host, engine_instance_api *
 uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
                                      const lobe_allocator *allocator,
                                      const char *names[LOBE_VULKAN_MAXIMUM_EXTENSIONS]) {
+    if (!host || !names)
+        return 0;
     const lobe_host silent = {.allocator = allocator};
     engine_instance_api api;
     uint32_t filled = 0;
@@ -72,6 +76,8 @@ uint32_t lobe_vulkan_extensions_fill(const lobe_vulkan_device *host,
 // Features and queues
 
 void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_features *features) {
+    if (!host || !features)
+        return;
     lobe_device_feature present[ENGINE_FEATURE_COUNT];
     engine_instance_api api;
     if (load_functions(host, &api))
@@ -82,6 +88,8 @@ void lobe_vulkan_features_fill(const lobe_vulkan_device *host, lobe_vulkan_featu
 }
 
 uint32_t lobe_vulkan_queue_family(const lobe_vulkan_device *host) {
+    if (!host)
+        return UINT32_MAX;
     engine_instance_api api;
     uint32_t timestamp_bits;
     return load_functions(host, &api)
@@ -129,6 +137,8 @@ static void add_features(line_list *list, const engine_instance_api *api,
 
 size_t lobe_vulkan_missing(const lobe_vulkan_device *host, const VkPhysicalDeviceFeatures2 *enabled,
                            char *text, size_t size) {
+    if (!host || (!text && size > 0))
+        return 1;
     const VkPhysicalDevice physical = host->physical_device;
     line_list list = {.text = text, .size = size};
     engine_instance_api api;

@@ -183,6 +183,8 @@ static void text_resource(engine_text_builder *out, const lobe_graph *graph, uin
 }
 
 char *lobe_graph_dump_text(const lobe_graph *graph) {
+    if (!graph)
+        return NULL;
     engine_text_builder builder = {.bytes.allocator = graph->device->host.allocator};
     engine_text_builder *out = &builder;
     text_summary(out, graph);
@@ -348,6 +350,8 @@ static void graphviz_graph(engine_text_builder *out, const lobe_graph *graph) {
 }
 
 char *lobe_graph_dump_graphviz(const lobe_graph *graph) {
+    if (!graph)
+        return NULL;
     engine_text_builder builder = {.bytes.allocator = graph->device->host.allocator};
     engine_text_builder *out = &builder;
     engine_text_add(out, "digraph lobe {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n");

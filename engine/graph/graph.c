@@ -10,7 +10,11 @@
 // Creation and destruction
 
 lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
-    *graph = NULL;
+    if (graph)
+        *graph = NULL;
+    if (!device || !graph)
+        return lobe_host_fail(device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_graph_create: device and graph must not be NULL");
     const lobe_allocator *allocator = device->host.allocator;
     lobe_graph *created = lobe_allocate(allocator, 1, sizeof *created);
     if (!created)
@@ -36,7 +40,7 @@ static void reset_frame(lobe_graph *graph) {
 }
 
 void lobe_graph_destroy(lobe_graph **graph) {
-    lobe_graph *gone = *graph;
+    lobe_graph *gone = graph ? *graph : NULL;
     if (!gone)
         return;
     // A failure is a lost device, which has finished too.
@@ -55,6 +59,8 @@ void lobe_graph_destroy(lobe_graph **graph) {
 }
 
 void lobe_graph_begin(lobe_graph *graph) {
+    if (!graph)
+        return;
     reset_frame(graph);
     engine_graph_begin_retained(graph);
     engine_graph_propagate(graph, engine_graph_begin_flight(graph));
@@ -97,6 +103,8 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
 };
 
 lobe_result lobe_graph_compile(lobe_graph *graph) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     if (graph->frame.phase != ENGINE_GRAPH_DECLARING || graph->frame.result != LOBE_OK)
         return graph->frame.result;
     const double start = engine_host_milliseconds();
@@ -119,6 +127,8 @@ static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submissi
 }
 
 lobe_result lobe_graph_execute(lobe_graph *graph) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     lobe_result result = run(graph, NULL);
     if (result == LOBE_OK)
         result = engine_graph_finish(graph);
@@ -140,6 +150,11 @@ static lobe_result check_submission(lobe_graph *graph, const lobe_vulkan_submiss
 }
 
 lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    if (!submission)
+        return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
+                               "lobe_graph_submit: submission must not be NULL");
     lobe_result result = check_submission(graph, submission);
     if (result == LOBE_OK)
         result = run(graph, submission);
@@ -147,6 +162,8 @@ lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *s
 }
 
 lobe_result lobe_graph_wait(lobe_graph *graph) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     if (graph->frame.phase != ENGINE_GRAPH_SUBMITTED)
         return graph->frame.result;
     return engine_graph_propagate(graph, engine_graph_finish(graph));

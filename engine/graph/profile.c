@@ -31,6 +31,9 @@ static lobe_result fail_memory(const lobe_profile *profile) {
 }
 
 lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile) {
+    if (!profile)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_profile_create: profile must not be NULL");
     *profile = lobe_allocate(lobe_host_allocator(host), 1, sizeof **profile);
     if (!*profile)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "profile: out of memory");
@@ -42,7 +45,7 @@ lobe_result lobe_profile_create(const lobe_host *host, lobe_profile **profile) {
 }
 
 void lobe_profile_destroy(lobe_profile **profile) {
-    lobe_profile *gone = *profile;
+    lobe_profile *gone = profile ? *profile : NULL;
     if (!gone)
         return;
     for (uint32_t i = 0; i < gone->pass_count; i++) {
@@ -109,6 +112,9 @@ static void add_time(time_series *series, double milliseconds) {
 }
 
 lobe_result lobe_profile_add(lobe_profile *profile, const lobe_graph_report *report) {
+    if (!profile || !report)
+        return lobe_host_fail(profile ? &profile->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_profile_add: profile and report must not be NULL");
     if (!make_room(profile, report))
         return fail_memory(profile);
     for (size_t i = 0; i < report->pass_count; i++)
@@ -164,6 +170,9 @@ static lobe_result reserve_results(lobe_profile *profile) {
 }
 
 lobe_result lobe_profile_statistics(lobe_profile *profile, lobe_profile_summary *summary) {
+    if (!profile || !summary)
+        return lobe_host_fail(profile ? &profile->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_profile_statistics: profile and summary must not be NULL");
     *summary = (lobe_profile_summary){.frame = {.name = profile->frame.name},
                                       .host = {.name = profile->recording.name}};
     if (profile->frame.runs == 0)

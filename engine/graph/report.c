@@ -184,5 +184,7 @@ lobe_result engine_graph_report_executed(lobe_graph *graph) {
 }
 
 const lobe_graph_report *lobe_graph_describe(const lobe_graph *graph) {
+    if (!graph)
+        return NULL;
     return &graph->frame.report;
 }

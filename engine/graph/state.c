@@ -6,6 +6,8 @@
 #define LINE_SIZE 1024
 
 lobe_result lobe_graph_fail(lobe_graph *graph, lobe_result result, const char *format, ...) {
+    if (!graph)
+        return result;
     if (graph->frame.result != LOBE_OK)
         return graph->frame.result;
     char line[LINE_SIZE];

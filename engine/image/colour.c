@@ -21,6 +21,8 @@ float lobe_srgb_decode(float encoded) {
 
 // ITU-R BT.709, item 3.2.
 float lobe_luminance(const float rgb[3]) {
+    if (!rgb)
+        return 0;
     return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
@@ -53,9 +55,14 @@ static void encode_texel(const float *linear, const lobe_display_parameters *par
 
 lobe_result lobe_display_encode(const lobe_image *linear, const lobe_display_parameters *parameters,
                                 const lobe_host *host, lobe_image *picture) {
+    if (picture)
+        *picture = (lobe_image){0};
+    if (!linear || !linear->texels || !picture)
+        return lobe_host_fail(
+            host, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_display_encode: the image, its texels and picture must not be NULL");
     static const lobe_display_parameters defaults = {0};
     parameters = parameters != NULL ? parameters : &defaults;
-    *picture = (lobe_image){0};
     if (linear->format != LOBE_FORMAT_RGBA32_FLOAT)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                               "picture: made from RGBA32_FLOAT images, not from %s",
@@ -90,6 +97,8 @@ static void oklab_to_linear(const float lab[3], float rgb[3]) {
 }
 
 void lobe_heat_colour(float value, uint8_t srgb[3]) {
+    if (!srgb)
+        return;
     const float pi = 3.14159265f;
     float t = fminf(fmaxf(value, 0.0f), 1.0f);
     // Lightness rises evenly, the hue turns by half a circle, chroma swells in the middle. The

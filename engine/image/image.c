@@ -42,6 +42,9 @@ const char *lobe_format_name(lobe_format format) {
 
 lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
                                 uint32_t height, const lobe_host *host) {
+    if (!image)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_image_allocate: image must not be NULL");
     *image = (lobe_image){0};
     size_t size = lobe_format_size(format);
     if (size == 0)

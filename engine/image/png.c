@@ -94,6 +94,9 @@ static bool encode(png_writer *writer, const lobe_image *image) {
 static lobe_result encode_image(png_writer *writer, const char *name, const lobe_image *image,
                                 const lobe_host *host) {
     *writer = (png_writer){.output.allocator = lobe_host_allocator(host)};
+    if (image->width == 0 || image->height == 0)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "%s: an image of %ux%u texels",
+                              name, image->width, image->height);
     if (image->format != LOBE_FORMAT_RGBA8_SRGB && image->format != LOBE_FORMAT_RGBA8_UNORM)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                               "%s: PNG files are written from RGBA8 images, not from %s", name,
@@ -106,6 +109,9 @@ static lobe_result encode_image(png_writer *writer, const char *name, const lobe
 }
 
 lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe_host *host) {
+    if (!path || !image || !image->texels)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_png_write: path, image and its texels must not be NULL");
     png_writer writer;
     lobe_result result = encode_image(&writer, path, image, host);
     if (result == LOBE_OK)
@@ -116,6 +122,12 @@ lobe_result lobe_png_write(const char *path, const lobe_image *image, const lobe
 
 lobe_result lobe_png_encode(const char *name, const lobe_image *image, const lobe_host *host,
                             uint8_t **data, size_t *size) {
+    if (data)
+        *data = NULL;
+    if (!name || !image || !image->texels || !data || !size)
+        return lobe_host_fail(
+            host, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_png_encode: name, image, its texels, data and size must not be NULL");
     png_writer writer;
     lobe_result result = encode_image(&writer, name, image, host);
     *data = result == LOBE_OK ? writer.output.data : NULL;
@@ -177,7 +189,11 @@ static lobe_result decode(const char *path, const uint8_t *data, size_t size, co
 }
 
 lobe_result lobe_png_read(const char *path, const lobe_host *host, lobe_image *image) {
-    *image = (lobe_image){0};
+    if (image)
+        *image = (lobe_image){0};
+    if (!path || !image)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_png_read: path and image must not be NULL");
     uint8_t *data;
     size_t size;
     lobe_result result = lobe_file_read(path, NULL, host, &data, &size);

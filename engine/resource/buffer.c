@@ -74,7 +74,11 @@ static VkDeviceSize whole_words(VkDeviceSize size) {
 
 lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters *parameters,
                                lobe_buffer **buffer) {
-    *buffer = NULL;
+    if (buffer)
+        *buffer = NULL;
+    if (!device || !parameters || !buffer)
+        return lobe_host_fail(device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_buffer_create: device, parameters and buffer must not be NULL");
     const char *name = parameters->name ? parameters->name : "buffer";
     if (parameters->size == 0)
         return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
@@ -101,6 +105,8 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
 }
 
 lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
+    if (!buffer)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     if (!data)
         return lobe_host_fail(&buffer->device->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "buffer '%s': no data given", buffer->name);
@@ -109,7 +115,7 @@ lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
 }
 
 void lobe_buffer_destroy(lobe_buffer **buffer) {
-    if (!*buffer)
+    if (!buffer || !*buffer)
         return;
     lobe_device *device = (*buffer)->device;
     // On failure the device is lost, and has finished too.

@@ -65,7 +65,12 @@ static lobe_result create_views(lobe_texture *texture) {
 
 lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
                                 lobe_texture **texture) {
-    *texture = NULL;
+    if (texture)
+        *texture = NULL;
+    if (!device || !parameters || !texture)
+        return lobe_host_fail(
+            device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_texture_create: device, parameters and texture must not be NULL");
     const char *name = parameters->name ? parameters->name : "texture";
     lobe_result result = check_content(&device->host, name, parameters->image);
     if (result != LOBE_OK)
@@ -92,11 +97,15 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
 }
 
 bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
+    if (!texture || !image)
+        return false;
     return image->format == texture->format && image->width == texture->width &&
            image->height == texture->height;
 }
 
 lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) {
+    if (!texture)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     const lobe_host *host = &texture->device->host;
     lobe_result result = check_content(host, texture->name, image);
     if (result != LOBE_OK)
@@ -111,7 +120,7 @@ lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) 
 }
 
 void lobe_texture_destroy(lobe_texture **texture) {
-    if (!*texture)
+    if (!texture || !*texture)
         return;
     lobe_device *device = (*texture)->device;
     // On failure the device is lost, and has finished too.

@@ -258,6 +258,9 @@ static lobe_result add_code(lobe_device *device, engine_shader_code *code) {
 }
 
 lobe_result lobe_device_add_shader(lobe_device *device, const lobe_shader *shader) {
+    if (!device || !shader)
+        return lobe_host_fail(device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_device_add_shader: device and shader must not be NULL");
     if (!shader->name || !shader->words || shader->size == 0 || shader->size % 4 != 0)
         return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "shader '%s': a name and whole words of SPIR-V are needed",

@@ -1,10 +1,23 @@
 #include "passes/context/camera.h"
 
+#include <float.h>
 #include <math.h>
+
+#include "passes/upload/number_check.h"
 
 static void copy(const float source[3], vec3 target) {
     for (int i = 0; i < 3; i++)
         target[i] = source[i];
+}
+
+/// In double precision, in which squares of tiny and of huge lengths are neither 0 nor infinite.
+/// False, with `vector` unchanged, if it has no length.
+static bool normalise(vec3 vector) {
+    double length = sqrt((double)vector[0] * vector[0] + (double)vector[1] * vector[1] +
+                         (double)vector[2] * vector[2]);
+    for (int i = 0; i < 3 && length > 0; i++)
+        vector[i] = (float)(vector[i] / length);
+    return length > 0;
 }
 
 static void view_direction(const lobe_camera *camera, vec3 forward) {
@@ -12,15 +25,48 @@ static void view_direction(const lobe_camera *camera, vec3 forward) {
     copy(camera->eye, eye);
     copy(camera->target, target);
     glm_vec3_sub(target, eye, forward);
-    if (glm_vec3_norm(forward) == 0)
+    if (!normalise(forward))
         forward[2] = -1;
-    glm_vec3_normalize(forward);
+}
+
+static lobe_result check_numbers(const number_owner *owner, const lobe_camera *camera) {
+    const double angle = camera->vertical_field_of_view;
+    lobe_result result = passes_check_numbers(owner, "eye", camera->eye, 3, -INFINITY, INFINITY);
+    result = result ? result
+                    : passes_check_numbers(owner, "target", camera->target, 3, -INFINITY, INFINITY);
+    result =
+        result ? result : passes_check_numbers(owner, "up", camera->up, 3, -INFINITY, INFINITY);
+    // The greatest float below pi.
+    result =
+        result ? result : passes_check_number(owner, "vertical_field_of_view", angle, 0, 3.1415925);
+    result = result ? result
+                    : passes_check_number(owner, "near_plane", camera->near_plane, (double)FLT_MIN,
+                                          INFINITY);
+    if (result != LOBE_OK || angle > 0)
+        return result;
+    return passes_check_number(owner, "orthographic_height (the field of view is 0)",
+                               camera->orthographic_height, (double)FLT_MIN, INFINITY);
+}
+
+lobe_result passes_camera_check(const lobe_camera *camera, const lobe_host *host) {
+    const number_owner owner = {host, "render", "camera", NULL, SIZE_MAX};
+    vec3 up, difference;
+    lobe_result result = check_numbers(&owner, camera);
+    copy(camera->up, up);
+    for (int i = 0; i < 3; i++)
+        difference[i] = camera->target[i] - camera->eye[i];
+    if (!result && !normalise(difference))
+        result = passes_fail_vector(&owner, "eye", camera->eye, "the target is at the same place");
+    if (!result && !normalise(up))
+        result = passes_fail_vector(&owner, "up", camera->up, "expected a vector with a length");
+    return result == LOBE_ERROR_MALFORMED ? LOBE_ERROR_INVALID_ARGUMENT : result;
 }
 
 void passes_camera_rotation(const lobe_camera *camera, mat3 rotation) {
     vec3 forward, up, right;
     view_direction(camera, forward);
     copy(camera->up, up);
+    normalise(up);
     glm_vec3_cross(forward, up, right);
     if (glm_vec3_norm(right) < 1e-6f) {
         // Looking along the up vector: use any other.
@@ -75,7 +121,8 @@ static void perspective(const lobe_camera *camera, float aspect, mat4 projection
 static void orthographic(const lobe_camera *camera, float aspect, float far_plane,
                          mat4 projection) {
     float scale = 2 / camera->orthographic_height;
-    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f);
+    // Where all lies before the near plane, any depth will do.
+    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f * camera->near_plane);
     glm_mat4_identity(projection);
     projection[0][0] = scale / aspect;
     projection[1][1] = -scale;

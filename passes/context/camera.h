@@ -5,6 +5,10 @@
 
 #include <lobe/scene.h>
 
+/// Checks that the camera has a picture: logs the first value that rules it out, in one line, and
+/// returns LOBE_ERROR_INVALID_ARGUMENT.
+lobe_result passes_camera_check(const lobe_camera *camera, const lobe_host *host);
+
 /// Rotation from the world to the camera: x right, y up, z towards the viewer.
 void passes_camera_rotation(const lobe_camera *camera, mat3 rotation);
 

@@ -20,6 +20,9 @@ void passes_append_name(char *names, size_t size, const char *name) {
 }
 
 lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe_filter **filter) {
+    if (!name || !filter)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_filter_find: name and filter must not be NULL");
     char names[512] = "";
     for (size_t i = 0; passes_filter_table[i]; i++) {
         if (strcmp(passes_filter_table[i]->name, name) == 0) {
@@ -34,18 +37,26 @@ lobe_result lobe_filter_find(const char *name, const lobe_host *host, const lobe
 }
 
 const char *lobe_filter_name(const lobe_filter *filter) {
+    if (!filter)
+        return "";
     return filter->name;
 }
 
 const char *lobe_filter_summary(const lobe_filter *filter) {
+    if (!filter)
+        return "";
     return filter->summary;
 }
 
 const char *lobe_filter_paper(const lobe_filter *filter) {
+    if (!filter)
+        return "";
     return filter->paper;
 }
 
 bool lobe_filter_supersamples(const lobe_filter *filter) {
+    if (!filter)
+        return false;
     return filter->supersamples;
 }
 

@@ -26,6 +26,8 @@ static const filter_knob *shared_knob(const lobe_filter *filter, size_t index) {
 }
 
 size_t lobe_filter_knob_count(const lobe_filter *filter) {
+    if (!filter)
+        return 0;
     return own_knob_count(filter) + shared_knob_count();
 }
 
@@ -37,6 +39,8 @@ const filter_knob *passes_filter_knob(const lobe_filter *filter, size_t index) {
 }
 
 const lobe_knob *lobe_filter_knob(const lobe_filter *filter, size_t index) {
+    if (!filter)
+        return NULL;
     const filter_knob *knob = passes_filter_knob(filter, index);
     return knob ? &knob->description : NULL;
 }

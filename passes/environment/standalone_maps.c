@@ -182,6 +182,12 @@ static bool copy_cache(lobe_environment_maps *maps, const char *cache) {
 lobe_result lobe_environment_maps_create(lobe_device *device,
                                          const lobe_environment_maps_parameters *parameters,
                                          lobe_environment_maps **maps) {
+    if (maps)
+        *maps = NULL;
+    if (!device || !parameters || !parameters->environment || !maps)
+        return lobe_host_fail(parameters ? parameters->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_environment_maps_create: device, parameters, their environment "
+                              "and maps must not be NULL");
     bool stopped = false;
     *maps = lobe_allocate(lobe_device_allocator(device), 1, sizeof **maps);
     if (!*maps)
@@ -210,6 +216,8 @@ void lobe_environment_maps_destroy(lobe_environment_maps **maps) {
 
 lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
                                          const lobe_environment *environment) {
+    if (!maps)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     lobe_result result = LOBE_OK;
     if (environment && (environment->layout != maps->shape.layout ||
                         environment->image.width != maps->shape.image.width ||
@@ -232,12 +240,18 @@ lobe_result lobe_environment_maps_update(lobe_environment_maps *maps,
 
 const lobe_environment_maps_information *
 lobe_environment_maps_describe(const lobe_environment_maps *maps) {
+    if (!maps)
+        return NULL;
     return &maps->information;
 }
 
 lobe_result lobe_environment_maps_read(lobe_environment_maps *maps, lobe_environment_map map,
                                        uint32_t level, uint32_t face, lobe_image *image) {
-    *image = (lobe_image){0};
+    if (image)
+        *image = (lobe_image){0};
+    if (!maps || !image)
+        return lobe_host_fail(maps ? &maps->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_environment_maps_read: maps and image must not be NULL");
     if ((unsigned)map >= LOBE_ENVIRONMENT_MAP_COUNT || level >= maps->information.levels[map] ||
         face >= 6)
         return lobe_host_fail(&maps->host, LOBE_ERROR_INVALID_ARGUMENT,

@@ -8,6 +8,8 @@
 #include "passes/context/filter.h"
 
 void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {
+    if (!settings)
+        return;
     *settings = (lobe_settings){{0}};
     for (size_t i = 0; i < lobe_filter_knob_count(filter); i++)
         settings->values[i] = lobe_filter_knob(filter, i)->initial;
@@ -88,6 +90,10 @@ lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings
 
 lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,
                               const char *assignment, const lobe_host *host) {
+    if (!filter || !settings || !assignment)
+        return lobe_host_fail(
+            host, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_settings_set: filter, settings and assignment must not be NULL");
     const char *equals = strchr(assignment, '=');
     if (!equals) {
         lobe_host_log(host, LOBE_LOG_ERROR, "'%s' sets no knob; write NAME=VALUE", assignment);
@@ -105,6 +111,10 @@ lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings
 
 lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *settings,
                               const char *name, double *value, const lobe_host *host) {
+    if (!filter || !settings || !name || !value)
+        return lobe_host_fail(
+            host, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_settings_get: filter, settings, name and value must not be NULL");
     size_t length = strlen(name);
     size_t index = find_knob(filter, name, length);
     if (index == lobe_filter_knob_count(filter))
@@ -116,6 +126,11 @@ lobe_result lobe_settings_get(const lobe_filter *filter, const lobe_settings *se
 void lobe_settings_print(const lobe_filter *filter, const lobe_settings *settings, size_t knob,
                          char *text, size_t size) {
     const lobe_knob *description = lobe_filter_knob(filter, knob);
+    if (!text || size == 0)
+        return;
+    text[0] = '\0';
+    if (!description || !settings)
+        return;
     double value = settings->values[knob];
     if (description->kind == LOBE_KNOB_CHOICE && allows(description, value))
         snprintf(text, size, "%s", description->choices[(size_t)value]);

@@ -41,13 +41,13 @@ static float pixel_size(const filter_context *context, float depth) {
 /// An upper bound of how much the transform stretches a length; exact if it preserves angles.
 static float stretch(const filter_context *context, size_t instance) {
     const float *transform = context->scene->scene->instances[instance].transform;
-    float sum = 0;
+    double sum = 0;
     int columns = context->scene->instances[instance].keeps_angles ? 1 : 3;
     for (int column = 0; column < columns; column++) {
         for (int row = 0; row < 3; row++)
-            sum += transform[4 * column + row] * transform[4 * column + row];
+            sum += (double)transform[4 * column + row] * transform[4 * column + row];
     }
-    return sqrtf(sum);
+    return (float)sqrt(sum);
 }
 
 bool passes_may_be_magnified(const filter_context *context, uint32_t material, uint32_t map,

@@ -1,5 +1,7 @@
+#include "passes/context/camera.h"
 #include "passes/filters/settings.h"
 #include "passes/renderer/delivery.h"
+#include "passes/upload/frame_check.h"
 
 // ---------------------------------------------------------------------------------------------
 // Checks
@@ -16,6 +18,10 @@ static lobe_result check(const rendering *r) {
     uint32_t limit = lobe_device_describe(r->renderer->device)->maximum_image_extent;
     if (!r->renderer->scene)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "render: no scene is set");
+    if (!parameters->width != !parameters->height && !parameters->host.target)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "render: a picture of %ux%u pixels", parameters->width,
+                              parameters->height);
     if (parameters->filter && lobe_filter_supersamples(parameters->filter) &&
         needs_one_submission(&parameters->host))
         return lobe_host_fail(
@@ -30,7 +36,11 @@ static lobe_result check(const rendering *r) {
         return lobe_host_fail(host, LOBE_ERROR_LIMIT,
                               "render: %ux%u pixels exceed the device's limit of %ux%u", r->width,
                               r->height, limit, limit);
-    return LOBE_OK;
+    const lobe_scene *scene = r->renderer->scene->scene;
+    const lobe_result result = passes_check_frame(scene, host);
+    return result ? result
+                  : passes_camera_check(parameters->camera ? parameters->camera : &scene->camera,
+                                        host);
 }
 
 static lobe_result choose_filter(rendering *r, const lobe_filter **filter) {
@@ -122,7 +132,12 @@ static lobe_result draw(rendering *r, lobe_frame *frame) {
 
 lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_parameters *parameters,
                                  lobe_frame *frame) {
-    *frame = (lobe_frame){0};
+    if (frame)
+        *frame = (lobe_frame){0};
+    if (!renderer || !parameters || !frame)
+        return lobe_host_fail(
+            renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_renderer_render: renderer, parameters and frame must not be NULL");
     rendering r = {
         .renderer = renderer,
         .parameters = parameters,

@@ -4,6 +4,11 @@
 
 lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
                                  lobe_renderer **renderer) {
+    if (renderer)
+        *renderer = NULL;
+    if (!device || !renderer)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_renderer_create: device and renderer must not be NULL");
     const lobe_allocator *allocator = lobe_device_allocator(device);
     *renderer = lobe_allocate(allocator, 1, sizeof **renderer);
     if (!*renderer)
@@ -39,6 +44,8 @@ void lobe_renderer_destroy(lobe_renderer **renderer) {
 }
 
 lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene) {
+    if (!renderer)
+        return LOBE_ERROR_INVALID_ARGUMENT;
     // A new graph: the former scene's retained maps must not be mistaken for maps of the new one.
     lobe_graph_destroy(&renderer->graph);
     forget_scene(renderer);
@@ -60,6 +67,9 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
 }
 
 lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes) {
+    if (!renderer || !changes)
+        return lobe_host_fail(renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_renderer_update_scene: renderer and changes must not be NULL");
     if (!renderer->scene)
         return lobe_host_fail(&renderer->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "update: no scene is set");
@@ -78,10 +88,14 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
 }
 
 lobe_graph *lobe_renderer_graph(lobe_renderer *renderer) {
+    if (!renderer)
+        return NULL;
     return renderer->graph;
 }
 
 void lobe_frame_free(lobe_frame *frame) {
+    if (!frame)
+        return;
     lobe_image_free(&frame->radiance);
     lobe_image_free(&frame->normal_depth);
     lobe_image_free(&frame->lobes_level);

@@ -1,10 +1,8 @@
 #include "passes/upload/device_scene_parts.h"
 
 #include <math.h>
-#include <string.h>
 
-#include <cglm/cglm.h>
-
+#include "passes/upload/frame_check.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
 
@@ -39,32 +37,34 @@ static bool is_atlas(const lobe_mesh *mesh, const lobe_texture_use *use) {
     return area <= 1 + 10 * slack;
 }
 
+// In double precision: products of three elements must be in range at any scale.
+
 static bool mirrors(const float transform[16]) {
-    mat4 matrix;
-    memcpy(matrix, transform, sizeof matrix);
-    mat3 linear;
-    glm_mat4_pick3(matrix, linear);
-    return glm_mat3_det(linear) < 0;
+    const float *a = transform, *b = transform + 4, *c = transform + 8;
+    return a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) +
+               a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
+               a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]) <
+           0;
 }
 
-static float dot(const float a[3], const float b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+static double dot(const float a[3], const float b[3]) {
+    return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2];
 }
 
 /// Whether the linear part is a rotation or reflection times a uniform scale: its columns have
 /// equal length and are at right angles.
 static bool keeps_angles(const float transform[16]) {
     const float *x = transform, *y = transform + 4, *z = transform + 8;
-    float square = dot(x, x), slack = 1e-3f * square;
-    return fabsf(dot(y, y) - square) <= slack && fabsf(dot(z, z) - square) <= slack &&
-           fabsf(dot(x, y)) <= slack && fabsf(dot(y, z)) <= slack && fabsf(dot(z, x)) <= slack;
+    double square = dot(x, x), slack = 1e-3 * square;
+    return fabs(dot(y, y) - square) <= slack && fabs(dot(z, z) - square) <= slack &&
+           fabs(dot(x, y)) <= slack && fabs(dot(y, z)) <= slack && fabs(dot(z, x)) <= slack;
 }
 
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host) {
     const lobe_instance *instance = &scene->instances[index];
     if (instance->mesh < scene->mesh_count && instance->material < scene->material_count)
-        return LOBE_OK;
+        return passes_check_transform(scene, index, host);
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                           "%s: instance %zu uses mesh %u of %zu, material %u of %zu", scene->name,
                           index, instance->mesh, scene->mesh_count, instance->material,

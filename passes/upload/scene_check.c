@@ -1,6 +1,9 @@
 #include "passes/upload/scene_check.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "passes/upload/number_check.h"
 
 /// The bits of a channel's exponent, which are all set in infinities and NaN; 0 for formats without
 /// an exponent.
@@ -21,6 +24,12 @@ static uint32_t exponent_bits(lobe_format format) {
 
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_image *image = &scene->images[index].image;
+    if (!image->texels || image->width == 0 || image->height == 0 ||
+        lobe_format_size(image->format) == 0 || image->format == LOBE_FORMAT_D32_FLOAT)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: image '%s' has %ux%u texels of %s%s",
+                              scene->name, scene->images[index].name, image->width, image->height,
+                              lobe_format_name(image->format),
+                              image->texels ? "" : ", but no memory with them");
     uint32_t exponent = exponent_bits(image->format);
     size_t channels = lobe_format_channels(image->format);
     size_t count = exponent ? (size_t)image->width * image->height * channels : 0;
@@ -48,100 +57,121 @@ static bool all_finite(const lobe_scene_vertex *vertex) {
     return true;
 }
 
+static bool has_normal(const lobe_scene_vertex *vertex) {
+    return vertex->normal[0] != 0 || vertex->normal[1] != 0 || vertex->normal[2] != 0;
+}
+
+/// Says which number of a vertex is not finite.
+static lobe_result fail_vertex(const number_owner *mesh, const lobe_scene_vertex *vertex,
+                               size_t index) {
+    const struct {
+        const char *name;
+        const float *values;
+        size_t count;
+    } members[] = {
+        {"position", vertex->position, 3},
+        {"normal", vertex->normal, 3},
+        {"tangent", vertex->tangent, 4},
+        {"texture_coordinates", vertex->texture_coordinates[0], 4},
+        {"colour", vertex->colour, 4},
+    };
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; !result && i < sizeof members / sizeof *members; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s of vertex %zu", members[i].name, index);
+        result = passes_check_numbers(mesh, name, members[i].values, members[i].count, -INFINITY,
+                                      INFINITY);
+    }
+    return result;
+}
+
+static lobe_result check_vertices(const number_owner *owner, const lobe_mesh *mesh) {
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        if (!all_finite(&mesh->vertices[i]))
+            return fail_vertex(owner, &mesh->vertices[i], i);
+        if (!has_normal(&mesh->vertices[i]))
+            return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                                  "%s: mesh '%s': the normal of vertex %zu has no length",
+                                  owner->where, mesh->name, i);
+    }
+    return LOBE_OK;
+}
+
+static lobe_result check_triangles(const lobe_scene *scene, const lobe_mesh *mesh,
+                                   const lobe_host *host) {
+    if (mesh->vertex_count == 0 || mesh->index_count < 3 || !mesh->vertices || !mesh->indices)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: mesh '%s' has no triangles",
+                              scene->name, mesh->name);
+    if (mesh->index_count % 3 != 0)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: mesh '%s' has %zu indices; expected three for each triangle",
+                              scene->name, mesh->name, mesh->index_count);
+    for (size_t i = 0; i < mesh->index_count; i++) {
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                                  "%s: mesh '%s': index %zu is vertex %u of %zu", scene->name,
+                                  mesh->name, i, mesh->indices[i], mesh->vertex_count);
+    }
+    return LOBE_OK;
+}
+
+/// The bounds decide which maps a pixel may see at level 0.
+static lobe_result check_bounds(const number_owner *owner, const lobe_mesh *mesh) {
+    lobe_result result =
+        passes_check_numbers(owner, "minimum", mesh->minimum, 3, -INFINITY, INFINITY);
+    return result ? result
+                  : passes_check_numbers(owner, "maximum", mesh->maximum, 3, -INFINITY, INFINITY);
+}
+
 lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_mesh *mesh = &scene->meshes[index];
-    if (mesh->vertex_count == 0 || mesh->index_count < 3) {
-        lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s' has no triangles", scene->name,
-                      mesh->name);
-        return LOBE_ERROR_MALFORMED;
-    }
-    for (size_t i = 0; i < mesh->index_count; i++) {
-        if (mesh->indices[i] >= mesh->vertex_count) {
-            lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': index %zu is vertex %u of %zu",
-                          scene->name, mesh->name, i, mesh->indices[i], mesh->vertex_count);
-            return LOBE_ERROR_MALFORMED;
-        }
-    }
-    for (size_t i = 0; i < mesh->vertex_count; i++) {
-        if (!all_finite(&mesh->vertices[i])) {
-            lobe_host_log(host, LOBE_LOG_ERROR, "%s: mesh '%s': vertex %zu is not finite",
-                          scene->name, mesh->name, i);
-            return LOBE_ERROR_MALFORMED;
-        }
-    }
-    return LOBE_OK;
+    const number_owner owner = {
+        .host = host, .where = scene->name, .kind = "mesh", .name = mesh->name, .index = index};
+    lobe_result result = check_triangles(scene, mesh, host);
+    result = result ? result : check_bounds(&owner, mesh);
+    return result ? result : check_vertices(&owner, mesh);
 }
 
-static lobe_result check_texture(const lobe_scene *scene, const char *material,
-                                 const lobe_texture_use *use, const lobe_host *host) {
-    if (use->image < 0)
-        return LOBE_OK;
-    if ((size_t)use->image >= scene->image_count) {
-        lobe_host_log(host, LOBE_LOG_ERROR, "%s: material '%s' uses image %d of %zu", scene->name,
-                      material, use->image, scene->image_count);
-        return LOBE_ERROR_MALFORMED;
-    }
-    if (use->texture_coordinates > 1) {
-        lobe_host_log(host, LOBE_LOG_ERROR,
-                      "%s: material '%s' uses set %u of texture coordinates; there are 0 and 1",
-                      scene->name, material, use->texture_coordinates);
-        return LOBE_ERROR_MALFORMED;
-    }
-    return LOBE_OK;
-}
-
-lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
-                                        const lobe_host *host) {
-    const lobe_material *material = &scene->materials[index];
-    const lobe_texture_use *uses[] = {
-        &material->base_colour_map, &material->normal_map,
-        &material->emissive_map,    &material->metallic_roughness_map,
-        &material->width_map,       &material->specular_map,
-        &material->height_map,
+lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host) {
+    const struct {
+        const char *name;
+        const void *array;
+        size_t count;
+    } arrays[] = {
+        {"images", scene->images, scene->image_count},
+        {"materials", scene->materials, scene->material_count},
+        {"meshes", scene->meshes, scene->mesh_count},
+        {"instances", scene->instances, scene->instance_count},
     };
-    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
-        lobe_result result = check_texture(scene, material->name, uses[i], host);
-        if (result != LOBE_OK)
-            return result;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        if (arrays[i].count > 0 && !arrays[i].array)
+            return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %zu %s, but no array of them",
+                                  scene->name, arrays[i].count, arrays[i].name);
     }
-    bool counted =
-        material->model == LOBE_MATERIAL_MICROFACET ||
-        (material->lobe_count >= 1 && material->lobe_count <= LOBE_MATERIAL_MAXIMUM_LOBES);
-    if (counted)
+    if (scene->instance_count > 0)
         return LOBE_OK;
-    lobe_host_log(host, LOBE_LOG_ERROR, "%s: material '%s' has %u lobes; there may be 1 to %d",
-                  scene->name, material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
-    return LOBE_ERROR_MALFORMED;
-}
-
-/// What is wrong with the environment; NULL if nothing.
-static const char *fault_of_environment(const lobe_environment *environment) {
-    const lobe_image *image = &environment->image;
-    if (!image->texels || image->format != LOBE_FORMAT_RGBA32_FLOAT)
-        return "is not an image of four 32-bit floats";
-    if (!(environment->intensity >= 0) || !isfinite(environment->intensity))
-        return "has an intensity that is negative or not finite";
-    for (int i = 0; i < 3; i++) {
-        const float *a = environment->world_from_environment[i];
-        const float *b = environment->world_from_environment[(i + 1) % 3];
-        float square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
-        float product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        if (!(fabsf(square - 1) < 1e-3f) || !(fabsf(product) < 1e-3f))
-            return "has a matrix that is not a rotation";
-    }
-    const float *texels = image->texels;
-    for (size_t i = 0; i < (size_t)image->width * image->height * 4; i++) {
-        if (i % 4 != 3 && (!(texels[i] >= 0) || !isfinite(texels[i])))
-            return "has a texel that is negative or not finite";
-    }
-    return NULL;
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: there is nothing to draw", scene->name);
 }
 
 lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_host *host) {
-    const char *fault = scene->environment ? fault_of_environment(scene->environment) : NULL;
-    if (!fault)
+    if (!scene->environment)
         return LOBE_OK;
-    lobe_host_log(host, LOBE_LOG_ERROR, "%s: environment '%s' %s", scene->name,
-                  scene->environment->name, fault);
-    return LOBE_ERROR_MALFORMED;
+    const char *name = scene->environment->name;
+    const lobe_image *image = &scene->environment->image;
+    const float *texels = image->texels;
+    if (!texels || image->width == 0 || image->height == 0 ||
+        image->format != LOBE_FORMAT_RGBA32_FLOAT)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: environment '%s' is not an image of four 32-bit floats",
+                              scene->name, name);
+    for (size_t i = 0; i < (size_t)image->width * image->height * 4; i++) {
+        if (i % 4 == 3 || (texels[i] >= 0 && isfinite(texels[i])))
+            continue;
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: environment '%s': texel %zu, %zu has the value %g, which is "
+                              "negative or not finite",
+                              scene->name, name, i / 4 % image->width, i / 4 / image->width,
+                              (double)texels[i]);
+    }
+    return LOBE_OK;
 }

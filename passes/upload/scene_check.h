@@ -6,14 +6,16 @@
 /// Checks of a scene from a host or a file before it is uploaded: the device itself checks nothing.
 /// The first error is logged in one line, and LOBE_ERROR_MALFORMED is returned.
 
-/// Texels are finite.
+/// There is something to draw, and an array wherever there is a count.
+lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host);
+/// There are texels, of a format that can be sampled, and they are finite.
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host);
-/// There are triangles, of vertices that exist and are finite.
+/// There are triangles, of vertices that exist, are finite and have normals.
 lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_host *host);
-/// Counts and indices are in range.
+/// Counts, indices and numbers are in range. In material_check.c.
 lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
                                         const lobe_host *host);
-/// If there is one: texels are RGBA32_FLOAT, finite and not negative, and its matrix is a rotation.
+/// If there is one: texels are RGBA32_FLOAT, finite and not negative.
 lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_host *host);
 
 #endif

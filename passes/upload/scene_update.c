@@ -19,6 +19,10 @@ typedef struct scene_update {
 
 static lobe_result check_indices(const scene_update *update, const char *what,
                                  const uint32_t *indices, size_t count, size_t limit) {
+    if (count > 0 && !indices)
+        return lobe_host_fail(update->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: %zu changes of kind '%s', but no array of them",
+                              update->scene->scene->name, count, what);
     for (size_t i = 0; i < count; i++)
         if (indices[i] >= limit)
             return lobe_host_fail(update->host, LOBE_ERROR_INVALID_ARGUMENT,

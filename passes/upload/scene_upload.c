@@ -50,12 +50,9 @@ lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *sc
         lobe_host_log(host, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
         goto fail;
     }
-    if (scene->instance_count == 0) {
-        lobe_host_log(host, LOBE_LOG_ERROR, "%s: there is nothing to draw", scene->name);
-        status = LOBE_ERROR_MALFORMED;
-        goto fail;
-    }
-    status = upload_white(device, *result);
+    status = passes_scene_check_arrays(scene, host);
+    if (status == LOBE_OK)
+        status = upload_white(device, *result);
     if (status == LOBE_OK)
         status = passes_scene_check_environment(scene, host);
     if (status == LOBE_OK)

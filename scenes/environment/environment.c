@@ -40,6 +40,8 @@ static bool is_larger_than(const lobe_environment *environment, uint32_t extent)
 }
 
 void lobe_environment_shrink(lobe_environment *environment, uint32_t maximum_extent) {
+    if (!environment)
+        return;
     while (is_larger_than(environment, maximum_extent) &&
            scenes_environment_can_be_halved(environment))
         scenes_environment_halve(environment);
@@ -62,6 +64,8 @@ lobe_result scenes_environment_complete(lobe_environment *environment, const lob
 }
 
 void lobe_environment_turn(lobe_environment *environment, double degrees) {
+    if (!environment)
+        return;
     const double angle = degrees * M_PI / 180, cosine = cos(angle), sine = sin(angle);
     for (int column = 0; column < 3; column++) {
         float *v = environment->world_from_environment[column];
@@ -73,6 +77,8 @@ void lobe_environment_turn(lobe_environment *environment, double degrees) {
 
 bool lobe_environment_position(const lobe_environment *environment, const double direction[3],
                                double position[2]) {
+    if (!environment || !direction || !position)
+        return false;
     const lobe_image *image = &environment->image;
     if (!scenes_environment_layout_fits(environment->layout, image->width, image->height))
         return false;

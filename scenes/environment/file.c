@@ -119,7 +119,12 @@ static lobe_result open_file(const lobe_environment_open_parameters *parameters,
 
 lobe_result lobe_environment_open_with(const lobe_environment_open_parameters *parameters,
                                        const lobe_host *host, lobe_environment **environment) {
-    *environment = NULL;
+    if (environment)
+        *environment = NULL;
+    if (!parameters || !parameters->environment || !environment)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_environment_open_with: parameters, their environment (a name) "
+                              "and environment must not be NULL");
     if (!parameters->data && strcmp(parameters->environment, "sky") == 0)
         return scenes_environment_sky(ENVIRONMENT_SKY_WIDTH, ENVIRONMENT_SKY_HEIGHT, host,
                                       environment);

@@ -78,10 +78,15 @@ static bool convert_projection(const gltf_camera *from, lobe_camera *to) {
         return from->field_of_view > 0 && from->field_of_view < M_PI &&
                in_range(from->near_plane, 1e-18, 1e18);
     }
-    // glTF allows an orthographic near plane at the eye; lobe does not.
-    to->near_plane = fmaxf(to->near_plane, 1e-4f);
     to->orthographic_height = (float)(2 * fabs(from->height));
+    // glTF allows an orthographic near plane at the eye; lobe does not.
+    to->near_plane = fmaxf(to->near_plane, 1e-4f * to->orthographic_height);
     return in_range(fabs(from->height), 1e-18, 1e18) && in_range(from->near_plane, 0, 1e18);
+}
+
+/// At least `distance`; more where that is close to the precision of a float.
+static double precise_distance(vector3 eye, double distance) {
+    return fmax(distance, 1e-3 * vector3_length(eye));
 }
 
 lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const double world[16]) {
@@ -99,21 +104,25 @@ lobe_result scenes_gltf_convert_camera(gltf_import *import, int camera, const do
                               "%s: camera %d has a value out of its range", import->path, camera);
     vector3_store(eye, to.eye);
     vector3_store(up, to.up);
-    // Far from the origin, one metre is less than the precision of a float.
-    double distance = fmax(1, 1e-3 * vector3_length(eye));
-    vector3_store(vector3_subtract(eye, vector3_scale(back, distance)), to.target);
+    // How far is decided when the scene's extent is known.
+    vector3_store(vector3_subtract(eye, vector3_scale(back, precise_distance(eye, 1))), to.target);
     import->scene->camera = to;
     import->scene->has_camera = true;
     return LOBE_OK;
 }
 
 void scenes_gltf_aim_camera(lobe_scene *scene) {
-    vector3 eye = vector3_load(scene->camera.eye);
+    const vector3 eye = vector3_load(scene->camera.eye);
+    const vector3 low = vector3_load(scene->minimum), high = vector3_load(scene->maximum);
     vector3 forward = vector3_subtract(vector3_load(scene->camera.target), eye);
-    vector3 middle =
-        vector3_scale(vector3_add(vector3_load(scene->minimum), vector3_load(scene->maximum)), 0.5);
-    bool aimed = vector3_normalise(&forward, 0);
-    double depth = vector3_dot(vector3_subtract(middle, eye), forward);
-    if (aimed && depth > scene->camera.near_plane)
-        vector3_store(vector3_add(eye, vector3_scale(forward, depth)), scene->camera.target);
+    if (!vector3_normalise(&forward, 0))
+        return;
+    const vector3 middle = vector3_scale(vector3_add(low, high), 0.5);
+    double distance = vector3_dot(vector3_subtract(middle, eye), forward);
+    // A camera that looks away from the scene has a target as far away as the scene is large.
+    if (!(distance > scene->camera.near_plane)) {
+        const double radius = 0.5 * vector3_length(vector3_subtract(high, low));
+        distance = precise_distance(eye, radius > 0 ? radius : 1);
+    }
+    vector3_store(vector3_add(eye, vector3_scale(forward, distance)), scene->camera.target);
 }

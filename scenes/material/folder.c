@@ -238,8 +238,15 @@ static lobe_result add_material(material_folder *folder) {
 
 lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_host *host,
                                      lobe_scene **result) {
+    if (result)
+        *result = NULL;
+    if (!path || !result)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_scene_open_material: folder and result must not be NULL");
+    if ((unsigned)carrier > LOBE_CARRIER_CLOTH)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "%s: there is no carrier %d", path,
+                              (int)carrier);
     material_folder folder = {.path = path, .host = host};
-    *result = NULL;
     lobe_result status = list_files(&folder);
     if (!status)
         status = require_maps(&folder);

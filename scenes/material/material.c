@@ -1,6 +1,8 @@
 #include <lobe/scene.h>
 
 void lobe_material_default(lobe_material *material) {
+    if (!material)
+        return;
     *material = (lobe_material){
         .model = LOBE_MATERIAL_MICROFACET,
         .distribution = LOBE_DISTRIBUTION_GGX,

@@ -147,6 +147,10 @@ static void centre(picture_frame *frame) {
 }
 
 void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera) {
+    if (!scene || !camera)
+        return;
+    if (!(aspect > 0) || !isfinite(aspect))
+        aspect = 1;
     const vector3 low = vector3_load(scene->minimum), high = vector3_load(scene->maximum);
     const double tangent = FILLED * tan(FIELD_OF_VIEW / 2);
     picture_frame frame = {.scene = scene,

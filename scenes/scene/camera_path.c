@@ -21,6 +21,8 @@ static vector3 turn(vector3 v, const double point[2]) {
 }
 
 void lobe_scene_path(const lobe_scene *scene, double part, lobe_camera *camera) {
+    if (!scene || !camera)
+        return;
     *camera = scene->camera;
     if (!(part > 0))
         return;

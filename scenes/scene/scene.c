@@ -121,6 +121,8 @@ void scenes_set_camera(lobe_scene *scene, const float eye[3], const float target
 }
 
 void lobe_scene_set_environment(lobe_scene *scene, lobe_environment *environment) {
+    if (!scene)
+        return;
     lobe_environment_destroy(&scene->environment);
     scene->environment = environment;
     scene->has_added_light = false;

@@ -36,7 +36,7 @@ uint probes_of(map_area area) {
 
 // As many probes as the footprint's ratio of length to width.
 uint probes_needed(footprint pixel) {
-    float length = pixel.major_axis / max(pixel.minor_axis, 1e-6 * pixel.major_axis);
+    float length = pixel.major_axis / max(max(pixel.minor_axis, 1e-6 * pixel.major_axis), 1e-30);
     return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));
 }
 

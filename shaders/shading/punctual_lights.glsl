@@ -23,11 +23,12 @@ bool is_spot(uint i) {
                            i >= frame.directional_count + frame.point_count);
 }
 
-// Unit direction from a point to light `i`, in the world.
+// Unit direction from a point to light `i`, in the world; of no length at the light itself.
 vec3 light_direction(uint i, vec3 position) {
     if (!POINT_LIGHTS && !SPOT_LIGHTS)
         return lights[i].direction.xyz;
-    vec3 towards = normalize(lights[i].position.xyz - position);
+    vec3 offset = lights[i].position.xyz - position;
+    vec3 towards = offset * inversesqrt(max(dot(offset, offset), LIGHT_DISTANCE_SQUARED_MINIMUM));
     return is_directional(i) ? lights[i].direction.xyz : towards;
 }
 

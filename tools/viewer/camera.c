@@ -121,7 +121,10 @@ void viewer_camera_fly(lobe_camera *camera, const double steps[3]) {
 
 void viewer_camera_zoom(lobe_camera *camera, double factor) {
     const axes a = axes_of(camera);
-    const double distance = fmin(fmax(a.distance * factor, 1e-6), 1e9);
+    // Closer, eye and target would be one point in single precision.
+    const double target[3] = {camera->target[0], camera->target[1], camera->target[2]};
+    const double nearest = fmax(1e-6 * length(target), 1e-15);
+    const double distance = fmin(fmax(a.distance * factor, nearest), 1e15);
     memcpy(camera->eye, camera->target, sizeof camera->eye);
     move(camera->eye, a.forward, -distance);
     // The planes scale with the distance; otherwise close objects would be cut away.

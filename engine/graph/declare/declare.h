@@ -7,7 +7,7 @@
 // Declaration
 
 /// Whether the frame still takes declarations: nothing failed, nothing was compiled. Fails the
-/// frame if `what` (the name of a pass or resource) comes too late.
+/// frame if `what` (the name of a pass or resource) comes too late. False if there is no graph.
 bool engine_graph_can_declare(lobe_graph *graph, const char *what);
 
 /// Adds the resource to the frame and to the dependency graph, under the same index. Returns a
@@ -29,8 +29,10 @@ engine_graph_resource *engine_graph_find_resource(lobe_pass *pass, lobe_resource
 /// Bytes of these levels and layers of an image, tightly packed, all samples; or of a whole buffer.
 uint64_t engine_graph_range_bytes(const engine_graph_resource *resource, const lobe_range *range);
 
-/// Whether the pass is still being declared and of this kind; if not, fails the frame.
-bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call);
+/// Whether the pass is still being declared and of this kind, and the call has its argument (not
+/// NULL); if not, fails the frame.
+bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call,
+                                  const void *argument);
 
 /// Appends a command to the pass; NULL after a failure.
 engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind);

@@ -46,6 +46,10 @@ static engine_access_state state_after(const lobe_vulkan_image *image) {
 }
 
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {
+    if (!image) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_import_image: image must not be NULL");
+        return (lobe_resource){0};
+    }
     const char *name = image->name ? image->name : "host image";
     if (!engine_graph_can_declare(graph, name) || !check_image(graph, image, name))
         return (lobe_resource){0};

@@ -38,17 +38,24 @@ lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const cha
     lobe_pass *pass = NULL;
     if (engine_graph_can_declare(graph, given))
         pass = engine_graph_add_pass(graph, kind, given);
-    return pass ? pass : &graph->frame.nothing;
+    if (pass || !graph)
+        return pass;
+    return &graph->frame.nothing;
 }
 
 void lobe_pass_keep(lobe_pass *pass) {
-    if (engine_graph_can_declare(pass->graph, pass->name))
+    if (pass && engine_graph_can_declare(pass->graph, pass->name))
         pass->graph->frame.dependencies.passes[pass->index].keep = true;
 }
 
-bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call) {
-    if (!engine_graph_can_declare(pass->graph, pass->name))
+bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const char *call,
+                                  const void *argument) {
+    if (!pass || !engine_graph_can_declare(pass->graph, pass->name))
         return false;
+    if (!argument) {
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH, "pass '%s': %s is NULL", pass->name, call);
+        return false;
+    }
     if (pass->kind != kind)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
                         "pass '%s': %s needs a %s pass, this is a %s pass", pass->name, call,
@@ -137,6 +144,11 @@ lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_lis
 
 static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
                                   engine_access_kind kind) {
+    if (!pass || !binding) {
+        lobe_graph_fail(pass ? pass->graph : NULL, LOBE_ERROR_GRAPH, "pass '%s': a binding is NULL",
+                        pass ? pass->name : "");
+        return (lobe_resource){0};
+    }
     if (!engine_graph_can_declare(pass->graph, pass->name))
         return binding->resource;
     if (pass->kind == LOBE_PASS_TRANSFER) {
@@ -211,7 +223,7 @@ static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lo
 }
 
 void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_COMPUTE, "a dispatch") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_COMPUTE, "a dispatch", dispatch) ||
         !check_constants(pass, dispatch->shader, dispatch->constants, dispatch->constants_size))
         return;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DISPATCH);
@@ -261,7 +273,7 @@ static void bind_indices(lobe_pass *pass, engine_graph_command *command) {
 }
 
 void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a draw") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a draw", draw) ||
         !check_constants(pass, draw->vertex_shader, draw->constants, draw->constants_size))
         return;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DRAW);

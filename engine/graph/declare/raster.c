@@ -65,15 +65,15 @@ static lobe_resource attach(lobe_pass *pass, engine_graph_attachment *slot,
 
 lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
                                const lobe_attachment *attachment) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a colour attachment") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a colour attachment", attachment) ||
         !check_location(pass, location) ||
         !check_slot(pass, &pass->colour[location], "one colour location"))
-        return attachment->resource;
+        return attachment ? attachment->resource : (lobe_resource){0};
     return attach(pass, &pass->colour[location], attachment, false);
 }
 
 lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resource target) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a resolve") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a resolve", pass) ||
         !check_location(pass, location) ||
         !check_slot(pass, &pass->resolve[location], "one resolve location"))
         return target;
@@ -82,9 +82,9 @@ lobe_resource lobe_pass_resolve(lobe_pass *pass, uint32_t location, lobe_resourc
 }
 
 lobe_resource lobe_pass_depth(lobe_pass *pass, const lobe_attachment *attachment) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a depth attachment") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_RASTER, "a depth attachment", attachment) ||
         !check_slot(pass, &pass->depth, "depth"))
-        return attachment->resource;
+        return attachment ? attachment->resource : (lobe_resource){0};
     return attach(pass, &pass->depth, attachment, true);
 }
 

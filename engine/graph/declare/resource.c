@@ -9,6 +9,8 @@ static uint32_t at_least_one(uint32_t value) {
 }
 
 bool engine_graph_can_declare(lobe_graph *graph, const char *what) {
+    if (!graph)
+        return false;
     if (graph->frame.result != LOBE_OK)
         return false;
     if (graph->frame.phase == ENGINE_GRAPH_DECLARING)
@@ -101,8 +103,10 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
 
 void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
                        uint32_t *height) {
+    if (!width || !height)
+        return;
     *width = *height = 0;
-    if (image.version == 0 || image.index >= graph->frame.dependencies.resource_count)
+    if (!graph || image.version == 0 || image.index >= graph->frame.dependencies.resource_count)
         return;
     *width = graph->frame.resources[image.index].width;
     *height = graph->frame.resources[image.index].height;
@@ -152,6 +156,10 @@ static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource,
 }
 
 lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *description) {
+    if (!description) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_image: description must not be NULL");
+        return (lobe_resource){0};
+    }
     lobe_image_description image = *description;
     if (!engine_graph_can_declare(graph, image.name ? image.name : "image"))
         return (lobe_resource){0};
@@ -170,6 +178,10 @@ lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *
 }
 
 lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description *description) {
+    if (!description) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_buffer: description must not be NULL");
+        return (lobe_resource){0};
+    }
     const char *given = description->name ? description->name : "buffer";
     if (!engine_graph_can_declare(graph, given))
         return (lobe_resource){0};
@@ -202,6 +214,11 @@ static uint32_t find_import(const lobe_graph *graph, const void *object) {
 }
 
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture) {
+    if (!texture) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "lobe_graph_import_texture: texture must not be NULL");
+        return (lobe_resource){0};
+    }
     static const engine_layout layout = ENGINE_LAYOUT_SAMPLED;
     if (!engine_graph_can_declare(graph, texture->name))
         return (lobe_resource){0};
@@ -230,6 +247,11 @@ lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *t
 }
 
 lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer) {
+    if (!buffer) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "lobe_graph_import_buffer: buffer must not be NULL");
+        return (lobe_resource){0};
+    }
     if (!engine_graph_can_declare(graph, buffer->name))
         return (lobe_resource){0};
     uint32_t known = find_import(graph, buffer);
@@ -253,6 +275,10 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
 
 lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, const void *data,
                                 size_t size) {
+    if (!data) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_upload: data must not be NULL");
+        return (lobe_resource){0};
+    }
     const char *given = name ? name : "upload";
     if (!engine_graph_can_declare(graph, given))
         return (lobe_resource){0};

@@ -52,7 +52,7 @@ static bool same_shape(const lobe_graph *graph, const engine_dependency_access *
 
 lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range source_range,
                              lobe_resource target, lobe_range target_range) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_TRANSFER, "a copy") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_TRANSFER, "a copy", pass) ||
         !engine_graph_find_resource(pass, source) || !engine_graph_find_resource(pass, target))
         return target;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_COPY);
@@ -74,7 +74,7 @@ lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source, lobe_range s
 
 lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
                              const float value[4]) {
-    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_TRANSFER, "a fill") ||
+    if (!engine_graph_check_pass_kind(pass, LOBE_PASS_TRANSFER, "a fill", value) ||
         !engine_graph_find_resource(pass, target))
         return target;
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_FILL);

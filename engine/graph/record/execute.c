@@ -37,6 +37,8 @@ static lobe_result place_read_backs(lobe_graph *graph) {
 }
 
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size) {
+    if (!graph)
+        return NULL;
     if (graph->frame.phase != ENGINE_GRAPH_EXECUTED || graph->frame.result != LOBE_OK)
         return NULL;
     for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {

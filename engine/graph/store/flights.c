@@ -76,6 +76,8 @@ lobe_result engine_graph_finish_flights(lobe_graph *graph) {
 }
 
 void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
+    if (!graph)
+        return;
     if (count < 1)
         count = 1;
     if (count > LOBE_MAXIMUM_FRAMES_IN_FLIGHT)

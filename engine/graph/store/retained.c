@@ -102,11 +102,15 @@ static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
 }
 
 void lobe_graph_invalidate(lobe_graph *graph) {
+    if (!graph)
+        return;
     for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         invalidate(graph, kept);
 }
 
 void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
+    if (!graph || !prefix)
+        return;
     for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         if (strncmp(kept->name, prefix, strlen(prefix)) != 0)
             invalidate(graph, kept);

@@ -213,7 +213,11 @@ static void close_layer(exr_reader *reader) {
 
 lobe_result lobe_exr_read(const char *path, const char *layer, const lobe_host *host,
                           lobe_image *image) {
-    *image = (lobe_image){0};
+    if (image)
+        *image = (lobe_image){0};
+    if (!path || !image)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_exr_read: path and image must not be NULL");
     exr_reader reader = {0};
     lobe_result result = open_layer(&reader, &(exr_origin){.path = path}, layer, host);
     if (result == LOBE_OK)
@@ -329,17 +333,29 @@ static lobe_result read_contents(const exr_origin *origin, const char *layer, co
 
 lobe_result lobe_exr_read_contents(const char *path, const char *layer, const lobe_host *host,
                                    lobe_exr_contents *contents) {
+    if (contents)
+        *contents = (lobe_exr_contents){0};
+    if (!path || !contents)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_exr_read_contents: path and contents must not be NULL");
     return read_contents(&(exr_origin){.path = path}, layer, host, contents);
 }
 
 lobe_result lobe_exr_decode_contents(const char *name, const void *data, size_t size,
                                      const char *layer, const lobe_host *host,
                                      lobe_exr_contents *contents) {
+    if (contents)
+        *contents = (lobe_exr_contents){0};
+    if (!name || !data || !contents)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_exr_decode_contents: name, data and contents must not be NULL");
     return read_contents(&(exr_origin){name, data, size}, layer, host, contents);
 }
 
 const lobe_exr_attribute *lobe_exr_find_attribute(const lobe_exr_contents *contents,
                                                   const char *name, lobe_exr_attribute_type type) {
+    if (!contents || !name)
+        return NULL;
     for (size_t index = 0; index < contents->attribute_count; index++) {
         const lobe_exr_attribute *attribute = &contents->attributes[index];
         if (attribute->type == type && strcmp(attribute->name, name) == 0)

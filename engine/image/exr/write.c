@@ -72,6 +72,10 @@ static lobe_result check_level(const exr_writer *writer, const lobe_exr_layer *l
                               writer->path, layer_name(layer), lobe_format_name(image->format));
     uint32_t width = level_extent(writer->width, level);
     uint32_t height = level_extent(writer->height, level);
+    if (!image->texels || image->width == 0 || image->height == 0)
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: layer '%s' has no texels on level %u", writer->path,
+                              layer_name(layer), level);
     if (image->width != width || image->height != height)
         return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "%s: layer '%s' has %ux%u texels on level %u instead of %ux%u",
@@ -107,9 +111,19 @@ static int compare_channels(const void *left, const void *right) {
 }
 
 static lobe_result choose_extent(exr_writer *writer, const lobe_exr_parameters *parameters) {
-    if (parameters->layer_count == 0)
+    if (parameters->layer_count == 0 || !parameters->layers)
         return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT, "%s: no layer to write",
                               writer->path);
+    if (parameters->attribute_count > 0 && !parameters->attributes)
+        return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: %zu attributes, but no array of them", writer->path,
+                              parameters->attribute_count);
+    for (size_t i = 0; i < parameters->layer_count; i++) {
+        if (!parameters->layers[i].image)
+            return lobe_host_fail(writer->host, LOBE_ERROR_INVALID_ARGUMENT,
+                                  "%s: layer '%s' has no image", writer->path,
+                                  layer_name(&parameters->layers[i]));
+    }
     writer->width = parameters->layers[0].image->width;
     writer->height = parameters->layers[0].image->height;
     writer->level_count = parameters->level_count > 0 ? parameters->level_count : 1;
@@ -295,6 +309,9 @@ static lobe_result encode(exr_writer *writer) {
 
 lobe_result lobe_exr_write(const char *path, const lobe_exr_parameters *parameters,
                            const lobe_host *host) {
+    if (!path || !parameters)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_exr_write: path and parameters must not be NULL");
     exr_writer writer = {.path = path, .host = host, .output.allocator = lobe_host_allocator(host)};
     lobe_result result = choose_extent(&writer, parameters);
     if (result == LOBE_OK)

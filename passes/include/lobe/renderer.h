@@ -29,8 +29,8 @@ LOBE_API void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene, in place of the current one. The scene must live as long as it is set; NULL
 /// only removes the current one. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-/// LOBE_ERROR_MALFORMED (no triangles, an index out of range, a vertex or texel that is not
-/// finite).
+/// LOBE_ERROR_MALFORMED (nothing to draw, no triangles, an index out of range, a number that is not
+/// finite or outside of its range; the line names the object and the value).
 LOBE_API lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
 
 /// Which parts of a scene changed, by indices into its arrays. An array may be NULL where its count
@@ -149,7 +149,7 @@ typedef struct lobe_render_parameters {
     const lobe_filter *filter;     ///< NULL: "lobes"
     const lobe_settings *settings; ///< NULL: the filter's defaults
     const lobe_camera *camera;     ///< NULL: the scene's
-    uint32_t width, height;        ///< pixels; 0: 1280, 720
+    uint32_t width, height;        ///< pixels; both 0: 1280, 720
     /// Arbitrary output variables: also deliver depth, normal, number of lobes and MIP level, from
     /// one sample at the pixel's centre.
     bool aov;
@@ -194,10 +194,12 @@ typedef struct lobe_frame {
 LOBE_API void lobe_frame_free(lobe_frame *frame);
 
 /// Renders one image. On failure `*frame` is zero, and the host's command buffer must not be
-/// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value out of range, an extent that
-/// differs from the target's), LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions,
-/// with the host's passes, with a target's depth, or with a submission but no target),
-/// LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+/// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value or a camera's number out of
+/// range, an extent that differs from the target's), LOBE_ERROR_MALFORMED (a light, a transform or
+/// another part of the scene that is read in every frame, as for lobe_renderer_set_scene),
+/// LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with the host's passes,
+/// with a target's depth, or with a submission but no target), LOBE_ERROR_LIMIT (size),
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
                                           const lobe_render_parameters *parameters,
                                           lobe_frame *frame);

@@ -19,7 +19,8 @@ extern "C" {
 /// A scene in host memory. Lengths are metres, +Y is up, right-handed, as in glTF. A scene owns
 /// everything it points to. It is plain data that a host may also fill itself; if
 /// lobe_scene_destroy is to free it, allocate all of it (the structure, arrays, names) with
-/// lobe_allocate.
+/// lobe_allocate. A renderer refuses numbers that are not finite or outside of the ranges given
+/// here, with a line that names the object and the value.
 
 typedef enum lobe_scene_wrap {
     LOBE_SCENE_WRAP_REPEAT,
@@ -149,8 +150,8 @@ typedef struct lobe_mesh {
 /// A mesh placed in the world with a material.
 typedef struct lobe_instance {
     uint32_t mesh, material;
-    float transform[16]; ///< object to world, column-major, affine, determinant above 0: an
-                         ///< import gives mirrored instances a mirrored mesh
+    float transform[16]; ///< object to world, column-major, affine, invertible; the determinant
+                         ///< is above 0: an import gives mirrored instances a mirrored mesh
 } lobe_instance;
 
 typedef enum lobe_light_type {
@@ -163,15 +164,17 @@ typedef struct lobe_light {
     lobe_light_type type;
     float position[3];            ///< point and spot
     float direction[3];           ///< directional and spot: where the light travels to, unit length
-    float intensity[3];           ///< linear RGB
+    float intensity[3];           ///< linear RGB, at least 0
     float range;                  ///< metres, 0: unlimited (windowing of KHR_lights_punctual)
-    float inner_cone, outer_cone; ///< spot: half angles in radians
+    float inner_cone, outer_cone; ///< spot: half angles in radians, at most pi/2
 } lobe_light;
 
 typedef struct lobe_camera {
-    float eye[3], target[3], up[3];
-    float vertical_field_of_view; ///< radians; 0 for an orthographic camera
-    float orthographic_height;    ///< metres across, used where the field of view is 0
+    float eye[3], target[3];      ///< not at the same place
+    float up[3];                  ///< of any length above 0; along the view, the picture is turned
+                                  ///< to any side
+    float vertical_field_of_view; ///< radians, below pi; 0 for an orthographic camera
+    float orthographic_height;    ///< metres across, above 0 where the field of view is 0
     float near_plane;             ///< metres, above 0; the far plane is at infinity
 } lobe_camera;
 

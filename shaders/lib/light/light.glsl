@@ -3,11 +3,15 @@
 
 // Punctual lights: Khronos Group, 2018, KHR_lights_punctual.
 
+const float LIGHT_DISTANCE_SQUARED_MINIMUM = 1e-30;
+
 // Inverse square, faded to zero at the range: max(min(1 - (d/range)^4, 1), 0) / d^2.
-// inverse_range_squared is 0 for an unlimited light. Closer than 0.1 mm counts as 0.1 mm.
+// inverse_range_squared is 0 for an unlimited light. 0 at the light itself (closer than 1e-15 m),
+// where light has no direction and its irradiance no bound.
 float distance_attenuation(float distance_squared, float inverse_range_squared) {
     float ratio = distance_squared * inverse_range_squared;
-    return clamp(1.0 - ratio * ratio, 0.0, 1.0) / max(distance_squared, 1e-8);
+    float window = clamp(1.0 - ratio * ratio, 0.0, 1.0);
+    return distance_squared < LIGHT_DISTANCE_SQUARED_MINIMUM ? 0.0 : window / distance_squared;
 }
 
 // Fade between the cones of a spot light, clamp(scale <spot, -l> + offset, 0, 1)^2, with

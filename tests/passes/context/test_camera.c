@@ -96,6 +96,25 @@ static void depth_falls_with_distance(void **state) {
     }
 }
 
+/// The depths of an orthographic picture do not depend on the unit of length.
+static void orthographic_depth_has_no_scale(void **state) {
+    (void)state;
+    for (int power = -40; power <= 40; power += 40) {
+        const float scale = ldexpf(1, power);
+        lobe_camera camera = {.eye = {0, 0, 2 * scale},
+                              .up = {0, 1, 0},
+                              .orthographic_height = scale,
+                              .near_plane = 0.5f * scale};
+        const float low[3] = {-scale, -scale, -scale}, high[3] = {scale, scale, scale};
+        mat4 matrix;
+        passes_camera_projection(&camera, WIDTH, HEIGHT, centre, low, high, matrix);
+        vec4 clip, from = {0, 0, 0.5f * scale, 1};
+        glm_mat4_mulv(matrix, from, clip);
+        // From 0.5 to 1.01 * 3.
+        assert_true(fabs((double)clip[2] - (1 - 1 / 2.53)) < 1e-5);
+    }
+}
+
 static void check_rotation(const lobe_camera *camera) {
     mat3 rotation;
     passes_camera_rotation(camera, rotation);
@@ -122,6 +141,24 @@ static void axes_are_orthonormal(void **state) {
     }
 }
 
+/// Neither the unit of length nor the length of the up vector turns the camera.
+static void axes_have_no_scale(void **state) {
+    (void)state;
+    const lobe_camera whole = camera_with(1);
+    mat3 expected, rotation;
+    passes_camera_rotation(&whole, expected);
+    for (int power = -60; power <= 60; power += 30) {
+        lobe_camera camera = whole;
+        for (int i = 0; i < 3; i++) {
+            camera.eye[i] = ldexpf(whole.eye[i], power);
+            camera.target[i] = ldexpf(whole.target[i], power);
+            camera.up[i] = ldexpf(whole.up[i], -power);
+        }
+        passes_camera_rotation(&camera, rotation);
+        assert_memory_equal(rotation, expected, sizeof rotation);
+    }
+}
+
 /// The eye of an orthographic camera is a direction, to the viewer.
 static void the_eye_is_a_place_or_a_direction(void **state) {
     (void)state;
@@ -143,7 +180,9 @@ int main(void) {
         cmocka_unit_test(the_target_is_in_the_middle),
         cmocka_unit_test(samples_move_the_picture_the_right_way),
         cmocka_unit_test(depth_falls_with_distance),
+        cmocka_unit_test(orthographic_depth_has_no_scale),
         cmocka_unit_test(axes_are_orthonormal),
+        cmocka_unit_test(axes_have_no_scale),
         cmocka_unit_test(the_eye_is_a_place_or_a_direction),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

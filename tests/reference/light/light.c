@@ -4,8 +4,7 @@
 
 double reference_distance_attenuation(double distance, double range) {
     double window = range > 0 ? fmax(1 - pow(distance / range, 4), 0) : 1;
-    double nearest = fmax(distance, 1e-4);
-    return window / (nearest * nearest);
+    return distance < 1e-15 ? 0 : window / (distance * distance);
 }
 
 double reference_cone_attenuation(double cosine, double inner_cone, double outer_cone) {

@@ -195,9 +195,30 @@ static void orthographic_cameras_give_their_height(void **state) {
     const lobe_camera *camera = &scene->camera;
     assert_true(camera->vertical_field_of_view == 0 && camera->orthographic_height == 6);
     assert_true(camera->near_plane > 0);
-    // Everything is behind or beside the camera: it keeps looking along -x.
-    gltf_fixture_assert_near(camera->target, (const float[]){-1, 0, 0}, 3, NEAR);
+    // Everything is behind or beside the camera: it keeps looking along -x, at a distance of half
+    // the scene's diagonal.
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square += pow(0.5 * ((double)scene->maximum[i] - scene->minimum[i]), 2);
+    gltf_fixture_assert_near(camera->target, (const float[]){-(float)sqrt(square), 0, 0}, 3, NEAR);
     lobe_scene_destroy(&scene);
+}
+
+/// A near plane at the eye is moved away from it, by little compared with what the picture shows.
+static void orthographic_near_planes_have_no_length_of_their_own(void **state) {
+    static const char *const heights[] = {"3e-7", "3", "3e7"};
+    for (size_t i = 0; i < 3; i++) {
+        char members[512];
+        snprintf(members, sizeof members,
+                 ",\"nodes\":[{\"mesh\":0},{\"camera\":0}],\"cameras\":[{\"type\":\"orthographic\","
+                 "\"orthographic\":{\"xmag\":1,\"ymag\":%s,\"znear\":0,\"zfar\":9}}]",
+                 heights[i]);
+        lobe_scene *scene = open_nodes(*state, members);
+        const lobe_camera *camera = &scene->camera;
+        assert_true(camera->near_plane > 0);
+        assert_true(camera->near_plane <= 1e-3f * camera->orthographic_height);
+        lobe_scene_destroy(&scene);
+    }
 }
 
 static void bad_cameras_are_refused(void **state) {
@@ -306,6 +327,7 @@ int main(void) {
         cmocka_unit_test(bad_lights_are_refused),
         cmocka_unit_test(first_camera_is_used),
         cmocka_unit_test(orthographic_cameras_give_their_height),
+        cmocka_unit_test(orthographic_near_planes_have_no_length_of_their_own),
         cmocka_unit_test(bad_cameras_are_refused),
         cmocka_unit_test(camera_and_sky_are_added_and_said),
         cmocka_unit_test(an_empty_scene_is_given_nothing),

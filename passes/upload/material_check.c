@@ -1,0 +1,96 @@
+#include <math.h>
+
+#include "passes/upload/number_check.h"
+#include "passes/upload/scene_check.h"
+
+static lobe_result check_texture(const lobe_scene *scene, const char *material,
+                                 const lobe_texture_use *use, const lobe_host *host) {
+    if (use->image < 0)
+        return LOBE_OK;
+    if ((size_t)use->image >= scene->image_count)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: material '%s' uses image %d of %zu",
+                              scene->name, material, use->image, scene->image_count);
+    if (use->texture_coordinates > 1)
+        return lobe_host_fail(
+            host, LOBE_ERROR_MALFORMED,
+            "%s: material '%s' uses set %u of texture coordinates; there are 0 and 1", scene->name,
+            material, use->texture_coordinates);
+    const number_owner owner = {
+        .host = host, .where = scene->name, .kind = "material", .name = material};
+    return passes_check_numbers(&owner, "transform of a map", use->transform[0], 6, -INFINITY,
+                                INFINITY);
+}
+
+static lobe_result check_textures(const lobe_scene *scene, const lobe_material *material,
+                                  const lobe_host *host) {
+    const lobe_texture_use *uses[] = {
+        &material->base_colour_map, &material->normal_map,
+        &material->emissive_map,    &material->metallic_roughness_map,
+        &material->width_map,       &material->specular_map,
+        &material->height_map,      &material->occlusion_map,
+    };
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; !result && i < sizeof uses / sizeof *uses; i++)
+        result = check_texture(scene, material->name, uses[i], host);
+    return result;
+}
+
+/// The numbers of both models.
+static lobe_result check_factors(const number_owner *owner, const lobe_material *material) {
+    const struct {
+        const char *name;
+        double value, minimum, maximum;
+    } members[] = {
+        {"model", material->model, LOBE_MATERIAL_MICROFACET, LOBE_MATERIAL_HALF_VECTOR_LOBES},
+        {"distribution", material->distribution, LOBE_DISTRIBUTION_GGX, LOBE_DISTRIBUTION_VMF},
+        {"space", material->space, LOBE_SPACE_AUTOMATIC, LOBE_SPACE_CAMERA},
+        {"normal_scale", material->normal_scale, -INFINITY, INFINITY},
+        {"normal_concentration", material->normal_concentration, 0, INFINITY},
+        {"height_scale", material->height_scale, -INFINITY, INFINITY},
+        {"occlusion_strength", material->occlusion_strength, 0, 1},
+        {"alpha_cutoff", material->alpha_cutoff, -INFINITY, INFINITY},
+    };
+    lobe_result result =
+        passes_check_numbers(owner, "base_colour", material->base_colour, 4, 0, INFINITY);
+    result = result ? result
+                    : passes_check_numbers(owner, "emissive", material->emissive, 3, 0, INFINITY);
+    for (size_t i = 0; !result && i < sizeof members / sizeof *members; i++)
+        result = passes_check_number(owner, members[i].name, members[i].value, members[i].minimum,
+                                     members[i].maximum);
+    return result;
+}
+
+static lobe_result check_lobe(const number_owner *owner, const lobe_base_lobe *lobe) {
+    lobe_result result = passes_check_direction(owner, "a lobe's direction", lobe->direction);
+    result = result ? result : passes_check_number(owner, "a lobe's width", lobe->width, 0, 1e6);
+    return result ? result
+                  : passes_check_numbers(owner, "a lobe's colour", lobe->colour, 3, 0, INFINITY);
+}
+
+static lobe_result check_model(const number_owner *owner, const lobe_material *material) {
+    if (material->model == LOBE_MATERIAL_MICROFACET) {
+        lobe_result result = passes_check_number(owner, "metallic", material->metallic, 0, 1);
+        return result ? result : passes_check_number(owner, "roughness", material->roughness, 0, 1);
+    }
+    if (material->lobe_count < 1 || material->lobe_count > LOBE_MATERIAL_MAXIMUM_LOBES)
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                              "%s: material '%s' has %u lobes; there may be 1 to %d", owner->where,
+                              material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
+    lobe_result result = LOBE_OK;
+    for (uint32_t i = 0; !result && i < material->lobe_count; i++)
+        result = check_lobe(owner, &material->lobes[i]);
+    return result;
+}
+
+lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
+                                        const lobe_host *host) {
+    const lobe_material *material = &scene->materials[index];
+    const number_owner owner = {.host = host,
+                                .where = scene->name,
+                                .kind = "material",
+                                .name = material->name,
+                                .index = index};
+    lobe_result result = check_textures(scene, material, host);
+    result = result ? result : check_factors(&owner, material);
+    return result ? result : check_model(&owner, material);
+}
