@@ -29,3 +29,11 @@ void passes_sample_position_in_pattern(uint32_t pattern, float position[2]) {
         position[i] = fminf((float)(moved - floor(moved)), below_one);
     }
 }
+
+double passes_hashed_number(uint64_t index) {
+    // Steele, Lea, Flood 2014, Fast Splittable Pseudorandom Number Generators: SplitMix64.
+    uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
+}

@@ -12,4 +12,7 @@ void passes_sample_position(uint32_t index, uint32_t count, float position[2]);
 /// around the pixel's edges. Pattern 0 is not shifted. (Cranley, Patterson 1976.)
 void passes_sample_position_in_pattern(uint32_t pattern, float position[2]);
 
+/// A pseudorandom number in [0, 1) for each index, the same on every machine.
+double passes_hashed_number(uint64_t index);
+
 #endif

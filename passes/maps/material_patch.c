@@ -28,12 +28,15 @@ double passes_material_patch_evaluate(const material_patch *patch, const double 
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch) {
     const lobe_grid grid = passes_lobe_grid(material);
-    float corner[2];
-    passes_sample_position(index, MATERIAL_PATCHES, corner);
+    // Moved by hashed parts of a cell, so that no period of the maps is met at the same phase.
+    const double corner[2] = {
+        (index + passes_hashed_number(2 * (uint64_t)index)) / MATERIAL_PATCHES,
+        (index * 5 % MATERIAL_PATCHES + passes_hashed_number(2 * (uint64_t)index + 1)) /
+            MATERIAL_PATCHES};
     uint32_t columns = grid.width < MATERIAL_PATCH_EXTENT ? grid.width : MATERIAL_PATCH_EXTENT;
     uint32_t rows = grid.height < MATERIAL_PATCH_EXTENT ? grid.height : MATERIAL_PATCH_EXTENT;
-    uint32_t left = (uint32_t)(corner[0] * (float)(grid.width - columns));
-    uint32_t top = (uint32_t)(corner[1] * (float)(grid.height - rows));
+    uint32_t left = (uint32_t)(corner[0] * (grid.width - columns + 1));
+    uint32_t top = (uint32_t)(corner[1] * (grid.height - rows + 1));
     patch->count = 0;
     for (uint32_t y = 0; y < rows; y++) {
         for (uint32_t x = 0; x < columns; x++) {

@@ -69,28 +69,34 @@ static double base_concentration(const lobe_material *material, uint32_t i, doub
     return fmin(within > 0 ? convolved(material->distribution, kappa, within) : kappa, 1e6);
 }
 
+uint32_t passes_material_lobes_of(const lobe_material *material, const double normal[3],
+                                  double factor, material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
+    bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    const uint32_t count = microfacet ? 1 : material->lobe_count;
+    for (uint32_t i = 0; i < count; i++) {
+        double pole[3] = {0, 0, 1};
+        for (int axis = 0; !microfacet && axis < 3; axis++)
+            pole[axis] = material->lobes[i].direction[axis];
+        passes_material_lobe_rotate(normal, pole, lobes[i].axis);
+        lobes[i].concentration = base_concentration(material, i, factor);
+        lobes[i].weight = microfacet ? 1 : passes_material_lobe_share(material, i);
+    }
+    return count;
+}
+
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
                                     uint32_t x, uint32_t y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
-    const lobe_material *source = material->material;
-    bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
+    bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_grid grid = passes_lobe_grid(material);
-    const uint32_t count = microfacet ? 1 : source->lobe_count;
     double normal[3];
     float widths[4] = {1, 1, 1, 1};
     if (!texel_normal(scene, material, x, y, grid.width, grid.height, normal) ||
         (material->maps[MAP_WIDTH].use &&
          !map_texel(scene, &material->maps[MAP_WIDTH], x, y, grid.width, grid.height, widths)))
         return 0;
-    for (uint32_t i = 0; i < count; i++) {
-        double pole[3] = {0, 0, 1};
-        for (int axis = 0; !microfacet && axis < 3; axis++)
-            pole[axis] = source->lobes[i].direction[axis];
-        passes_material_lobe_rotate(normal, pole, lobes[i].axis);
-        lobes[i].concentration = base_concentration(source, i, widths[microfacet ? 1 : 0]);
-        lobes[i].weight = microfacet ? 1 : passes_material_lobe_share(source, i);
-    }
-    return count;
+    return passes_material_lobes_of(material->material, normal, (double)widths[microfacet ? 1 : 0],
+                                    lobes);
 }
 
 void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]) {

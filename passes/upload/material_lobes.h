@@ -14,6 +14,11 @@ typedef struct material_lobe {
 /// The share of one lobe in a half-vector material's reflectance, by luminance [0, 1].
 float passes_material_lobe_share(const lobe_material *material, uint32_t lobe);
 
+/// The lobes of a texel with this unit normal and factor of the widths; returns their number, at
+/// most LOBE_MATERIAL_MAXIMUM_LOBES.
+uint32_t passes_material_lobes_of(const lobe_material *material, const double normal[3],
+                                  double factor, material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
+
 /// Computes the lobes of a texel of the material's lobe_grid and returns their number, at most
 /// LOBE_MATERIAL_MAXIMUM_LOBES; 0 if a map has a format that the host does not read.
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,

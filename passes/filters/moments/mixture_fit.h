@@ -1,0 +1,44 @@
+#ifndef PASSES_FILTERS_MOMENTS_MIXTURE_FIT_H
+#define PASSES_FILTERS_MOMENTS_MIXTURE_FIT_H
+
+#include "passes/filters/moments/survey.h"
+#include "shaders/interface/moment_bins.h"
+
+/// Mixtures of Gaussians in the Lambert plane, fitted to samples of lobes.
+
+typedef struct mixture_component {
+    double weight, mean[2];
+    double covariance[3], inverse[3], determinant; ///< xx, yy, xy
+    double offset; ///< the part of the log likelihood that does not depend on the sample
+} mixture_component;
+
+typedef struct plane_mixture {
+    mixture_component components[MOMENT_MAXIMUM_BINS];
+    uint32_t count;
+    double points; ///< that a lobe counts as
+    double likelihood;
+} plane_mixture;
+
+/// Fits `bins` components by expectation maximisation: the most likely of several starts. Each lobe
+/// counts as `points` points drawn from it. Vasconcelos, Lippman 1998, Learning Mixture
+/// Hierarchies. `count` is above 0. The result depends on the samples alone.
+void passes_mixture_fit(const plane_sample *samples, uint32_t count, uint32_t bins, double points,
+                        plane_mixture *fitted);
+
+/// The share [0, 1] of each component in a lobe; returns the logarithm of the sum of likelihoods.
+double passes_mixture_share(const plane_mixture *mixture, const plane_sample *sample,
+                            double members[MOMENT_MAXIMUM_BINS]);
+
+/// Sums of samples: weight, place, second moments of the place, and variance.
+typedef struct plane_sums {
+    double weight, place[2], moments[3], variance;
+} plane_sums;
+
+void passes_plane_sums_add(plane_sums *sums, const plane_sample *sample, double weight);
+/// The Gaussian of the sums, of which it has `weight`; `points` as for a fit.
+void passes_mixture_component_from(const plane_sums *sums, double weight, double points,
+                                   mixture_component *component);
+/// Half the trace of the places' covariance.
+double passes_plane_spread(const plane_sample *samples, uint32_t count);
+
+#endif

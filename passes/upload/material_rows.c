@@ -1,0 +1,125 @@
+#include "passes/upload/material_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "passes/upload/material_maps.h"
+
+static const lobe_image *image_of(const lobe_scene *scene, const device_material *material,
+                                  uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    return use ? &scene->images[use->image].image : NULL;
+}
+
+bool passes_material_rows_are_readable(const lobe_scene *scene, const device_material *material) {
+    float texel[4];
+    for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; map++) {
+        const lobe_image *image = image_of(scene, material, map);
+        if (image && !passes_image_texel(image, 0, 0, texel))
+            return false;
+    }
+    return true;
+}
+
+material_rows *passes_material_rows_create(const lobe_allocator *allocator, const lobe_scene *scene,
+                                           const device_material *material) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    enum { ARRAYS = 5 };
+    material_rows *rows = lobe_allocate(
+        allocator, 1, sizeof *rows + (size_t)ARRAYS * grid.width * sizeof *rows->data);
+    if (!rows)
+        return NULL;
+    rows->normals = image_of(scene, material, MAP_NORMAL);
+    rows->widths = image_of(scene, material, MAP_WIDTH);
+    rows->width = grid.width;
+    rows->height = grid.height;
+    rows->normal_scale = material->material->normal_scale;
+    rows->factor_channel = material->material->model == LOBE_MATERIAL_MICROFACET ? 1 : 0;
+    for (uint32_t i = 0; i < 3; i++)
+        rows->normal[i] = rows->data + (size_t)i * grid.width;
+    rows->factor = rows->data + (size_t)3 * grid.width;
+    rows->texels = rows->data + (size_t)4 * grid.width;
+    for (uint32_t x = 0; x < grid.width; x++) {
+        rows->normal[2][x] = 1;
+        rows->factor[x] = 1;
+    }
+    return rows;
+}
+
+// ---------------------------------------------------------------------------------------------
+// One row. Loops without branches, which compilers vectorise.
+
+static void decode_bytes(const unsigned char *texels, uint32_t stride, uint32_t count,
+                         float *values) {
+    for (uint32_t x = 0; x < count; x++)
+        values[x] = (float)texels[(size_t)x * stride] * (1.0f / 255);
+}
+
+static void decode_words(const unsigned char *texels, uint32_t stride, uint32_t count,
+                         float *values) {
+    for (uint32_t x = 0; x < count; x++) {
+        uint16_t word;
+        memcpy(&word, texels + (size_t)x * stride, sizeof word);
+        values[x] = (float)word * (1.0f / 65535);
+    }
+}
+
+static void decode_floats(const unsigned char *texels, uint32_t stride, uint32_t count,
+                          float *values) {
+    for (uint32_t x = 0; x < count; x++)
+        memcpy(&values[x], texels + (size_t)x * stride, sizeof values[x]);
+}
+
+/// One channel of a row of an image, in a format that passes_image_texel reads.
+static void decode(const lobe_image *image, uint32_t y, uint32_t channel, float *values) {
+    const uint32_t stride = (uint32_t)lobe_format_size(image->format);
+    const uint32_t channels = lobe_format_channels(image->format), size = stride / channels;
+    const unsigned char *row =
+        (const unsigned char *)image->texels + (size_t)y * image->width * stride + channel * size;
+    if (channel >= channels)
+        memset(values, 0, image->width * sizeof *values);
+    else if (size == 1)
+        decode_bytes(row, stride, image->width, values);
+    else if (size == 2)
+        decode_words(row, stride, image->width, values);
+    else
+        decode_floats(row, stride, image->width, values);
+}
+
+/// The same at the texels of the grid.
+static void read_channel(material_rows *rows, const lobe_image *image, uint32_t y, uint32_t channel,
+                         float *values) {
+    const uint32_t row = (uint32_t)((uint64_t)y * image->height / rows->height);
+    if (image->width == rows->width) {
+        decode(image, row, channel, values);
+        return;
+    }
+    decode(image, row, channel, rows->texels);
+    for (uint32_t x = 0; x < rows->width; x++)
+        values[x] = rows->texels[(uint64_t)x * image->width / rows->width];
+}
+
+static void normalise(material_rows *rows) {
+    const float scale = rows->normal_scale;
+    float *restrict nx = rows->normal[0], *restrict ny = rows->normal[1],
+                    *restrict nz = rows->normal[2];
+    for (uint32_t i = 0; i < rows->width; i++) {
+        float x = (2 * nx[i] - 1) * scale, y = (2 * ny[i] - 1) * scale, z = 2 * nz[i] - 1;
+        float square = x * x + y * y + z * z;
+        // False for NaN, too.
+        bool sound = square > 1e-12f && square < 1e30f;
+        float inverse = 1 / sqrtf(sound ? square : 1);
+        nx[i] = sound ? x * inverse : 0;
+        ny[i] = sound ? y * inverse : 0;
+        nz[i] = sound ? z * inverse : 1;
+    }
+}
+
+void passes_material_row_read(material_rows *rows, uint32_t y) {
+    for (uint32_t i = 0; rows->normals && i < 3; i++)
+        read_channel(rows, rows->normals, y, i, rows->normal[i]);
+    if (rows->normals)
+        normalise(rows);
+    if (rows->widths)
+        read_channel(rows, rows->widths, y, rows->factor_channel, rows->factor);
+}
