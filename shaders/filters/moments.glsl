@@ -11,7 +11,7 @@
 #include "lib/lobe/plane_lobe.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
