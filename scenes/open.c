@@ -7,6 +7,7 @@
 
 #include "scenes/builtin/builtin.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/material/folder.h"
 
 static bool is_absent(const char *path) {
     return access(path, F_OK) != 0 && errno != EACCES;
@@ -15,6 +16,15 @@ static bool is_absent(const char *path) {
 static bool is_folder(const char *path) {
     struct stat status;
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+static lobe_result open_material(const lobe_scene_open_parameters *parameters,
+                                 const lobe_host *host, lobe_scene **result) {
+    const lobe_carrier carrier = *parameters->carrier;
+    if ((unsigned)carrier > LOBE_CARRIER_CLOTH)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "%s: there is no carrier %d",
+                              parameters->scene, (int)carrier);
+    return scenes_material_open(parameters, carrier, host, result);
 }
 
 lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
@@ -28,6 +38,8 @@ lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
     const char *scene = parameters->scene;
     if (parameters->data)
         return scenes_gltf_open(parameters, host, result);
+    if (parameters->carrier)
+        return open_material(parameters, host, result);
     const builtin_scene *builtin = scenes_builtin_find(scene);
     if (builtin)
         return builtin->build(host, result);
@@ -37,7 +49,7 @@ lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
         return lobe_host_fail(host, LOBE_ERROR_NOT_FOUND,
                               "%s: neither a built-in scene nor a file or folder", scene);
     if (is_folder(scene))
-        return lobe_scene_open_material(scene, LOBE_CARRIER_CLOTH, host, result);
+        return scenes_material_open(parameters, LOBE_CARRIER_CLOTH, host, result);
     return scenes_gltf_open(parameters, host, result);
 }
 

@@ -11,7 +11,7 @@ lobe_result scenes_builtin_assemble(const char *name, const builtin_step *steps,
     for (; !status && *steps; steps++)
         status = (*steps)(*scene, host);
     if (!status)
-        status = scenes_complete(*scene, host);
+        status = scenes_complete(*scene, false, host);
     if (status)
         lobe_scene_destroy(scene);
     return status;

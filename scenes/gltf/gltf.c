@@ -162,7 +162,7 @@ static lobe_result convert(gltf_import *import) {
     if (result != LOBE_OK)
         return result;
     scenes_gltf_report_notes(import);
-    result = scenes_complete(import->scene, import->host);
+    result = scenes_complete(import->scene, import->own_light_only, import->host);
     if (result == LOBE_OK && import->scene->has_camera)
         scenes_gltf_aim_camera(import->scene);
     return result;
@@ -170,7 +170,10 @@ static lobe_result convert(gltf_import *import) {
 
 lobe_result scenes_gltf_open(const lobe_scene_open_parameters *parameters, const lobe_host *host,
                              lobe_scene **scene) {
-    gltf_import import = {.path = parameters->scene, .host = host, .files = parameters->files};
+    gltf_import import = {.path = parameters->scene,
+                          .host = host,
+                          .files = parameters->files,
+                          .own_light_only = parameters->own_light_only};
     *scene = NULL;
     lobe_result result = read_document(parameters, host, &import.document);
     if (result == LOBE_OK)

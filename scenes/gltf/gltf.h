@@ -48,6 +48,7 @@ typedef struct gltf_import {
     const char *path;
     const lobe_host *host;
     const lobe_file_source *files; ///< NULL: the file system
+    bool own_light_only;           ///< no light is added
     const gltf_document *document;
     lobe_scene *scene;
     bool quantised;                   ///< KHR_mesh_quantization is in use

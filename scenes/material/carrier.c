@@ -69,26 +69,6 @@ static void look(lobe_scene *scene, lobe_carrier carrier) {
     }
 }
 
-// A plane is lit from behind, and cloth from the side opposite the camera, so that highlights lie
-// between light and camera; a sphere is lit from the front.
-static lobe_result add_view(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
-    static const float directions[][3] = {
-        [LOBE_CARRIER_PLANE] = {-0.36f, -0.48f, 0.8f},
-        [LOBE_CARRIER_SPHERE] = {-0.36f, -0.48f, -0.8f},
-        [LOBE_CARRIER_CLOTH] = {0.64f, -0.48f, -0.6f},
-    };
-    const float *direction = directions[carrier];
-    const lobe_light lights[] = {
-        {.type = LOBE_LIGHT_DIRECTIONAL,
-         .direction = {direction[0], direction[1], direction[2]},
-         .intensity = {3, 2.95f, 2.8f}},
-        {.type = LOBE_LIGHT_POINT, .position = {-2, 2, 1.5f}, .intensity = {10, 11, 12}},
-    };
-    look(scene, carrier);
-    scene->background[0] = scene->background[1] = scene->background[2] = 0.2f;
-    return scenes_add_lights(scene, lights, sizeof lights / sizeof *lights, host);
-}
-
 lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lobe_host *host) {
     lobe_mesh mesh;
     // A camera may move around the cloth and see its back.
@@ -96,5 +76,14 @@ lobe_result scenes_carrier_add(lobe_scene *scene, lobe_carrier carrier, const lo
     lobe_result status = make_mesh(scene, carrier, host, &mesh);
     if (!status)
         status = scenes_place_mesh(scene, &mesh, 0, host);
-    return status ? status : add_view(scene, carrier, host);
+    look(scene, carrier);
+    scene->background[0] = scene->background[1] = scene->background[2] = 0.2f;
+    return status;
+}
+
+void scenes_carrier_turn_light(lobe_scene *scene, lobe_carrier carrier) {
+    static const double degrees[] = {
+        [LOBE_CARRIER_PLANE] = 186, [LOBE_CARRIER_SPHERE] = 54, [LOBE_CARRIER_CLOTH] = -17};
+    if (scene->has_added_light)
+        lobe_environment_turn(scene->environment, degrees[carrier]);
 }

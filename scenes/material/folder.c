@@ -1,13 +1,12 @@
 #include <lobe/scene.h>
 
-#include <dirent.h>
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scenes/format/image_file.h"
 #include "scenes/material/carrier.h"
-#include "scenes/material/file_name.h"
+#include "scenes/material/folder.h"
+#include "scenes/material/folder_files.h"
 #include "scenes/material/height_scale.h"
 #include "scenes/material/image_channel.h"
 #include "scenes/scene/scene.h"
@@ -22,7 +21,7 @@ static const float default_height_scale = 0.05f;
 typedef struct material_folder {
     const char *path;
     const lobe_host *host;
-    char *files[MATERIAL_MAP_COUNT]; // names in the folder; NULL: none
+    material_files files;
     lobe_scene *scene;
     lobe_material material;
 } material_folder;
@@ -32,63 +31,20 @@ static lobe_result out_of_memory(const material_folder *folder) {
                           folder->path);
 }
 
-// Of several files for one map, the first in alphabetical order is used, independent of the order
-// in which the file system lists them.
-static lobe_result consider_file(material_folder *folder, const char *name) {
-    material_map map = scenes_material_file_map(name);
-    if (map == MATERIAL_MAP_COUNT)
-        return LOBE_OK;
-    if (!scenes_material_file_is_readable(name)) {
-        if (scenes_material_file_is_other_image(name))
-            lobe_host_log(folder->host, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
-                          folder->path, name);
-        return LOBE_OK;
-    }
-    if (folder->files[map] && strcmp(folder->files[map], name) < 0)
-        return LOBE_OK;
-    char *copy = lobe_copy_text(lobe_host_allocator(folder->host), name);
-    if (!copy)
-        return out_of_memory(folder);
-    lobe_release(folder->files[map]);
-    folder->files[map] = copy;
-    return LOBE_OK;
+static const material_source *source_of(const material_folder *folder, material_map map) {
+    return &folder->files.sources[map];
 }
 
-static lobe_result list_files(material_folder *folder) {
-    DIR *directory = opendir(folder->path);
-    if (!directory && (errno == ENOENT || errno == ENAMETOOLONG))
-        return lobe_host_fail(folder->host, LOBE_ERROR_NOT_FOUND, "%s: no such folder",
-                              folder->path);
-    if (!directory)
-        return lobe_host_fail(folder->host, LOBE_ERROR_READ, "%s: %s", folder->path,
-                              strerror(errno));
-    lobe_result status = LOBE_OK;
-    errno = 0;
-    for (struct dirent *entry; !status && (entry = readdir(directory)); errno = 0)
-        status = consider_file(folder, entry->d_name);
-    if (!status && errno)
-        status =
-            lobe_host_fail(folder->host, LOBE_ERROR_READ, "%s: %s", folder->path, strerror(errno));
-    closedir(directory);
-    return status;
-}
-
-static lobe_result require_maps(const material_folder *folder) {
-    for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
-        if (folder->files[map] && map != MATERIAL_MAP_DISPLACEMENT)
-            return LOBE_OK;
-    return lobe_host_fail(folder->host, LOBE_ERROR_NOT_FOUND,
-                          "%s: no PNG or JPEG file is named after a map (albedo, normal, "
-                          "roughness, metallic, arm, ao, emissive)",
-                          folder->path);
+static bool has(const material_folder *folder, material_map map) {
+    return source_of(folder, map)->file != NULL;
 }
 
 // "FOLDER/FILE"; the caller frees it with lobe_release. NULL if out of memory.
-static char *file_path(const material_folder *folder, material_map map) {
-    const size_t size = strlen(folder->path) + strlen(folder->files[map]) + 2;
+static char *file_path(const material_folder *folder, const material_file *file) {
+    const size_t size = strlen(folder->path) + strlen(file->name) + 2;
     char *path = lobe_allocate(lobe_host_allocator(folder->host), size, 1);
     if (path)
-        snprintf(path, size, "%s/%s", folder->path, folder->files[map]);
+        snprintf(path, size, "%s/%s", folder->path, file->name);
     return path;
 }
 
@@ -96,9 +52,9 @@ static char *file_path(const material_folder *folder, material_map map) {
 static lobe_result load(const material_folder *folder, material_map map, scene_image_use use,
                         lobe_image *image) {
     *image = (lobe_image){0};
-    if (!folder->files[map])
+    if (!has(folder, map))
         return LOBE_OK;
-    char *path = file_path(folder, map);
+    char *path = file_path(folder, source_of(folder, map)->file);
     if (!path)
         return out_of_memory(folder);
     lobe_result status = scenes_image_load(path, use, folder->host, image);
@@ -121,19 +77,21 @@ static lobe_result attach(material_folder *folder, const char *name, lobe_image 
 static lobe_result add_colour(material_folder *folder, material_map map, lobe_texture_use *use) {
     lobe_image image;
     lobe_result status = load(folder, map, SCENE_IMAGE_COLOUR, &image);
-    return status ? status : attach(folder, folder->files[map], &image, use);
+    if (status || !image.texels)
+        return status;
+    return attach(folder, source_of(folder, map)->file->name, &image, use);
 }
 
 static lobe_result add_normals(material_folder *folder) {
     material_map map =
-        folder->files[MATERIAL_MAP_NORMAL] ? MATERIAL_MAP_NORMAL : MATERIAL_MAP_NORMAL_DIRECTX;
+        has(folder, MATERIAL_MAP_NORMAL) ? MATERIAL_MAP_NORMAL : MATERIAL_MAP_NORMAL_DIRECTX;
     lobe_image image;
     lobe_result status = load(folder, map, SCENE_IMAGE_DATA, &image);
-    if (status)
+    if (status || !image.texels)
         return status;
     if (map == MATERIAL_MAP_NORMAL_DIRECTX)
         scenes_image_channel_invert(&image, 1);
-    return attach(folder, folder->files[map], &image, &folder->material.normal_map);
+    return attach(folder, source_of(folder, map)->file->name, &image, &folder->material.normal_map);
 }
 
 static float find_height_scale(const material_folder *folder, const lobe_image *heights) {
@@ -144,80 +102,136 @@ static float find_height_scale(const material_folder *folder, const lobe_image *
     return scale;
 }
 
+// Takes a channel out of a packed image, to all channels of a new one.
+static lobe_result unpack(const material_folder *folder, const material_source *source,
+                          lobe_image *image) {
+    if (!scenes_material_file_is_packed(&source->file->content))
+        return LOBE_OK;
+    lobe_image packed = *image;
+    const image_channel value = {.image = &packed, .channel = source->channel};
+    const image_channel channels[4] = {value, value, value, {.value = 1}};
+    lobe_result status =
+        scenes_image_channel_pack(channels, source->file->name, folder->host, image);
+    lobe_image_free(&packed);
+    return status;
+}
+
+// A map that stands on its own, in the red channel.
+static lobe_result load_value(const material_folder *folder, material_map map, lobe_image *image) {
+    lobe_result status = load(folder, map, SCENE_IMAGE_DATA, image);
+    return status || !image->texels ? status : unpack(folder, source_of(folder, map), image);
+}
+
 static lobe_result add_heights(material_folder *folder) {
     lobe_image image;
-    lobe_result status = load(folder, MATERIAL_MAP_DISPLACEMENT, SCENE_IMAGE_DATA, &image);
+    lobe_result status = load_value(folder, MATERIAL_MAP_DISPLACEMENT, &image);
     if (status || !image.texels)
         return status;
     folder->material.height_scale = find_height_scale(folder, &image);
-    return attach(folder, folder->files[MATERIAL_MAP_DISPLACEMENT], &image,
+    return attach(folder, source_of(folder, MATERIAL_MAP_DISPLACEMENT)->file->name, &image,
                   &folder->material.height_map);
 }
 
-// One image with roughness and metallic in the channels that glTF defines.
-static lobe_result add_packed(material_folder *folder) {
-    lobe_material *material = &folder->material;
-    bool occlusion = folder->files[MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC];
-    material_map map =
-        occlusion ? MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC : MATERIAL_MAP_METALLIC_ROUGHNESS;
+static lobe_result add_occlusion(material_folder *folder) {
     lobe_image image;
-    lobe_result status = load(folder, map, SCENE_IMAGE_DATA, &image);
+    if (folder->material.occlusion_map.image >= 0)
+        return LOBE_OK;
+    lobe_result status = load_value(folder, MATERIAL_MAP_OCCLUSION, &image);
+    if (status || !image.texels)
+        return status;
+    return attach(folder, source_of(folder, MATERIAL_MAP_OCCLUSION)->file->name, &image,
+                  &folder->material.occlusion_map);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Roughness and metallic
+
+// One image with roughness and metallic in the channels that glTF defines, and perhaps occlusion.
+static lobe_result add_gltf_channels(material_folder *folder) {
+    lobe_material *material = &folder->material;
+    const material_source *source = source_of(folder, MATERIAL_MAP_ROUGHNESS);
+    lobe_image image;
+    lobe_result status = load(folder, MATERIAL_MAP_ROUGHNESS, SCENE_IMAGE_DATA, &image);
     if (!status)
-        status = attach(folder, folder->files[map], &image, &material->metallic_roughness_map);
-    if (!status && occlusion)
+        status = attach(folder, source->file->name, &image, &material->metallic_roughness_map);
+    if (!status && source_of(folder, MATERIAL_MAP_OCCLUSION)->file == source->file)
         material->occlusion_map = material->metallic_roughness_map;
     material->roughness = material->metallic = 1;
     return status;
 }
 
-// Two images, or one of them, packed into one.
-static lobe_result pack_separate(material_folder *folder) {
+// The images of roughness and metallic, which may be channels of one file.
+typedef struct value_images {
+    lobe_image roughness, metallic;
+} value_images;
+
+static lobe_result load_values(const material_folder *folder, material_map roughness,
+                               value_images *images) {
+    lobe_result status = load(folder, roughness, SCENE_IMAGE_DATA, &images->roughness);
+    if (!status)
+        status = load(folder, MATERIAL_MAP_METALLIC, SCENE_IMAGE_DATA, &images->metallic);
+    const material_source *source = source_of(folder, roughness);
+    // Smoothness belongs into alpha: without any, the file holds none.
+    if (!status && images->roughness.texels && source->channel == 3 &&
+        scenes_image_channel_is_full(&images->roughness, 3)) {
+        lobe_host_log(folder->host, LOBE_LOG_WARNING,
+                      "%s/%s: has no alpha, and so no smoothness; roughness is %g", folder->path,
+                      source->file->name, (double)default_roughness);
+        lobe_image_free(&images->roughness);
+    }
+    return status;
+}
+
+// Images, or channels of images, packed into one as glTF does.
+static lobe_result pack_values(material_folder *folder) {
     lobe_material *material = &folder->material;
-    lobe_image roughness, metallic = {0}, packed = {0};
-    lobe_result status = load(folder, MATERIAL_MAP_ROUGHNESS, SCENE_IMAGE_DATA, &roughness);
-    if (!status)
-        status = load(folder, MATERIAL_MAP_METALLIC, SCENE_IMAGE_DATA, &metallic);
-    image_channel channels[4] = {{.value = 1}, {&roughness, 0, 1}, {&metallic, 0, 1}, {.value = 1}};
-    if (!status)
+    const material_map map =
+        has(folder, MATERIAL_MAP_ROUGHNESS) ? MATERIAL_MAP_ROUGHNESS : MATERIAL_MAP_GLOSS;
+    value_images images = {0};
+    lobe_image packed = {0};
+    lobe_result status = load_values(folder, map, &images);
+    const image_channel channels[4] = {
+        {.value = 1},
+        {&images.roughness, source_of(folder, map)->channel, 1, map == MATERIAL_MAP_GLOSS},
+        {&images.metallic, source_of(folder, MATERIAL_MAP_METALLIC)->channel, 1, false},
+        {.value = 1}};
+    const bool any = images.roughness.texels || images.metallic.texels;
+    if (!status && any)
         status = scenes_image_channel_pack(channels, folder->path, folder->host, &packed);
-    if (!status)
+    if (!status && any)
         status = attach(folder, "metallic-roughness", &packed, &material->metallic_roughness_map);
-    material->roughness = roughness.texels ? 1 : default_roughness;
-    if (metallic.texels)
+    material->roughness = images.roughness.texels ? 1 : default_roughness;
+    if (images.metallic.texels)
         material->metallic = 1;
-    lobe_image_free(&roughness);
-    lobe_image_free(&metallic);
+    lobe_image_free(&images.roughness);
+    lobe_image_free(&images.metallic);
     return status;
 }
 
 static lobe_result add_roughness_and_metallic(material_folder *folder) {
-    char *const *files = folder->files;
     folder->material.roughness = default_roughness;
     // If nothing is known about the material, metal is assumed, because it shows the relief of a
     // grey surface best.
-    folder->material.metallic = files[MATERIAL_MAP_ALBEDO] ? 0 : 1;
-    if (files[MATERIAL_MAP_OCCLUSION_ROUGHNESS_METALLIC] || files[MATERIAL_MAP_METALLIC_ROUGHNESS])
-        return add_packed(folder);
-    if (files[MATERIAL_MAP_ROUGHNESS] || files[MATERIAL_MAP_METALLIC])
-        return pack_separate(folder);
+    folder->material.metallic = has(folder, MATERIAL_MAP_ALBEDO) ? 0 : 1;
+    const material_source *roughness = source_of(folder, MATERIAL_MAP_ROUGHNESS);
+    const material_source *metallic = source_of(folder, MATERIAL_MAP_METALLIC);
+    if (roughness->file && roughness->file == metallic->file &&
+        scenes_material_file_is_gltf(&roughness->file->content))
+        return add_gltf_channels(folder);
+    if (roughness->file || metallic->file || has(folder, MATERIAL_MAP_GLOSS))
+        return pack_values(folder);
     return LOBE_OK;
 }
 
-static lobe_result add_occlusion(material_folder *folder) {
-    lobe_image image;
-    lobe_result status = load(folder, MATERIAL_MAP_OCCLUSION, SCENE_IMAGE_DATA, &image);
-    return status ? status
-                  : attach(folder, folder->files[MATERIAL_MAP_OCCLUSION], &image,
-                           &folder->material.occlusion_map);
-}
+// ---------------------------------------------------------------------------------------------
 
 static lobe_result add_material(material_folder *folder) {
     lobe_material *material = &folder->material;
     lobe_material_default(material);
-    if (!folder->files[MATERIAL_MAP_ALBEDO])
+    if (!has(folder, MATERIAL_MAP_ALBEDO))
         for (int channel = 0; channel < 3; channel++)
             material->base_colour[channel] = default_grey;
-    if (folder->files[MATERIAL_MAP_EMISSIVE])
+    if (has(folder, MATERIAL_MAP_EMISSIVE))
         for (int channel = 0; channel < 3; channel++)
             material->emissive[channel] = 1;
     lobe_result status = add_colour(folder, MATERIAL_MAP_ALBEDO, &material->base_colour_map);
@@ -236,32 +250,29 @@ static lobe_result add_material(material_folder *folder) {
     return status;
 }
 
-lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_host *host,
-                                     lobe_scene **result) {
-    if (result)
-        *result = NULL;
-    if (!path || !result)
-        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
-                              "lobe_scene_open_material: folder and result must not be NULL");
-    if ((unsigned)carrier > LOBE_CARRIER_CLOTH)
-        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "%s: there is no carrier %d", path,
-                              (int)carrier);
-    material_folder folder = {.path = path, .host = host};
-    lobe_result status = list_files(&folder);
+lobe_result scenes_material_open(const lobe_scene_open_parameters *parameters, lobe_carrier carrier,
+                                 const lobe_host *host, lobe_scene **result) {
+    material_folder folder = {.path = parameters->scene, .host = host};
+    lobe_result status = scenes_material_files_find(folder.path, host, &folder.files);
     if (!status)
-        status = require_maps(&folder);
-    if (!status)
-        status = scenes_allocate(path, host, &folder.scene);
+        status = scenes_allocate(folder.path, host, &folder.scene);
     if (!status)
         status = add_material(&folder);
     if (!status)
         status = scenes_carrier_add(folder.scene, carrier, host);
     if (!status)
-        status = scenes_complete(folder.scene, host);
-    for (int map = 0; map < MATERIAL_MAP_COUNT; map++)
-        lobe_release(folder.files[map]);
+        status = scenes_complete(folder.scene, parameters->own_light_only, host);
+    if (!status)
+        scenes_carrier_turn_light(folder.scene, carrier);
+    scenes_material_files_free(&folder.files);
     if (status)
         lobe_scene_destroy(&folder.scene);
     *result = folder.scene;
     return status;
+}
+
+lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_host *host,
+                                     lobe_scene **result) {
+    const lobe_scene_open_parameters parameters = {.scene = path, .carrier = &carrier};
+    return lobe_scene_open_with(&parameters, host, result);
 }

@@ -1,7 +1,6 @@
 #include "scenes/material/image_channel.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 #include "scenes/format/image_file.h"
 
@@ -39,6 +38,7 @@ static void fill_channel(const image_channel *from, uint32_t channel, lobe_image
             double value = constant ? from->value
                                     : interpolate(from, (column + 0.5) / packed->width,
                                                   (row + 0.5) / packed->height);
+            value = from->inverted && !constant ? 1 - value : value;
             *texel = (uint8_t)(value * 255 + 0.5);
         }
 }
@@ -61,6 +61,16 @@ lobe_result scenes_image_channel_pack(const image_channel channels[4], const cha
     for (uint32_t i = 0; !status && i < 4; i++)
         fill_channel(&channels[i], i, packed);
     return status;
+}
+
+bool scenes_image_channel_is_full(const lobe_image *image, uint32_t channel) {
+    size_t count = (size_t)image->width * image->height * 4;
+    for (size_t i = channel; i < count; i += 4)
+        if (image->format == LOBE_FORMAT_RGBA16_UNORM
+                ? ((const uint16_t *)image->texels)[i] != 0xffff
+                : ((const uint8_t *)image->texels)[i] != 0xff)
+            return false;
+    return true;
 }
 
 void scenes_image_channel_invert(lobe_image *image, uint32_t channel) {

@@ -1,6 +1,8 @@
 #ifndef SCENES_MATERIAL_IMAGE_CHANNEL_H
 #define SCENES_MATERIAL_IMAGE_CHANNEL_H
 
+#include <stdbool.h>
+
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/result.h>
@@ -12,6 +14,7 @@ typedef struct image_channel {
     const lobe_image *image; ///< NULL or empty: `value` everywhere
     uint32_t channel;        ///< of `image` [0, 3]
     float value;             ///< [0, 1]
+    bool inverted;           ///< one minus the channel of `image`
 } image_channel;
 
 /// Packs four channels into an RGBA8_UNORM image as wide as the widest and as high as the highest
@@ -19,6 +22,9 @@ typedef struct image_channel {
 /// edges. `name` is for messages. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_MEMORY.
 lobe_result scenes_image_channel_pack(const image_channel channels[4], const char *name,
                                       const lobe_host *host, lobe_image *packed);
+
+/// Whether a channel is 1 in all texels, as that of missing alpha is.
+bool scenes_image_channel_is_full(const lobe_image *image, uint32_t channel);
 
 /// Replaces a channel by one minus its value.
 void scenes_image_channel_invert(lobe_image *image, uint32_t channel);

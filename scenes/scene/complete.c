@@ -50,7 +50,7 @@ lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host) {
     return lobe_environment_open("sky", host, &scene->environment);
 }
 
-lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host) {
+lobe_result scenes_complete(lobe_scene *scene, bool own_light_only, const lobe_host *host) {
     lobe_result result = set_bounds(scene, host);
     if (result != LOBE_OK)
         return result;
@@ -62,5 +62,5 @@ lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host) {
     if (!scene->has_camera)
         lobe_host_log(host, LOBE_LOG_NOTICE, "%s: has no camera; added one that frames it",
                       scene->name);
-    return scenes_add_missing_light(scene, host);
+    return own_light_only ? LOBE_OK : scenes_add_missing_light(scene, host);
 }

@@ -47,9 +47,9 @@ void scenes_set_camera(lobe_scene *scene, const float eye[3], const float target
 /// `has_added_light`.
 lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host);
 
-/// The last step: sets the scene's bounds and adds a missing camera, which frames them, and missing
-/// light, each with a notice. A scene without instances stays dark, without a notice. Errors:
-/// LOBE_ERROR_LIMIT (bounds too far out), _OUT_OF_MEMORY.
-lobe_result scenes_complete(lobe_scene *scene, const lobe_host *host);
+/// The last step: sets the scene's bounds and adds a missing camera, which frames them, and, unless
+/// `own_light_only`, missing light, each with a notice. A scene without instances stays dark,
+/// without a notice. Errors: LOBE_ERROR_LIMIT (bounds too far out), _OUT_OF_MEMORY.
+lobe_result scenes_complete(lobe_scene *scene, bool own_light_only, const lobe_host *host);
 
 #endif

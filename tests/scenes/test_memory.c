@@ -84,7 +84,7 @@ static void folders_of_maps_say_where_memory_ends(void **state) {
     (void)state;
     static const char *const maps[] = {"stone_albedo.png",   "stone_normal.png",  "stone_rough.png",
                                        "stone_metal.png",    "stone_height.png",  "stone_ao.png",
-                                       "stone_emissive.png", "another_albedo.png"};
+                                       "stone_emissive.png", "stone_albedo_2.png"};
     for (size_t n = 0; n < sizeof maps / sizeof *maps; n++)
         write_image(temporary_folder_file(&test_folder, maps[n]), LOBE_FORMAT_RGBA8_UNORM);
     assert_true(fail_each_allocation(work_with_material, test_folder.path) > 80);

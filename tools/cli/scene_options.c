@@ -110,6 +110,10 @@ void scene_options_describe(const scene_options *options, char text[SCENE_OPTION
     snprintf(text, SCENE_OPTIONS_DESCRIPTION, "%s", all[0] ? all + 2 : "");
 }
 
+bool scene_options_give_light(const scene_options *options) {
+    return options->environment || options->has_lights;
+}
+
 lobe_result scene_options_light(const scene_options *options, const lobe_host *host,
                                 lobe_scene *scene) {
     lobe_result result = LOBE_OK;
@@ -136,7 +140,8 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
     const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
     if (assets && assets[0] == '\0')
         assets = NULL;
-    lobe_result status = scene_list_open(scene, assets, host, result);
+    lobe_result status =
+        scene_list_open(scene, assets, scene_options_give_light(options), host, result);
     if (status == LOBE_OK && !(*result)->has_camera)
         lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
     if (status == LOBE_OK)

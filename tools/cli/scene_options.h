@@ -14,6 +14,7 @@ typedef struct scene_options {
     bool background;         ///< show the environment behind the scene
     bool no_lights;          ///< remove the scene's lights, keep the environment
     bool has_rotation, has_intensity;
+    bool has_lights; ///< other options give the scene lights: none are added
 } scene_options;
 
 /// Entries for an option table.
@@ -30,6 +31,9 @@ option scene_option_no_lights(scene_options *options);
 /// How the options change a scene's light apart from choosing its environment: "no lights, turned
 /// by 30, intensity 2, background"; "" if they do not.
 void scene_options_describe(const scene_options *options, char text[SCENE_OPTIONS_DESCRIPTION]);
+
+/// Whether the options light the scene, so that none has to be added to one without light.
+bool scene_options_give_light(const scene_options *options);
 
 /// Applies the options to the light of an opened scene.
 lobe_result scene_options_light(const scene_options *options, const lobe_host *host,

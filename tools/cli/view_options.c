@@ -155,8 +155,6 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     lobe_scene_path(scene, options->path, &camera);
     scene->camera = camera;
     if (lights) {
-        if (scene->has_added_light)
-            lobe_scene_set_environment(scene, NULL); // the scene has its own light now
         lobe_release(scene->lights);
         scene->lights = lights;
         scene->light_count = options->lights.count;

@@ -14,6 +14,7 @@
 #include "tools/cli/subcommand.h"
 #include "tools/cli/view_options.h"
 #include "tools/render/capture.h"
+#include "tools/render/empty_picture.h"
 
 /// The command line.
 typedef struct render_request {
@@ -138,10 +139,16 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_ho
 // ---------------------------------------------------------------------------------------------
 // Work
 
-static lobe_result open_scene(const render_request *request, render_state *state) {
+static lobe_result open_scene(render_request *request, render_state *state) {
+    request->opening.has_lights = request->view.lights.count > 0;
     if (request->material) {
-        lobe_result result = lobe_scene_open_material(
-            request->material, (lobe_carrier)request->carrier, &state->host, &state->scene);
+        const lobe_carrier carrier = (lobe_carrier)request->carrier;
+        const lobe_scene_open_parameters parameters = {
+            .scene = request->material,
+            .own_light_only = scene_options_give_light(&request->opening),
+            .carrier = &carrier,
+        };
+        lobe_result result = lobe_scene_open_with(&parameters, &state->host, &state->scene);
         return result == LOBE_OK
                    ? scene_options_light(&request->opening, &state->host, state->scene)
                    : result;
@@ -222,6 +229,16 @@ static lobe_result render_frames(const render_request *request, render_state *st
     return result == LOBE_OK ? device_options_check(state->device, &state->host) : result;
 }
 
+static void warn_of_an_empty_picture(const render_request *request, const render_state *state) {
+    char why[256];
+    if (!empty_picture_recognise(&state->frame.radiance))
+        return;
+    empty_picture_explain(state->scene, (double)request->size[0] / request->size[1], why,
+                          sizeof why);
+    lobe_host_log(&state->host, LOBE_LOG_WARNING, "%s: the picture is empty: %s",
+                  state->scene->name, why);
+}
+
 static lobe_result write_graph(const render_request *request, render_state *state) {
     if (!request->graph)
         return LOBE_OK;
@@ -299,6 +316,8 @@ static lobe_result render(render_request *request, render_state *state) {
     result = open_renderer(request, state);
     if (result == LOBE_OK)
         result = render_frames(request, state);
+    if (result == LOBE_OK)
+        warn_of_an_empty_picture(request, state);
     if (result == LOBE_OK)
         result = write_graph(request, state);
     if (result == LOBE_OK)

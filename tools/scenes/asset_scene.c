@@ -16,7 +16,7 @@ lobe_result asset_scene_assemble(const asset_mesh *wanted, const char *assets,
     if (!status)
         status = scenes_place_mesh(*scene, &mesh, 0, host);
     if (!status)
-        status = scenes_complete(*scene, host);
+        status = scenes_complete(*scene, false, host);
     scenes_mesh_free(&mesh);
     if (status)
         lobe_scene_destroy(scene);

@@ -39,8 +39,12 @@ bool scene_list_needs_assets(const char *name) {
     return find(name) != NULL;
 }
 
-lobe_result scene_list_open(const char *name, const char *assets, const lobe_host *host,
-                            lobe_scene **scene) {
+lobe_result scene_list_open(const char *name, const char *assets, bool own_light_only,
+                            const lobe_host *host, lobe_scene **scene) {
     const own_scene *own = find(name);
-    return own ? own->build(assets, host, scene) : lobe_scene_open(name, host, scene);
+    if (own)
+        return own->build(assets, host, scene);
+    return lobe_scene_open_with(
+        &(lobe_scene_open_parameters){.scene = name, .own_light_only = own_light_only}, host,
+        scene);
 }

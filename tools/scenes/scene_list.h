@@ -27,8 +27,9 @@ bool scene_list_needs_assets(const char *name);
 
 /// Opens a listed scene, or a file or folder as lobe_scene_open does. `assets`: the folder that
 /// holds models/npm_bunny.js and models/npm_dragon_vrip_res3.ply.gz, the meshes of the scenes that
-/// need assets; NULL: none, and those scenes are LOBE_ERROR_NOT_FOUND.
-lobe_result scene_list_open(const char *name, const char *assets, const lobe_host *host,
-                            lobe_scene **scene);
+/// need assets; NULL: none, and those scenes are LOBE_ERROR_NOT_FOUND. `own_light_only`: see
+/// lobe_scene_open_parameters.
+lobe_result scene_list_open(const char *name, const char *assets, bool own_light_only,
+                            const lobe_host *host, lobe_scene **scene);
 
 #endif

@@ -66,8 +66,10 @@ static void set_title(const viewer *v) {
 
 lobe_result viewer_open_first_scene(viewer *v) {
     const viewer_request *request = v->request;
+    scene_options opening = v->opening;
+    opening.has_lights = request->view.lights.count > 0;
     lobe_result result =
-        scene_options_open(&v->opening, request->scene, request->size, &v->host, &v->scene);
+        scene_options_open(&opening, request->scene, request->size, &v->host, &v->scene);
     if (result == LOBE_OK && !view_options_apply(&request->view, request->lights, v->scene))
         result = lobe_host_fail(&v->host, LOBE_ERROR_INVALID_ARGUMENT,
                                 "camera: eye and target are the same point");

@@ -232,6 +232,15 @@ LOBE_API size_t lobe_builtin_scene_count(void);
 /// NULL for an index out of range.
 LOBE_API const lobe_builtin_scene *lobe_builtin_scene_get(size_t index);
 
+/// What shows the maps of a folder.
+typedef enum lobe_carrier {
+    LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
+    LOBE_CARRIER_SPHERE, ///< seen from the front
+    /// hanging and gently waving, seen at an angle. A texel of the largest map takes half a
+    /// millimetre: at 1280 x 720 pixels, two to eight texels lie across a pixel.
+    LOBE_CARRIER_CLOTH,
+} lobe_carrier;
+
 /// What to open, and from where.
 typedef struct lobe_scene_open_parameters {
     /// The name of a built-in scene, the path of a .gltf or .glb file, or a folder of PBR maps,
@@ -245,33 +254,34 @@ typedef struct lobe_scene_open_parameters {
     /// Where to read a .gltf or .glb file and those it refers to; not folders of maps, because the
     /// files of a source cannot be listed. NULL: in the file system. Needed during the call only.
     const lobe_file_source *files;
+    /// A scene without light stays dark: for hosts that light it themselves. Otherwise the
+    /// environment "sky" is added, with a notice.
+    bool own_light_only;
+    /// `scene` is a folder of PBR maps, and this shows them. NULL: a cloth, if it is a folder.
+    const lobe_carrier *carrier;
 } lobe_scene_open_parameters;
 
 /// Opens a scene. From a file, everything that its default scene reaches is imported. One warning
 /// names unsupported parts; triangles without area are dropped and normals of length zero
 /// recomputed, each with a warning that counts them. Triangles without normals are flat, as glTF
-/// requires. A missing camera or light is added, with a notice. A file with nothing to draw opens;
-/// lobe_renderer_set_scene rejects it. On failure `*result` is NULL and the log has one message
-/// that names the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED,
-/// _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
+/// requires. A missing camera or light is added, with a notice (see `own_light_only`). A file with
+/// nothing to draw opens; lobe_renderer_set_scene rejects it. On failure `*result` is NULL and the
+/// log has one message that names the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ,
+/// _MALFORMED, _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
 LOBE_API lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
                                           const lobe_host *host, lobe_scene **result);
 
 /// The same, with `scene` alone.
 LOBE_API lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result);
 
-typedef enum lobe_carrier {
-    LOBE_CARRIER_PLANE,  ///< horizontal, seen from above
-    LOBE_CARRIER_SPHERE, ///< seen from the front
-    /// hanging and gently waving, seen at an angle. A texel of the largest map takes half a
-    /// millimetre: at 1280 x 720 pixels, two to eight texels lie across a pixel.
-    LOBE_CARRIER_CLOTH,
-} lobe_carrier;
-
-/// A carrier with the PBR maps of a folder (recognised by their file names: albedo/base/col/diff,
-/// normal/nor, rough, metal, arm/orm, ao, disp/height, ...). At least one map besides that of
-/// heights must be found. Heights are scaled to be as steep as the normal map if there is one of
-/// their extent that agrees with them; else by 0.05. Errors as for lobe_scene_open.
+/// A carrier with the PBR maps of a folder, recognised by the names that ambientCG, Poly Haven,
+/// Quixel, Poliigon, freepbr, Substance, Unity and Unreal give their files (albedo, normal, rough,
+/// metal, gloss, arm, metallicSmoothness, disp, ...). Packed files are taken apart; gloss becomes
+/// roughness. Notices say which file became which map, and which images were ignored. At least one
+/// map besides that of heights must be found; maps of several materials are LOBE_ERROR_UNSUPPORTED,
+/// with a line that lists the materials. Heights are scaled to be as steep as the normal map if
+/// there is one of their extent that agrees with them; else by 0.05. As the folder has no light,
+/// the sky is added, turned so that its sun shows the relief. Errors as for lobe_scene_open.
 LOBE_API lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
                                               const lobe_host *host, lobe_scene **result);
 

@@ -1,6 +1,7 @@
 #include "tests/engine/support/log_recorder.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static void record(void *user, lobe_log_level level, const char *message) {
     log_recorder *recorder = user;
@@ -11,7 +12,10 @@ static void record(void *user, lobe_log_level level, const char *message) {
         recorder->warnings++;
         snprintf(recorder->last_warning, sizeof recorder->last_warning, "%s", message);
     } else if (level == LOBE_LOG_NOTICE) {
+        const size_t length = strlen(recorder->all_notices);
         recorder->notices++;
+        snprintf(recorder->all_notices + length, sizeof recorder->all_notices - length, "%s\n",
+                 message);
     }
 }
 

@@ -9,6 +9,7 @@ typedef struct log_recorder {
     int errors, warnings, notices;
     char last_error[1024];
     char last_warning[1024];
+    char all_notices[4096]; ///< each followed by a line end
 } log_recorder;
 
 /// Starts or restarts; the recorder must not be moved.

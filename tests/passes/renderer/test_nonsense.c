@@ -321,7 +321,7 @@ static void scenes(void **state) {
             lobe_scene_open_with(NULL, &f->host, &scene));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_scene_open",
             lobe_scene_open(NULL, &f->host, &scene));
-    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_scene_open_material",
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_scene_open_with",
             lobe_scene_open_material(NULL, LOBE_CARRIER_PLANE, &f->host, &scene));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "no carrier 9",
             lobe_scene_open_material(".", (lobe_carrier)9, &f->host, &scene));

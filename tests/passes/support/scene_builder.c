@@ -150,7 +150,7 @@ void scene_end(lobe_scene *scene) {
     // A scene without a light would be given one, which no test wants.
     if (scene->light_count == 0 && !scene->environment)
         scene_add_sun(scene, (double[]){0, 1, 0}, 1);
-    require(scenes_complete(scene, NULL));
+    require(scenes_complete(scene, false, NULL));
 }
 
 lobe_material half_vector_material(lobe_distribution distribution, float width) {

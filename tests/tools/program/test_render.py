@@ -210,6 +210,23 @@ def test_gltf_file():
     leaves(folder, "a.gltf", "a.png")
 
 
+def test_light_is_noted_only_where_it_is_added():
+    folder = fresh_folder("note")
+    gltf_write(folder / "a.gltf", gltf_triangle())
+    for options, noted in (([], True), (["--light", "directional:0,-1,-1:1,1,1"], False),
+                           (["--environment", "sky"], False)):
+        result = succeeds("render", folder / "a.gltf", *DIRECT, *options, "-o", folder / "a.png")
+        check(("added the environment" in result.stderr) == noted, report(result))
+
+
+def test_an_empty_picture_is_explained():
+    folder = fresh_folder("empty")
+    gltf_write(folder / "a.gltf", gltf_triangle())
+    result = succeeds("render", folder / "a.gltf", *DIRECT, "--eye", "0,0,5", "--target", "0,0,9",
+                      "-o", folder / "a.png")
+    check("the picture is empty: the camera looks away" in result.stderr, report(result))
+
+
 def test_material_folder():
     folder = fresh_folder("material")
     png_write(folder / "paint_albedo.png", 8, 8, (200, 40, 40))

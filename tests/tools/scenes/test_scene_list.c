@@ -79,7 +79,7 @@ static lobe_scene *open_from(const char *assets, const char *name) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_scene *scene;
-    lobe_result result = scene_list_open(name, assets, &recorder.host, &scene);
+    lobe_result result = scene_list_open(name, assets, false, &recorder.host, &scene);
     if (result != LOBE_OK)
         fail_msg("%s", recorder.last_error);
     assert_int_equal(recorder.errors + recorder.warnings, 0);
@@ -192,7 +192,7 @@ static void assert_not_found(const char *name, const char *assets, const char *f
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_scene *scene = (lobe_scene *)&scene;
-    assert_int_equal(scene_list_open(name, assets, &recorder.host, &scene), LOBE_ERROR_NOT_FOUND);
+    assert_int_equal(scene_list_open(name, assets, false, &recorder.host, &scene), LOBE_ERROR_NOT_FOUND);
     assert_null(scene);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, name));
