@@ -22,9 +22,10 @@ typedef struct filtered_appearance {
     uint64_t base_texels; ///< texels of the base maps that those replace
 } filtered_appearance;
 
-/// Filtered versions of the scene's images in this frame, shared by all materials that use them.
+/// Filtered versions of the scene's images in this frame, shared by all that use them.
 typedef struct filtered_images {
     lobe_resource *resources; ///< one for each image of the scene; version 0: not built yet
+    lobe_resource *masked;    ///< colours of what a mask keeps: one for each material of the scene
     uint64_t bytes;
 } filtered_images;
 

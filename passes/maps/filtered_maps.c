@@ -5,6 +5,7 @@
 #include "passes/context/knob_values.h"
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
+#include "passes/maps/mask_coverage.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/mixture.h"
@@ -88,6 +89,24 @@ static lobe_resource filtered_image(const filter_context *context, const device_
     return reduced.resource;
 }
 
+/// The colours that a material's mask keeps; once for all instances.
+static lobe_resource masked_colours(const filter_context *context, uint32_t index) {
+    lobe_resource *masked = &context->images->masked[index];
+    if (masked->version != 0)
+        return *masked;
+    reduced_map map = passes_mask_coverage(context, index);
+    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
+    *masked = map.resource;
+    return map.resource;
+}
+
+static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {
+    const device_material *material = &context->scene->materials[index];
+    return map == MAP_BASE_COLOUR && material->material->alpha_mask
+               ? masked_colours(context, index)
+               : filtered_image(context, material, map);
+}
+
 /// Maps of one texel are their own mean.
 static bool needs_filtering(const device_material *material, uint32_t map) {
     const device_map *source = &material->maps[map];
@@ -135,7 +154,7 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
             continue;
         bool build = needs_filtering(material, map);
         lobe_resource resource =
-            build ? filtered_image(context, material, map)
+            build ? filtered_map(context, index, map)
                   : lobe_graph_import_texture(context->graph, context->scene->white);
         passes_appearance_bind(appearance, filtered_names[map], resource,
                                passes_filtered_map_sampler(material, map));

@@ -4,7 +4,8 @@
 #include "passes/context/filter.h"
 
 /// Adds what shaders/shading/filtered_maps.glsl reads: the colour maps of a material, filtered
-/// linearly (each image once for all materials), and the knobs of the footprint.
+/// linearly (each image once for all materials; the base colours under a mask as in
+/// passes/maps/mask_coverage.h), and the knobs of the footprint.
 void passes_filtered_maps_build(const filter_context *context, uint32_t material,
                                 filtered_appearance *appearance);
 

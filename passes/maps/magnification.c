@@ -60,8 +60,8 @@ bool passes_may_be_magnified(const filter_context *context, uint32_t material, u
     for (size_t i = 0; i < scene->scene->instance_count; i++) {
         if (scene->instances[i].material != material)
             continue;
-        float density = scene->densities[scene->instances[i].mesh].least[use->texture_coordinates] /
-                        stretch(context, i);
+        const mesh_measures *mesh = &scene->measures[scene->instances[i].mesh];
+        float density = mesh->least_density[use->texture_coordinates] / stretch(context, i);
         double footprint = texels * density * pixel_size(context, nearest_depth(context, i));
         if (!(log2(footprint / probes) + bias >= 1))
             return true;

@@ -37,7 +37,8 @@ static void build_appearance(rendering *r, size_t instance, filtered_appearance 
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     filtered_appearance *appearances = r->renderer->appearances;
-    memset(r->images.resources, 0, scene->image_count * sizeof *r->images.resources);
+    memset(r->images.resources, 0,
+           (scene->image_count + scene->material_count) * sizeof *r->images.resources);
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
     for (size_t i = 0; i < scene->instance_count; i++) {

@@ -57,8 +57,9 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
         return result;
     renderer->appearances = lobe_allocate(renderer->host.allocator, scene->instance_count,
                                           sizeof *renderer->appearances);
-    renderer->filtered_images = lobe_allocate(renderer->host.allocator, scene->image_count + 1,
-                                              sizeof *renderer->filtered_images);
+    renderer->filtered_images =
+        lobe_allocate(renderer->host.allocator, scene->image_count + scene->material_count + 1,
+                      sizeof *renderer->filtered_images);
     if (renderer->appearances && renderer->filtered_images)
         return LOBE_OK;
     forget_scene(renderer);

@@ -12,7 +12,7 @@ struct lobe_renderer {
     lobe_graph *graph;
     device_scene *scene;                ///< NULL: none is set
     filtered_appearance *appearances;   ///< one per instance of the scene
-    lobe_resource *filtered_images;     ///< one per image of the scene
+    lobe_resource *filtered_images;     ///< one per image of the scene, then one per material
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;

@@ -35,19 +35,33 @@ static double coordinates_area(const lobe_scene_vertex *corners[3], int set) {
                       ((double)b[1] - a[1]) * ((double)c[0] - a[0]));
 }
 
-static mesh_density measure_density(const lobe_mesh *mesh) {
-    mesh_density density = {{INFINITY, INFINITY}};
+static void measure_alpha(const lobe_mesh *mesh, mesh_measures *measures) {
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        float alpha = mesh->vertices[i].colour[3];
+        measures->least_alpha = fminf(measures->least_alpha, alpha);
+        measures->largest_alpha = fmaxf(measures->largest_alpha, alpha);
+    }
+}
+
+static void measure_density(const lobe_mesh *mesh, mesh_measures *measures) {
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         const lobe_scene_vertex *corners[3];
         for (size_t corner = 0; corner < 3; corner++)
             corners[corner] = &mesh->vertices[mesh->indices[i + corner]];
         double area = triangle_area(corners);
         for (int set = 0; area > 0 && set < 2; set++)
-            density.least[set] =
-                fminf(density.least[set], (float)sqrt(coordinates_area(corners, set) / area));
+            measures->least_density[set] = fminf(
+                measures->least_density[set], (float)sqrt(coordinates_area(corners, set) / area));
     }
-    return density;
 }
+
+static mesh_measures measure(const lobe_mesh *mesh) {
+    mesh_measures measures = {{INFINITY, INFINITY}, INFINITY, -INFINITY};
+    measure_density(mesh, &measures);
+    measure_alpha(mesh, &measures);
+    return measures;
+}
+
 lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
                                             uint32_t index) {
     const lobe_mesh *mesh = &scene->scene->meshes[index];
@@ -59,7 +73,7 @@ lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *s
         &scene->vertices[index]);
     if (status != LOBE_OK)
         return status;
-    scene->densities[index] = measure_density(mesh);
+    scene->measures[index] = measure(mesh);
     char name[128];
     snprintf(name, sizeof name, "indices of %s", mesh->name);
     return lobe_buffer_create(

@@ -39,12 +39,13 @@ typedef struct device_instance {
     bool is_atlas;
 } device_instance;
 
-/// How densely texture coordinates are laid out over a mesh: the smallest length in texture
-/// coordinates (the root of their area) per metre (the root of the triangle's area) over all
-/// triangles, for both sets.
-typedef struct mesh_density {
-    float least[2];
-} mesh_density;
+typedef struct mesh_measures {
+    /// How densely both sets of texture coordinates are laid out: the smallest length in texture
+    /// coordinates (the root of their area) per metre (the root of the triangle's area) over all
+    /// triangles.
+    float least_density[2];
+    float least_alpha, largest_alpha; ///< of the vertices' colours
+} mesh_measures;
 
 /// The device's copy of a scene: only what instances use.
 typedef struct device_scene {
@@ -56,7 +57,7 @@ typedef struct device_scene {
     device_material *materials;
     lobe_buffer **vertices; ///< one for each mesh; NULL: not used
     lobe_buffer **indices;
-    mesh_density *densities; ///< one for each mesh
+    mesh_measures *measures; ///< one for each mesh
     device_instance *instances;
 } device_scene;
 

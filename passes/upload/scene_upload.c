@@ -29,12 +29,12 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->vertices);
     result->indices =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
-    result->densities =
-        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->densities);
+    result->measures =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
     result->instances =
         lobe_allocate(result->allocator, scene->instance_count + 1, sizeof *result->instances);
     return result->images && result->materials && result->vertices && result->indices &&
-           result->densities && result->instances;
+           result->measures && result->instances;
 }
 
 lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
@@ -86,7 +86,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->materials);
     lobe_release(s->vertices);
     lobe_release(s->indices);
-    lobe_release(s->densities);
+    lobe_release(s->measures);
     lobe_release(s->instances);
     lobe_release(s);
     *scene = NULL;

@@ -11,7 +11,7 @@
 struct appearance {
     base_material base;
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;      // in the tangent frame
     float lobe_count; // lobes evaluated for one light
     float level;      // MIP level, 0: the maps themselves
@@ -21,9 +21,7 @@ appearance fetch_appearance(surface_point surface) {
     appearance result;
     result.base = unfiltered_material(surface);
     result.normal = result.base.normal;
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = unfiltered_base_colour(surface).a * material.base_colour.a * surface.colour.a;
+    result.kept = !ALPHA_MASK || is_kept(unfiltered_base_colour(surface).a, surface);
     result.emission = vec3(0.0);
     if (EMISSION)
         result.emission = unfiltered_texel(MAP_EMISSIVE, emissive_map, surface).rgb;

@@ -8,6 +8,7 @@
 // each sector and its halves.
 
 #include "shading/filtered_maps.glsl"
+#include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/lobe/dispersion.glsl"
 
@@ -59,7 +60,7 @@ struct appearance {
     float spread;       // [0, 1]: part of the breadth that is due to varying normals
     // Of the whole pixel.
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;
     float lobe_count;
     float level;
@@ -331,10 +332,7 @@ appearance fetch_appearance(surface_point surface) {
     if (MIXTURE && MODEL == MODEL_MICROFACET)
         result.filtered.width = base_lobe_of_concentration(
             DISTRIBUTION, concentration_from_complement(result.base_complement));
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface, result.area).a * material.base_colour.a *
-                       surface.colour.a;
+    result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
     return result;
 }

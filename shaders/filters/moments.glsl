@@ -4,6 +4,7 @@
 // LEAN Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
 
 #include "shading/filtered_maps.glsl"
+#include "shading/mask.glsl"
 #include "interface/moment_bins.h"
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/lobe/lambert_plane.glsl"
@@ -42,7 +43,7 @@ struct appearance {
     light_sum first, second, third, fourth;
     // Of the whole pixel.
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;
     float lobe_count;
     float level;
@@ -259,10 +260,7 @@ appearance fetch_appearance(surface_point surface) {
         if (may_see_level_0(lobe_map()))
             result.base = unfiltered_material(surface);
     }
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface, result.area).a * material.base_colour.a *
-                       surface.colour.a;
+    result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
     return result;
 }

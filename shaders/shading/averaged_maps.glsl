@@ -5,6 +5,7 @@
 // if they were one texel's.
 
 #include "shading/filtered_maps.glsl"
+#include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 
 #ifdef ENVIRONMENT
@@ -21,7 +22,7 @@ struct appearance {
     base_material base;
     vec3 mean_normal; // of any length up to one
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;
     float lobe_count;
     float level;
@@ -60,10 +61,7 @@ appearance fetch_appearance(surface_point surface) {
     result.base = filtered_material(surface, result.normal, area);
     if (AVERAGED)
         result.base.width = width_from_average(averages.w);
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface, area).a * material.base_colour.a *
-                       surface.colour.a;
+    result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
     result.lobe_count = float(LOBE_COUNT);
     result.level = AVERAGED ? area.level : 0.0;

@@ -82,13 +82,26 @@ vec2 probe_position(map_area area, uint probe) {
     return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
 }
 
+bool is_masked(int map) {
+    return ALPHA_MASK && map == MAP_BASE_COLOUR;
+}
+
+// What the filtered map holds, from a sample of the base map. Under a mask that is what is kept,
+// premultiplied, and its share (maps/mask_coverage.comp).
+vec4 filterable(int map, vec4 texel, surface_point surface) {
+    if (!is_masked(map))
+        return texel;
+    return is_kept(texel.a, surface) ? vec4(texel.rgb, 1.0) : vec4(0.0);
+}
+
 // `lobes`: the area of the lobes' map, reused for maps with the same layout.
 vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface,
                     map_area lobes) {
     if (!has_map(map))
-        return vec4(1.0);
+        return filterable(map, vec4(1.0), surface);
     if ((COLOUR_MAPS & (1u << map)) == 0u)
-        return textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0);
+        return filterable(
+            map, textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0), surface);
     map_area area = lobes;
     if ((LIKE_LOBES & (1u << map)) == 0u)
         area = area_of(map, vec2(textureSize(base, 0)), surface);
@@ -97,14 +110,18 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
         vec2 position = probe_position(area, i);
         vec4 value = textureLod(filtered, position, max(area.level - 1.0, 0.0));
         if (may_see_level_0(map))
-            value = mix(textureLod(base, position, 0.0), value, min(area.level, 1.0));
+            value = mix(filterable(map, textureLod(base, position, 0.0), surface), value,
+                        min(area.level, 1.0));
         sum += value;
     }
     return sum / float(probes_of(area));
 }
 
+// The mean colour; under a mask, that of what is kept.
 vec4 filtered_base_colour(surface_point surface, map_area lobes) {
-    return filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface, lobes);
+    vec4 value =
+        filtered_texel(MAP_BASE_COLOUR, base_colour_map, base_colour_filtered, surface, lobes);
+    return ALPHA_MASK ? vec4(value.rgb / max(value.a, 1e-6), value.a) : value;
 }
 
 vec3 filtered_emission(surface_point surface, map_area lobes) {

@@ -4,7 +4,7 @@
 // Shades a pixel under punctual lights from the appearance that the filter fetches. The build makes
 // one variant of this shader for each file in filters/. Such a file defines:
 //
-//   struct appearance                           with emission, alpha, normal, lobe_count, level
+//   struct appearance                           with emission, kept, normal, lobe_count, level
 //   appearance fetch_appearance(surface_point)  the appearance of the pixel's footprint
 //   void gather_lights(inout appearance, surface_point, vec3 incoming[4])
 //                                               prepares up to LIGHTS_AT_ONCE directions, so
@@ -68,7 +68,7 @@ vec3 environment_light(inout appearance fetched, surface_point surface) {
 void main() {
     surface_point surface = read_surface();
     appearance fetched = fetch_appearance(surface);
-    if (ALPHA_MASK && fetched.alpha < material.emissive.w)
+    if (ALPHA_MASK && !fetched.kept)
         discard;
 
     // Shades even for the views of lobes and levels, which count what shading used.

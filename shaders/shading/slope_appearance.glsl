@@ -10,6 +10,7 @@
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
 //                                                 like gather_lights and evaluate_appearance
 
+#include "shading/mask.glsl"
 #include "shading/slope_maps.glsl"
 
 struct appearance {
@@ -20,7 +21,7 @@ struct appearance {
     float base_share; // [0, 1]: how much of the appearance is level 0
     vec4 gathered;    // what the filter keeps for each of the lights gathered last
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;
     float lobe_count;
     float level;
@@ -59,10 +60,7 @@ appearance fetch_appearance(surface_point surface) {
         result.filtered.width =
             base_lobe_of_concentration(DISTRIBUTION, 1.0 / result.moments.base_variance);
     result.gathered = vec4(0.0);
-    result.alpha = 1.0;
-    if (ALPHA_MASK)
-        result.alpha = filtered_base_colour(surface, area).a * material.base_colour.a *
-                       surface.colour.a;
+    result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
     result.lobe_count = (result.base_share > 0.0 ? float(LOBE_COUNT) : 0.0) +
                         (result.base_share < 1.0 ? 1.0 : 0.0);

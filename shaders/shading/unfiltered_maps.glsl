@@ -21,6 +21,11 @@ vec4 unfiltered_base_colour(surface_point surface) {
     return unfiltered_texel(MAP_BASE_COLOUR, base_colour_map, surface);
 }
 
+// Whether the mask keeps a texel with this alpha: glTF 2.0, section 3.9.4.
+bool is_kept(float alpha, surface_point surface) {
+    return !(alpha * material.base_colour.a * surface.colour.a < material.emissive.w);
+}
+
 // glTF 2.0, section 3.9.3, for a texel of the occlusion map or a mean of texels.
 float unoccluded(float texel) {
     return has_map(MAP_OCCLUSION) ? 1.0 + material.occlusion_strength * (texel - 1.0) : 1.0;

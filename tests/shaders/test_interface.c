@@ -17,6 +17,7 @@
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/light.h"
 #include "shaders/interface/lobe_grid.h"
+#include "shaders/interface/mask.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
@@ -46,6 +47,11 @@ static known_member known[] = {
     MEMBER(background_constants, down, 2),
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
+    MEMBER(mask_constants, width, 0),
+    MEMBER(mask_constants, height, 1),
+    MEMBER(mask_constants, interpolated, 2),
+    MEMBER(mask_constants, alpha, 3),
+    MEMBER(mask_constants, cutoff, 4),
     MEMBER(atlas_constants, rotation, 0),
     MEMBER(atlas_constants, eye, 1),
     MEMBER(atlas_constants, width, 2),

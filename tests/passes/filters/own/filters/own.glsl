@@ -15,14 +15,14 @@ layout(set = 0, binding = 60, std140) uniform own_block { vec4 mean_colour; };
 
 struct appearance {
     vec3 emission;
-    float alpha;
+    bool kept;
     vec3 normal;
     float lobe_count;
     float level;
 };
 
 appearance fetch_appearance(surface_point surface) {
-    return appearance(vec3(0.0), 1.0, vec3(0.0, 0.0, 1.0), 0.0, 0.0);
+    return appearance(vec3(0.0), true, vec3(0.0, 0.0, 1.0), 0.0, 0.0);
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {

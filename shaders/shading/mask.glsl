@@ -1,0 +1,48 @@
+#ifndef MASK_GLSL
+#define MASK_GLSL
+
+// Which pixels show a masked surface: as many of them as its coverage says, the part of a pixel's
+// footprint that the mask keeps. Where the map is magnified, that is all or nothing: a sharp cut.
+//
+// One fetch is enough for a long footprint: the pixels around stand for its other parts.
+
+#include "lib/map/ordered_dither.glsl"
+#include "shading/filtered_maps.glsl"
+
+// How many times longer than wide a footprint may be before it is taken to be wider.
+const float LONGEST_MASK = 16.0;
+
+// In an octave of distance: layers farther apart than one part are dithered independently, so that
+// they do not hide the same pixels.
+const float DITHER_LAYERS = 16.0;
+
+// The mask's coverage, at one place within the footprint; `along`: where, in [0, 1].
+float mask_coverage(surface_point surface, float along) {
+    vec2 size = vec2(textureSize(base_colour_map, 0));
+    footprint pixel =
+        footprint_of(map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dx, 0.0) * size,
+                     map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dy, 0.0) * size);
+    float width = max(pixel.minor_axis, pixel.major_axis / LONGEST_MASK);
+    vec2 offset = pixel.direction * ((pixel.major_axis - width) * (along - 0.5));
+    vec2 position = map_coordinates(MAP_BASE_COLOUR, surface.coordinates, 1.0) + offset / size;
+    float level = log2(max(width, 1e-6)) + knobs.level_bias;
+    vec4 finest = textureLod(base_colour_map, position, 0.0);
+    float coverage = filterable(MAP_BASE_COLOUR, finest, surface).a;
+    return mix(coverage, textureLod(base_colour_filtered, position, max(level - 1.0, 0.0)).a,
+               clamp(level, 0.0, 1.0));
+}
+
+bool keeps_footprint(surface_point surface) {
+    // Where even a texel of alpha 1 is cut away: the filtered map knows one alpha of all vertices.
+    if (!is_kept(1.0, surface))
+        return false;
+    if ((COLOUR_MAPS & (1u << MAP_BASE_COLOUR)) == 0u)
+        return is_kept(unfiltered_base_colour(surface).a, surface);
+    float depth = dot(frame.axis.xyz, surface.world_position) - frame.axis.w;
+    uint layer = uint(int(floor(DITHER_LAYERS * log2(max(depth, 1e-30)))));
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    float along = ordered_dither(pixel, 2u * layer);
+    return mask_coverage(surface, along) > ordered_dither(pixel, 2u * layer + 1u);
+}
+
+#endif

@@ -1,0 +1,197 @@
+// Masked surfaces: as much of them is seen from afar as from near, in every filter; and materials
+// without a mask pay nothing.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <lobe/filter.h>
+
+#include "tests/passes/support/mask_reference.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+/// A prime number of pixels, so that they are in step with no map.
+enum { MAP = 32, EXTENT = 131 };
+
+typedef struct mask_scene {
+    mask_pattern pattern;
+    bool nearest;
+    float cutoff;
+    double tiles;        ///< how often the map repeats
+    double vertex_alpha; ///< 0: the mesh has no colours
+} mask_scene;
+
+static lobe_scene *masked_square(const mask_scene *wanted) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
+    memset(material.lobes[0].colour, 0, sizeof material.lobes[0].colour);
+    for (int i = 0; i < 3; i++)
+        material.base_colour[i] = 1;
+    material.double_sided = material.alpha_mask = true;
+    material.alpha_cutoff = wanted->cutoff;
+    material.base_colour_map = scene_add_map(scene, mask_image(wanted->pattern, MAP, MAP));
+    material.base_colour_map.nearest = wanted->nearest;
+    scene_add_square(scene, &material, wanted->tiles, NULL);
+    lobe_mesh *mesh = &scene->meshes[0];
+    mesh->has_colour = wanted->vertex_alpha > 0;
+    for (size_t i = 0; mesh->has_colour && i < mesh->vertex_count; i++)
+        mesh->vertices[i].colour[3] = (float)wanted->vertex_alpha;
+    scene_add_sun(scene, (double[]){0, 1, 0}, M_PI);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
+static void mean_of_picture(const lobe_image *picture, double mean[3]) {
+    memset(mean, 0, 3 * sizeof *mean);
+    for (uint32_t i = 0; i < picture->width * picture->height; i++)
+        for (int channel = 0; channel < 3; channel++)
+            mean[channel] += (double)((const float *)picture->texels)[4 * i + (uint32_t)channel] /
+                             (picture->width * picture->height);
+}
+
+/// The square fills the picture and the light makes white 1: the picture's mean is that of what the
+/// mask keeps. Within 5 %, where chance leaves 1 % of a coverage of a third.
+static void check_mean(fixture *f, const char *filter, const mask_scene *wanted,
+                       const double exact[4]) {
+    lobe_scene *scene = masked_square(wanted);
+    picture_request request = {.filter = filter, .width = EXTENT, .height = EXTENT};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    double mean[3];
+    mean_of_picture(&frame.radiance, mean);
+    for (int channel = 0; channel < 3; channel++)
+        if (!(fabs(mean[channel] - exact[channel]) <= 0.05 * exact[channel] + 0.002))
+            fail_msg("%s, pattern %d%s, cutoff %g, %g tiles, channel %d: %g instead of %g", filter,
+                     wanted->pattern, wanted->nearest ? " (nearest)" : "", (double)wanted->cutoff,
+                     wanted->tiles, channel, mean[channel], exact[channel]);
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+}
+
+/// `filter`: NULL: all filters. Distances from less than a texel to a pixel to more than the whole
+/// map in one.
+static void check_distances(fixture *f, const char *filter, mask_scene wanted) {
+    static const double distances[] = {3, 5, 10, 96};
+    lobe_image image = mask_image(wanted.pattern, MAP, MAP);
+    double factor = wanted.vertex_alpha > 0 ? wanted.vertex_alpha : 1;
+    double exact[4];
+    mask_mean(&image, wanted.nearest, wanted.cutoff / factor, (double[]){0, 0},
+              (double[]){MAP, MAP}, exact);
+    lobe_image_free(&image);
+    for (int distance = 0; distance < 4; distance++) {
+        wanted.tiles = distances[distance];
+        for (size_t i = 0; i < lobe_filter_count(); i++) {
+            const char *name = lobe_filter_name(lobe_filter_get(i));
+            if (filter ? strcmp(name, filter) == 0 : strcmp(name, "direct") != 0)
+                check_mean(f, name, &wanted, exact);
+        }
+    }
+}
+
+static void coverage_is_kept_at_every_distance(void **state) {
+    static const float cutoffs[] = {0.1f, 0.5f, 0.9f};
+    for (int pattern = 0; pattern < MASK_PATTERN_COUNT; pattern++)
+        for (int i = 0; i < 6; i++)
+            check_distances(*state, "mipmap",
+                            (mask_scene){.pattern = (mask_pattern)pattern,
+                                         .nearest = i % 2,
+                                         .cutoff = cutoffs[i / 2]});
+}
+
+static void every_filter_keeps_coverage(void **state) {
+    check_distances(*state, NULL, (mask_scene){.pattern = MASK_DISCS, .cutoff = 0.6f});
+}
+
+/// The colours of vertices multiply alpha before it meets the cutoff.
+static void vertices_thin_the_mask(void **state) {
+    check_distances(*state, "mipmap",
+                    (mask_scene){.pattern = MASK_SMOOTH, .cutoff = 0.3f, .vertex_alpha = 0.6});
+    check_distances(*state, "mipmap",
+                    (mask_scene){.pattern = MASK_SMOOTH, .cutoff = 0.7f, .vertex_alpha = 0.6});
+}
+
+/// Near, the edge is the base material's: sharp, at the same pixels.
+static void near_edges_are_sharp(void **state) {
+    lobe_scene *scene = masked_square(&(mask_scene){MASK_DISCS, false, 0.5f, 1, 0});
+    picture_request request = {.filter = "direct", .width = EXTENT, .height = EXTENT};
+    lobe_frame direct = draw_scene(*state, scene, &request);
+    request.filter = "lobes";
+    lobe_frame filtered = draw_scene(*state, scene, &request);
+    assert_true(largest_difference(&filtered.radiance, &direct.radiance) < 1e-5);
+    lobe_frame_free(&direct);
+    lobe_frame_free(&filtered);
+    lobe_scene_destroy(&scene);
+}
+
+/// The dither is fixed to the picture: a still camera sees the same pixels in each frame, and a
+/// new renderer as well. From below, the same coverage.
+static void pictures_do_not_flicker(void **state) {
+    fixture *f = *state;
+    const mask_scene wanted = {MASK_SMOOTH, false, 0.5f, 10, 0};
+    lobe_scene *scene = masked_square(&wanted);
+    picture_request request = {.filter = "lobes", .width = EXTENT, .height = EXTENT};
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    lobe_frame first = draw(f, &request), second = draw(f, &request);
+    lobe_frame third = draw_scene(f, scene, &request);
+    assert_int_equal(image_hash(&first.radiance), image_hash(&second.radiance));
+    assert_int_equal(image_hash(&first.radiance), image_hash(&third.radiance));
+    double front[3], back[3];
+    mean_of_picture(&first.radiance, front);
+    scene->lights[0].direction[1] = 1;
+    scene_look_from(scene, (double[]){0, -1, 0}, 2);
+    lobe_frame below = draw_scene(f, scene, &request);
+    mean_of_picture(&below.radiance, back);
+    assert_true(front[0] > 0 && fabs(back[0] - front[0]) <= 0.02);
+    lobe_frame_free(&first);
+    lobe_frame_free(&second);
+    lobe_frame_free(&third);
+    lobe_frame_free(&below);
+    lobe_scene_destroy(&scene);
+}
+
+static size_t times_run(const lobe_frame *frame, const char *name) {
+    size_t count = 0;
+    for (size_t i = 0; i < frame->pass_count; i++)
+        count += strcmp(frame->passes[i].name, name) == 0;
+    return count;
+}
+
+static void coverage_is_built_once_and_only_for_masks(void **state) {
+    fixture *f = *state;
+    for (int masked = 0; masked < 2; masked++) {
+        lobe_scene *scene = masked_square(&(mask_scene){MASK_SMOOTH, false, 0.5f, 10, 0});
+        scene->materials[0].alpha_mask = masked;
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+        picture_request request = {.filter = "lobes", .width = 8, .height = 8};
+        for (int i = 0; i < 2; i++) {
+            lobe_frame frame = draw(f, &request);
+            assert_int_equal(times_run(&frame, "mask_coverage"), masked && i == 0);
+            lobe_frame_free(&frame);
+        }
+        // Another cutoff is another map.
+        scene->materials[0].alpha_cutoff = 0.4f;
+        assert_int_equal(lobe_renderer_update_scene(
+                             f->renderer, &(lobe_scene_changes){.materials = (uint32_t[]){0},
+                                                                .material_count = 1}),
+                         LOBE_OK);
+        lobe_frame frame = draw(f, &request);
+        assert_int_equal(times_run(&frame, "mask_coverage"), masked);
+        lobe_frame_free(&frame);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+        lobe_scene_destroy(&scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coverage_is_kept_at_every_distance),
+        cmocka_unit_test(every_filter_keeps_coverage),
+        cmocka_unit_test(vertices_thin_the_mask),
+        cmocka_unit_test(near_edges_are_sharp),
+        cmocka_unit_test(pictures_do_not_flicker),
+        cmocka_unit_test(coverage_is_built_once_and_only_for_masks),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
