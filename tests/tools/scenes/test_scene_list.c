@@ -192,7 +192,8 @@ static void assert_not_found(const char *name, const char *assets, const char *f
     log_recorder recorder;
     log_recorder_start(&recorder);
     lobe_scene *scene = (lobe_scene *)&scene;
-    assert_int_equal(scene_list_open(name, assets, false, &recorder.host, &scene), LOBE_ERROR_NOT_FOUND);
+    assert_int_equal(scene_list_open(name, assets, false, &recorder.host, &scene),
+                     LOBE_ERROR_NOT_FOUND);
     assert_null(scene);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, name));
