@@ -5,6 +5,12 @@
 
 #include "shading/base_material.glsl"
 #include "environment/environment.glsl"
+#include "interface/irradiance_harmonics.h"
+#include "lib/light/spherical_harmonics.glsl"
+
+layout(set = 0, binding = 29, std430) readonly buffer irradiance_block {
+    irradiance_harmonics irradiance;
+};
 
 const vec3 SURFACE_NORMAL = vec3(0.0, 0.0, 1.0);
 
@@ -150,6 +156,117 @@ vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) 
     float wide = share_of_wide_slopes(lobe);
     uint side = wide > 0.0 ? ENVIRONMENT_GRID : 0u;
     return mix(light, sampled_half_vectors(surface, lobe, side), wide);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Microfacets, about a normal of their own
+
+// A lobe is broader than base lobes of this parameter because the normals vary. If both are
+// Gaussian, the mean normal of the facets that reflect about a half vector lies between the axis
+// and the half vector. [0, 1]: how far.
+float spread_of_normals(direction_lobe lobe, float parameter) {
+    float base = 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
+    return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
+}
+
+vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter) {
+    float spread = spread_of_normals(lobe.shape, parameter);
+    float mean_cosine = dot(lobe.shape.axis, surface.outgoing);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
+        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
+            half_vector_sample point = sample_of(lobe, j, k);
+            float half_cosine = dot(surface.outgoing, point.half_vector);
+            vec3 incoming = 2.0 * half_cosine * point.half_vector - surface.outgoing;
+            vec3 normal = normalize(mix(lobe.shape.axis, point.half_vector, spread));
+            float outgoing_cosine = max(dot(normal, surface.outgoing), 1e-3);
+            float visible = masking_shadowing(DISTRIBUTION, dot(normal, incoming), outgoing_cosine,
+                                              parameter);
+            float scale = max(half_cosine, 0.0) /
+                          (outgoing_cosine * max(dot(normal, point.half_vector), 1e-3));
+            float seen = above_horizon(incoming) ? visible * scale : 0.0;
+            vec3 fresnel = fresnel_schlick(f0, vec3(1.0), half_cosine);
+            sum += point.weight * seen * fresnel * sample_radiance(surface, point, incoming);
+            weights += point.weight;
+        }
+    }
+    return sum * (scattering_scale(f0, mean_cosine, parameter) / weights);
+}
+
+// Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, the reflection of a
+// white environment and the mean of the environment over the lobe.
+//
+// `parameter` is that of the base lobes and determines masking. The albedo for a white environment
+// accounts for the base lobes' own horizon, but not for the surface's.
+vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter) {
+    if (sampled_by_grid())
+        return sampled_microfacets(surface, lobe, f0, parameter);
+    vec3 normal = lobe.shape.axis;
+    float outgoing_cosine = dot(normal, surface.outgoing);
+    vec3 reflected = specular_albedo(albedo_of(outgoing_cosine, parameter), f0, vec3(1.0)) *
+                     scattering_scale(f0, outgoing_cosine, parameter);
+    direction_lobe incoming = reflected_lobe(lobe.shape, surface.outgoing);
+    if (HORIZON != HORIZON_IGNORED) {
+        float own = max(lobe_share_above(incoming, normal), 0.05);
+        reflected *= min(lobe_share_above(incoming, SURFACE_NORMAL) / own, 1.0);
+    }
+    if (HORIZON == HORIZON_CLIPPED)
+        incoming = lobe_above(lobe_above(incoming, normal), SURFACE_NORMAL);
+    return reflected * lobe_radiance(surface, lobe, incoming);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Lambert's part
+
+// Irradiance over pi, for a mean normal of at most unit length.
+vec3 mean_irradiance(surface_point surface, vec3 mean_normal) {
+    vec3 normal = to_environment(surface, mean_normal);
+    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP)
+        return environment.intensity * length(mean_normal) *
+               textureLod(environment_cube, normal, 16.0).rgb;
+    return (environment.intensity * INVERSE_PI) *
+           harmonic_irradiance_of_mean_normal(irradiance.coefficients, normal);
+}
+
+// The albedo of what microfacets let through: 1 - F = (1 - F0) (1 - (1 - c)^5).
+vec3 let_through(surface_point surface, base_material base) {
+    if (MODEL != MODEL_MICROFACET)
+        return base.diffuse;
+    vec4 albedo = albedo_of(dot(base.normal, surface.outgoing), base.width);
+    return diffuse_albedo(albedo, base.diffuse, base.specular, vec3(1.0));
+}
+
+vec3 reflect_lambert(surface_point surface, base_material base, vec3 mean_normal) {
+    return let_through(surface, base) * mean_irradiance(surface, mean_normal);
+}
+
+// ---------------------------------------------------------------------------------------------
+// A base material
+
+vec3 reflect_base_specular(surface_point surface, base_material base) {
+    if (MODEL == MODEL_MICROFACET) {
+        float width = widened_width(base);
+        return reflect_microfacets(surface, base_half_vectors(base.normal, width, surface.outgoing),
+                                   base.specular, width);
+    }
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
+        float parameter = widened_lobe_parameter(i, base);
+        sum += material.lobe_colour[i].rgb *
+               reflect_half_vectors(surface, base_half_vectors(axis, parameter, surface.outgoing));
+    }
+    return base.specular * sum;
+}
+
+vec3 reflect_base_material(surface_point surface, base_material base, vec3 mean_normal) {
+    vec3 sum = reflect_base_specular(surface, base);
+    if (DIFFUSE)
+        sum += reflect_lambert(surface, base, mean_normal);
+    return sum;
 }
 
 #endif

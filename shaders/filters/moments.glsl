@@ -12,7 +12,7 @@
 #include "lib/lobe/plane_lobe.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/reflection.glsl"
+#include "environment/lobes.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;

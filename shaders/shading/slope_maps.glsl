@@ -10,7 +10,7 @@
 #include "lib/microfacet/tilted_slopes.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/reflection.glsl"
+#include "environment/lobes.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
