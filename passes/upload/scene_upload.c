@@ -1,6 +1,7 @@
 #include "passes/upload/scene_upload.h"
 
 #include "passes/upload/device_scene_parts.h"
+#include "passes/upload/frame_check.h"
 #include "passes/upload/scene_check.h"
 
 static lobe_result upload_white(lobe_device *device, device_scene *result) {
@@ -51,6 +52,8 @@ lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *sc
         goto fail;
     }
     status = passes_scene_check_arrays(scene, host);
+    if (status == LOBE_OK)
+        status = passes_check_frame(scene, host);
     if (status == LOBE_OK)
         status = upload_white(device, *result);
     if (status == LOBE_OK)
