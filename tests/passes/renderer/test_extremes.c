@@ -225,7 +225,7 @@ static void light_at_a_pixel(lobe_scene *scene) {
 
 static void light_behind(lobe_scene *scene) {
     scene->lights[0].position[1] = -1;
-    scene->lights[1].direction[1] = 1;
+    scene->lights[1].direction[1] *= -1;
 }
 
 /// Light from opposite the viewer: half vectors of opposite directions.
