@@ -17,8 +17,8 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
                                    const reference_moment_bins *partition, bool as_lobe);
 
 /// Radiance, for an irradiance of one perpendicular to the light, of a material without colour maps
-/// (except for microfacets' metal, whose means are the bins') from the means over a footprint, layer
-/// after layer. Directions of unit length, in the tangent frame.
+/// (except for microfacets' metal, whose means are the bins') from the means over a footprint,
+/// layer after layer. Directions of unit length, in the tangent frame.
 void shade_moments(const lobe_material *material, const reference_moment_bins *partition,
                    const double *moments, const double outgoing[3], const double incoming[3],
                    double radiance[3]);
