@@ -3,6 +3,7 @@
 #include "passes/maps/slope_moments.h"
 #include "shaders/interface/slope_moments.h"
 
+static const char *const base_planes[] = {"facets", "surface", NULL};
 static const char *const grids[] = {"3", "5", "7", NULL};
 
 static const filter_knob grid_knob = {
@@ -15,6 +16,15 @@ static const filter_knob grid_knob = {
                     .sweep = "3,7"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_GRID),
 };
+static const filter_knob base_plane_knob = {
+    .description = {.name = "base_plane",
+                    .summary = "the plane over which the roughness of base lobes is added: that of "
+                               "the mean facet or, as in the paper, the surface's",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = base_planes},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_BASE_PLANE),
+};
 static const filter_knob height_knob = {
     .description = {.name = "height",
                     .summary = "scales the relief of the maps; 0: flat",
@@ -23,13 +33,8 @@ static const filter_knob height_knob = {
     .feeds = KNOB_FEEDS_FILTER(leadr_knobs, height),
 };
 static const filter_knob *const knobs[] = {
-    &grid_knob,
-    &height_knob,
-    &passes_knob_probes,
-    &passes_knob_bias,
-    &passes_knob_curvature,
-    &passes_knob_storage,
-    NULL,
+    &grid_knob,        &base_plane_knob,       &height_knob,         &passes_knob_probes,
+    &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
 };
 
 static const char *ignores(const lobe_material *material) {

@@ -5,12 +5,14 @@
 //
 // The covariance of the base lobes is added over the plane of the mean normal, to first order, so
 // that narrow lobes match the base material. The paper adds it over the surface's plane, which
-// makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees.
+// makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees
+// (BASE_PLANE_SURFACE).
 
 #include "shading/slope_maps.glsl"
 #include "lib/microfacet/slope_masking.glsl"
 
 layout(constant_id = SPECIALISE_GRID) const uint GRID_CHOICE = 1;
+layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
 
 layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
     leadr_knobs filter_knobs;
@@ -37,7 +39,9 @@ struct footprint_lobe {
 #include "shading/slope_appearance.glsl"
 
 footprint_lobe footprint_lobe_of(slope_moments moments) {
-    vec3 base = flat_covariance_of_tilted(moments.mean, moments.base_variance);
+    vec3 base = BASE_PLANE == BASE_PLANE_FACETS
+                    ? flat_covariance_of_tilted(moments.mean, moments.base_variance)
+                    : vec3(moments.base_variance, moments.base_variance, 0.0);
     return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
                           slope_distribution_of(moments.mean, moments.covariance + base));
 }

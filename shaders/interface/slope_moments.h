@@ -23,6 +23,11 @@
 #define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
 // uint, [0, 2], of `leadr`: 3, 5 or 7 slopes along each axis of a grid
 #define SPECIALISE_GRID (SPECIALISE_FILTER + 21)
+// uint, BASE_PLANE_..., of `leadr`: over which plane the base lobes' covariance is added
+#define SPECIALISE_BASE_PLANE (SPECIALISE_FILTER + 22)
+
+#define BASE_PLANE_FACETS  0 // the plane of the mean normal
+#define BASE_PLANE_SURFACE 1 // the surface's, as in the paper
 
 // Numbers of the knobs of `leadr` (see knobs.h).
 struct leadr_knobs {

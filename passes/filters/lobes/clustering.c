@@ -59,22 +59,24 @@ static void object_constants(struct atlas_constants *constants) {
 }
 
 mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
-                                   lobe_map_space space, uint32_t subdivision, bool mean) {
+                                   const mixture_request *request) {
+    const lobe_map_space space = request->space;
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
     const lobe_grid grid = passes_lobe_grid(material);
 
-    mixture_map mixture = {
-        .format = passes_filtered_map_format(context), .subdivision = subdivision, .space = space};
-    uint32_t layers = layers_of(subdivision);
-    mixture.mean_layer = mean ? layers : 0;
+    mixture_map mixture = {.format = passes_filtered_map_format(context),
+                           .subdivision = request->subdivision,
+                           .space = space};
+    uint32_t layers = layers_of(request->subdivision);
+    mixture.mean_layer = request->mean ? layers : 0;
     char name[64];
     if (space == LOBE_SPACE_TANGENT)
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
     else
         snprintf(name, sizeof name, "mixture of instance %zu", instance);
     mixture.map = passes_reduced_map_declare(context->graph, name, mixture.format, grid.width,
-                                             grid.height, layers + (mean ? 1 : 0));
+                                             grid.height, layers + (request->mean ? 1 : 0));
 
     surface_atlas atlas = {0};
     if (space != LOBE_SPACE_TANGENT)
@@ -87,7 +89,8 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
 
     specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);
-    passes_specialise(&list, SPECIALISE_SUBDIVISION, subdivision);
+    passes_specialise(&list, SPECIALISE_SUBDIVISION, request->subdivision);
+    passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
     struct lobe_grid_constants tangent_constants = {grid.width, grid.height};
     struct atlas_constants atlas_constants = {.width = grid.width, .height = grid.height};

@@ -13,11 +13,19 @@ typedef struct mixture_map {
     lobe_map_space space; ///< tangent, object or camera
 } mixture_map;
 
+/// What is wanted of a mixture map.
+typedef struct mixture_request {
+    lobe_map_space space;
+    uint32_t subdivision; ///< [0, 2]
+    uint32_t clusters;    ///< CLUSTERS_... of shaders/interface/cluster.h
+    bool mean;            ///< also the layer of the mean
+} mixture_request;
+
 /// Declares a mixture map for an instance's material and adds the passes that fill level 0:
 /// characteristic vectors (Xu et al. 2017, Eqs. 8-14) and clustering by direction (section 3.2).
 /// `subdivision` and `mean` say which layers shading will read. The material has a normal or width
 /// map.
 mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
-                                   lobe_map_space space, uint32_t subdivision, bool mean);
+                                   const mixture_request *request);
 
 #endif

@@ -13,11 +13,13 @@
 
 static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
 static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
+static const char *const clusters[] = {"turned", "paper", NULL};
 static const char *const thresholds[] = {"length", "dispersion", NULL};
 
 static const filter_knob space_knob = {
     .description = {.name = "space",
-                    .summary = "where mixtures are built; auto: as the scene says",
+                    .summary = "where mixtures are built, if each texel belongs to one place of "
+                               "the mesh; auto: as the material says, tangent by default",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 3,
                     .choices = spaces},
@@ -30,6 +32,15 @@ static const filter_knob subdivision_knob = {
                     .maximum = 3,
                     .choices = subdivisions,
                     .sweep = "0,1,2"},
+};
+static const filter_knob clusters_knob = {
+    .description = {.name = "clusters",
+                    .summary = "how directions are divided: sectors about the map's axes, split 12 "
+                               "degrees off the pole; or, as in the paper, between the axes, split "
+                               "at 45 degrees",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = clusters},
 };
 static const filter_knob threshold_knob = {
     .description = {.name = "threshold",
@@ -64,17 +75,9 @@ static const filter_knob blend_knob = {
     .feeds = KNOB_FEEDS_FILTER(lobes_knobs, blend),
 };
 static const filter_knob *const knobs[] = {
-    &space_knob,
-    &subdivision_knob,
-    &threshold_knob,
-    &epsilon0_knob,
-    &epsilon1_knob,
-    &blend_knob,
-    &passes_knob_probes,
-    &passes_knob_bias,
-    &passes_knob_curvature,
-    &passes_knob_storage,
-    NULL,
+    &space_knob,       &subdivision_knob,      &clusters_knob,       &threshold_knob,
+    &epsilon0_knob,    &epsilon1_knob,         &blend_knob,          &passes_knob_probes,
+    &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
 };
 
 /// The space that the user chose, or else the material's. Always tangent if the mesh's texture
@@ -84,7 +87,9 @@ static lobe_map_space space_of(const filter_context *context, size_t instance) {
     lobe_map_space space = (lobe_map_space)passes_knob_choice(context, &space_knob);
     if (space == LOBE_SPACE_AUTOMATIC)
         space = context->scene->materials[drawn->material].material->space;
-    // Tangent space is cheapest, and exact where the surface hardly turns under a pixel.
+    // Tangent space is cheapest, exact where the surface hardly turns under a pixel, and as
+    // accurate elsewhere: relative L2 over object and camera space 0.31, 0.31, 0.32 for a helmet
+    // and 0.47, 0.44, 0.45 for a tea set, whose maps are atlases.
     bool possible = drawn->is_atlas && drawn->keeps_angles;
     return space == LOBE_SPACE_AUTOMATIC || !possible ? LOBE_SPACE_TANGENT : space;
 }
@@ -99,6 +104,7 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
 /// What is kept for a material between frames.
 typedef struct prepared_lobes {
     uint32_t subdivision; ///< in tangent space
+    uint32_t clusters;    ///< for which it was chosen
 } prepared_lobes;
 
 /// Whether, in tangent space, all lobes point along the normal because no map tilts it: one cluster
@@ -127,14 +133,17 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
 }
 
 static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
-    if (*slot || !needs_choice(context, material))
+    const uint32_t kind = passes_knob_choice(context, &clusters_knob);
+    prepared_lobes *prepared = *slot;
+    if ((prepared && prepared->clusters == kind) || !needs_choice(context, material))
         return LOBE_OK;
-    prepared_lobes *prepared =
-        lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    if (!prepared)
+        prepared = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->subdivision =
-        passes_subdivision_choose(context->scene->scene, &context->scene->materials[material]);
+    prepared->clusters = kind;
+    prepared->subdivision = passes_subdivision_choose(context->scene->scene,
+                                                      &context->scene->materials[material], kind);
     *slot = prepared;
     return LOBE_OK;
 }
@@ -229,9 +238,13 @@ static mixture_map build_mixture(const filter_context *context, size_t instance,
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
     lobe_map_space space = space_of(context, instance);
-    mixture_map mixture = passes_lobe_clustering(context, instance, space,
-                                                 subdivision_of(context, material, space, prepared),
-                                                 needs_mean(context, material));
+    const mixture_request request = {
+        .space = space,
+        .subdivision = subdivision_of(context, material, space, prepared),
+        .clusters = passes_knob_choice(context, &clusters_knob),
+        .mean = needs_mean(context, material),
+    };
+    mixture_map mixture = passes_lobe_clustering(context, instance, &request);
     passes_level_reduction(context->graph, &mixture.map);
     specialise_mixture(material->material, &mixture, coarsest_of(context, material, &mixture),
                        appearance);

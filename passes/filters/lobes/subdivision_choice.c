@@ -22,7 +22,11 @@ static double concentration(double length) {
     return kappa;
 }
 
-static uint32_t cluster_of(const double axis[3]) {
+static uint32_t cluster_of(const double axis[3], uint32_t clusters) {
+    if (clusters == CLUSTERS_PAPER) {
+        uint32_t quadrant = axis[1] < 0 ? (axis[0] < 0 ? 2u : 3u) : (axis[0] < 0 ? 1u : 0u);
+        return 2 * quadrant + (axis[2] < LATITUDE_SPLIT_PAPER);
+    }
     bool along_x = fabs(axis[0]) >= fabs(axis[1]);
     uint32_t sector = (along_x ? 0u : 1u) + ((along_x ? axis[0] : axis[1]) < 0 ? 2u : 0u);
     return 2 * sector + (axis[2] < LATITUDE_SPLIT);
@@ -31,13 +35,13 @@ static uint32_t cluster_of(const double axis[3]) {
 // ---------------------------------------------------------------------------------------------
 // Mixtures and their errors
 
-static size_t make_mixture(const material_patch *source, uint32_t subdivision,
+static size_t make_mixture(const material_patch *source, uint32_t subdivision, uint32_t clusters,
                            material_lobe mixture[8]) {
     static const uint32_t clusters_a_lobe[] = {8, 2, 1};
     double sums[8][4] = {{0}};
     for (size_t i = 0; i < source->count; i++) {
         const material_lobe *lobe = &source->lobes[i];
-        double *sum = sums[cluster_of(lobe->axis) / clusters_a_lobe[subdivision]];
+        double *sum = sums[cluster_of(lobe->axis, clusters) / clusters_a_lobe[subdivision]];
         double length = passes_mean_resultant_length(lobe->concentration);
         for (int axis = 0; axis < 3; axis++)
             sum[axis] += lobe->weight * length * lobe->axis[axis];
@@ -58,11 +62,11 @@ static size_t make_mixture(const material_patch *source, uint32_t subdivision,
     return count;
 }
 
-static void add_errors(const material_patch *source, double errors[3]) {
+static void add_errors(const material_patch *source, uint32_t clusters, double errors[3]) {
     material_lobe mixtures[3][8];
     size_t counts[3];
     for (uint32_t subdivision = 0; subdivision < 3; subdivision++)
-        counts[subdivision] = make_mixture(source, subdivision, mixtures[subdivision]);
+        counts[subdivision] = make_mixture(source, subdivision, clusters, mixtures[subdivision]);
     for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; i++) {
         double direction[3];
         passes_material_patch_draw(source, i, direction);
@@ -76,13 +80,14 @@ static void add_errors(const material_patch *source, double errors[3]) {
     }
 }
 
-uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material) {
+uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material,
+                                   uint32_t clusters) {
     double errors[3] = {0};
     material_patch source;
     for (uint32_t i = 0; i < MATERIAL_PATCHES; i++) {
         if (!passes_material_patch_read(scene, material, i, &source))
             return 2;
-        add_errors(&source, errors);
+        add_errors(&source, clusters, errors);
     }
     double least = fmin(errors[0], fmin(errors[1], errors[2]));
     uint32_t subdivision = 0;

@@ -52,7 +52,8 @@ typedef enum lobe_material_model {
     /// glTF metal-rough: F D G2 / (4 cos) with a distribution of normals, and Lambert below it.
     LOBE_MATERIAL_MICROFACET,
     /// The papers' model: a sum of lobes of the half vector, which includes the cosine, without
-    /// Fresnel term and shadowing; plus a Lambert part.
+    /// Fresnel term and shadowing; plus a Lambert part. It does not conserve energy: a lobe of
+    /// colour 1 reflects up to four times the light it gets (docs/filters-compared.md).
     LOBE_MATERIAL_HALF_VECTOR_LOBES,
 } lobe_material_model;
 
@@ -76,9 +77,10 @@ typedef struct lobe_base_lobe {
 
 /// Which space mixtures of lobes are built in (method: Xu et al. 2017, section 4).
 typedef enum lobe_map_space {
-    LOBE_SPACE_AUTOMATIC, ///< tangent if the maps tile, else what suits the mesh
-    LOBE_SPACE_TANGENT,   ///< over the maps themselves
-    LOBE_SPACE_OBJECT,    ///< over the mesh's texture atlas, with its interpolated normals
+    LOBE_SPACE_AUTOMATIC, ///< tangent
+    LOBE_SPACE_TANGENT,   ///< over the maps themselves: cheapest, and as accurate on most meshes
+    LOBE_SPACE_OBJECT,    ///< over the mesh's texture atlas, with its interpolated normals; tangent
+                          ///< if the maps tile over the mesh, or the instance stretches it
     LOBE_SPACE_CAMERA,    ///< the same, seen from the camera; rebuilt when that moves
 } lobe_map_space;
 

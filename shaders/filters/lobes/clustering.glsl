@@ -17,6 +17,7 @@
 
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
+layout(constant_id = SPECIALISE_CLUSTERS) const uint CLUSTERS = CLUSTERS_TURNED;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
 
@@ -39,7 +40,7 @@ void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight
     if (SUBDIVISION == 0u) {
         sums.halves[0] += moment;
     } else {
-        uint cluster = cluster_of(axis);
+        uint cluster = cluster_of(axis, CLUSTERS);
         for (uint i = 0u; i < 8u; ++i)
             sums.halves[i] += i == cluster ? moment : vec4(0.0);
     }

@@ -15,7 +15,7 @@
 #include "tests/reference/vector.h"
 
 static const double angles[] = {0, 35, 65, 80};
-static const leadr_knobs usual = {5, 2.2, 1};
+static const leadr_knobs usual = {5, 2.2, 1, false};
 
 /// One light and one viewer for each pair of angles, in different planes.
 static void directions_at(int i, double outgoing[3], double incoming[3]) {
@@ -92,8 +92,9 @@ static void knobs_do_what_they_say(void **state) {
         const char *setting;
         leadr_knobs knobs;
     } cases[] = {
-        {"grid=3", {3, 1.4, 1}},       {"grid=7", {7, 2.6, 1}},   {"height=0", {5, 2.2, 0}},
-        {"height=0.5", {5, 2.2, 0.5}}, {"height=4", {5, 2.2, 4}},
+        {"grid=3", {3, 1.4, 1, false}},   {"grid=7", {7, 2.6, 1, false}},
+        {"height=0", {5, 2.2, 0, false}}, {"height=0.5", {5, 2.2, 0.5, false}},
+        {"height=4", {5, 2.2, 4, false}}, {"base_plane=surface", {5, 2.2, 1, true}},
     };
     lobe_image leaning = slope_plane_leaning_map(273);
     lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.5, 0.3);

@@ -180,7 +180,7 @@ void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const 
         return;
     half_between(incoming, outgoing, half_vector);
     slopes = facets;
-    reference_flat_covariance(facets.mean, variance, base);
+    reference_flat_covariance(knobs->flat ? (double[]){0, 0} : facets.mean, variance, base);
     for (int i = 0; i < 3; i++)
         slopes.covariance[i] += base[i];
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;

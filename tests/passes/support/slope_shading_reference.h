@@ -1,6 +1,8 @@
 #ifndef TESTS_PASSES_SUPPORT_SLOPE_SHADING_REFERENCE_H
 #define TESTS_PASSES_SUPPORT_SLOPE_SHADING_REFERENCE_H
 
+#include <stdbool.h>
+
 #include <lobe/scene.h>
 
 /// What the filters that shade from slope moments compute for one light, in double precision.
@@ -16,6 +18,7 @@ typedef struct leadr_knobs {
     int grid;      ///< slopes each way
     double reach;  ///< of the grid, standard deviations
     double height; ///< factor of all slopes
+    bool flat;     ///< base lobes are added over the surface's plane
 } leadr_knobs;
 
 void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],

@@ -16,7 +16,7 @@ void reference_add_lobe(const reference_layers *mixture, uint32_t x, uint32_t y,
                         const reference_lobe *lobe) {
     double length = lobe->share * reference_mean_resultant_length(lobe->concentration);
     const double r[3] = {length * lobe->axis[0], length * lobe->axis[1], length * lobe->axis[2]};
-    uint32_t cluster = reference_cluster_of(lobe->axis);
+    uint32_t cluster = reference_cluster_of(lobe->axis, false);
     const uint32_t layers[3] = {REFERENCE_MIXTURE_LAYER_ONE,
                                 REFERENCE_MIXTURE_LAYER_SECTORS + cluster / 2,
                                 REFERENCE_MIXTURE_LAYER_HALVES + cluster};

@@ -5,5 +5,6 @@
 #include "lib/lobe/lobe_cluster.glsl"
 
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
-    return vec4(cluster_of(a.xyz), sector_of(a.xyz), CLUSTER_COUNT, SECTOR_COUNT);
+    return vec4(cluster_of(a.xyz, CLUSTERS_TURNED), sector_of(a.xyz, CLUSTERS_TURNED),
+                cluster_of(a.xyz, CLUSTERS_PAPER), SECTOR_COUNT);
 }

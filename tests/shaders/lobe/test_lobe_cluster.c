@@ -15,7 +15,7 @@ static harness_result results[COUNT];
 
 static void test_clusters(void **state) {
     uint64_t random = 17;
-    size_t members[8] = {0};
+    size_t members[8] = {0}, members_of_paper[8] = {0};
     for (size_t i = 0; i < COUNT; i++) {
         static const float pole[3] = {0, 0, 1};
         // Half of them near the pole, where a third or so is within the split.
@@ -28,15 +28,17 @@ static void test_clusters(void **state) {
     harness_evaluate(state, "lobe/lobe_cluster.comp", 0, arguments, COUNT, results);
     for (size_t i = 0; i < COUNT; i++) {
         const float *a = arguments[i].a;
-        uint32_t cluster = reference_cluster_of((double[]){a[0], a[1], a[2]});
+        uint32_t cluster = reference_cluster_of((double[]){a[0], a[1], a[2]}, false);
+        uint32_t paper = reference_cluster_of((double[]){a[0], a[1], a[2]}, true);
         assert_int_equal(results[i].value[0], cluster);
         assert_int_equal(results[i].value[1], cluster / 2);
-        assert_int_equal(results[i].value[2], 8);
+        assert_int_equal(results[i].value[2], paper);
         assert_int_equal(results[i].value[3], 4);
         members[cluster]++;
+        members_of_paper[paper]++;
     }
     for (int i = 0; i < 8; i++)
-        assert_true(members[i] > COUNT / 80);
+        assert_true(members[i] > COUNT / 80 && members_of_paper[i] > COUNT / 80);
 }
 
 // Directions along the axes of a texture, turned a little either way, stay together, as the lobes
@@ -71,8 +73,11 @@ static void test_borders(void **state) {
     static const int expected[] = {0, 0, 1, 1, 5, 0};
     harness_result values[6];
     harness_evaluate(state, "lobe/lobe_cluster.comp", 0, borders, 6, values);
-    for (int i = 0; i < 6; i++)
+    static const int expected_of_paper[] = {0, 0, 1, 0, 2, 0};
+    for (int i = 0; i < 6; i++) {
         assert_int_equal(values[i].value[0], expected[i]);
+        assert_int_equal(values[i].value[2], expected_of_paper[i]);
+    }
 }
 
 int main(void) {

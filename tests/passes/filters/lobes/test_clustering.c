@@ -11,8 +11,10 @@
 #include "engine/image/half.h"
 #include "passes/filters/lobes/clustering.h"
 #include "passes/upload/scene_upload.h"
+#include "shaders/interface/cluster.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/scene_builder.h"
+#include "tests/reference/lobe/lobe_cluster.h"
 #include "tests/reference/lobe/von_mises_fisher.h"
 #include "tests/reference/map/box_reduction.h"
 #include "tests/reference/mixture/lobe_mixture.h"
@@ -23,6 +25,7 @@ typedef struct request {
     uint32_t subdivision;
     bool mean;
     bool half_floats;
+    bool as_in_paper;
 } request;
 
 /// The result.
@@ -61,8 +64,12 @@ static clusters cluster(fixture *f, const lobe_scene *scene, const request *aske
                               .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
-    clusters result = {.mixture = passes_lobe_clustering(&context, 0, asked->space,
-                                                         asked->subdivision, asked->mean)};
+    const mixture_request wanted = {.space = asked->space,
+                                    .subdivision = asked->subdivision,
+                                    .clusters =
+                                        asked->as_in_paper ? CLUSTERS_PAPER : CLUSTERS_TURNED,
+                                    .mean = asked->mean};
+    clusters result = {.mixture = passes_lobe_clustering(&context, 0, &wanted)};
     passes_level_reduction(f->graph, &result.mixture.map);
     lobe_resource resource = result.mixture.map.resource;
     lobe_graph_read_back(f->graph, resource, (lobe_range){0});
@@ -152,7 +159,7 @@ static void odd_sizes_are_clustered_exactly(void **state) {
         material.normal_map =
             scene_add_map(scene, random_normal_map(sizes[i][0], sizes[i][1], 1.0, i + 1));
         square_of(&material, scene);
-        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false});
+        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false, false});
         lobe_scene_destroy(&scene);
     }
 }
@@ -162,7 +169,7 @@ static void a_large_odd_map_is_clustered_exactly(void **state) {
     lobe_material material = two_lobes();
     material.normal_map = scene_add_map(scene, random_normal_map(671, 457, 0.4, 3));
     square_of(&material, scene);
-    check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, false, false});
+    check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, false, false, false});
     lobe_scene_destroy(&scene);
 }
 
@@ -178,10 +185,10 @@ static void what_is_asked_for_is_stored(void **state) {
         square_of(&material, scene);
         for (uint32_t subdivision = 0; subdivision <= 2; subdivision++) {
             for (int mean = 0; mean < 2; mean++)
-                check_tangent_space(*state, scene,
-                                    &(request){LOBE_SPACE_TANGENT, subdivision, mean, false});
+                check_tangent_space(
+                    *state, scene, &(request){LOBE_SPACE_TANGENT, subdivision, mean, false, false});
         }
-        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, true});
+        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, true, false});
         lobe_scene_destroy(&scene);
     }
 }
@@ -212,7 +219,28 @@ static void widths_are_convolved_and_mapped(void **state) {
         else
             material.width_map = widths;
         square_of(&material, scene);
-        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false});
+        check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false, false});
+        lobe_scene_destroy(&scene);
+    }
+}
+
+/// The paper's clusters: each direction is in the one where the reference has it.
+static void directions_are_divided_as_in_the_paper(void **state) {
+    for (int i = 0; i < 8; i++) {
+        const double azimuth = (20 + 45 * i) * M_PI / 180, tilt = (i % 2 ? 55 : 30) * M_PI / 180;
+        const double axis[3] = {sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt)};
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
+        material.normal_map = scene_add_map(scene, constant_map(2, 2, (float)(0.5 + 0.5 * axis[0]),
+                                                                (float)(0.5 + 0.5 * axis[1]),
+                                                                (float)(0.5 + 0.5 * axis[2])));
+        square_of(&material, scene);
+        clusters found =
+            cluster(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, false, false, true});
+        const uint32_t expected = reference_cluster_of(axis, true);
+        for (uint32_t k = 0; k < 8; k++)
+            assert_true(fabs((double)found.texels[4 * (5 + k) + 3] - (k == expected)) < 1e-6);
+        free(found.texels);
         lobe_scene_destroy(&scene);
     }
 }
@@ -226,7 +254,7 @@ static void eight_bit_normals_are_decoded(void **state) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 300);
     material.normal_map = scene_add_map(scene, image);
     square_of(&material, scene);
-    check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false});
+    check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false, false});
     lobe_scene_destroy(&scene);
 }
 
@@ -275,7 +303,7 @@ static void every_level_integrates_to_one(void **state) {
     material.lobes[0].width = 60;
     material.normal_map = scene_add_map(scene, random_normal_map(23, 17, 0.9, 11));
     square_of(&material, scene);
-    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false});
+    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false, false});
     static const uint32_t first[] = {0, 1, 5}, count[] = {1, 4, 8};
     const reduced_map *map = &found.mixture.map;
     const float *level_texels = found.texels;
@@ -388,7 +416,7 @@ static void object_space_is_tangent_space_turned(void **state) {
     scene_add_square(scene, &material, 1, transform);
     scene_look_down(scene, 2);
     scene_end(scene);
-    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 2, true, false});
+    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 2, true, false, false});
     patch p = {.low = {0, 0}, .high = {1, 1}};
     memcpy(p.columns, square_frame, sizeof p.columns);
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], patch_frame, &p);
@@ -414,7 +442,8 @@ static void camera_space_is_tangent_space_turned(void **state) {
         scene_look_down(scene, 2);
         scene->camera.vertical_field_of_view = perspective ? 0.8f : 0;
         scene_end(scene);
-        clusters found = cluster(*state, scene, &(request){LOBE_SPACE_CAMERA, 2, true, false});
+        clusters found =
+            cluster(*state, scene, &(request){LOBE_SPACE_CAMERA, 2, true, false, false});
         patch p = {.low = {0, 0}, .high = {1, 1}};
         turn_square(rotation, seen);
         // The camera looks down: its axes are (+X, -Z, +Y) of the world.
@@ -452,7 +481,7 @@ static void an_uncovered_atlas_has_no_weight(void **state) {
     shrink_coordinates(&scene->meshes[0], &p);
     scene_look_down(scene, 2);
     scene_end(scene);
-    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 2, true, false});
+    clusters found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 2, true, false, false});
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], patch_frame, &p);
     check_clusters(&found, &texels, 3e-6);
     double covered = 8.0 * 13 / 256;
@@ -515,12 +544,13 @@ static void back_faces_are_left_out_in_camera_space(void **state) {
         scene->camera.vertical_field_of_view = perspective ? 0.8f : 0;
         scene_end(scene);
         double weights[2];
-        clusters found = cluster(*state, scene, &(request){LOBE_SPACE_CAMERA, 0, false, false});
+        clusters found =
+            cluster(*state, scene, &(request){LOBE_SPACE_CAMERA, 0, false, false, false});
         halves_of_atlas(&found, weights);
         assert_true(weights[below] > 0.9999 && weights[!below] == 0);
         free(found.texels);
         // Object space keeps both.
-        found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 0, false, false});
+        found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 0, false, false, false});
         halves_of_atlas(&found, weights);
         assert_true(weights[0] > 0.9999 && weights[1] > 0.9999);
         free(found.texels);
@@ -534,6 +564,7 @@ int main(void) {
         cmocka_unit_test(a_large_odd_map_is_clustered_exactly),
         cmocka_unit_test(what_is_asked_for_is_stored),
         cmocka_unit_test(widths_are_convolved_and_mapped),
+        cmocka_unit_test(directions_are_divided_as_in_the_paper),
         cmocka_unit_test(eight_bit_normals_are_decoded),
         cmocka_unit_test(every_level_integrates_to_one),
         cmocka_unit_test(object_space_is_tangent_space_turned),

@@ -7,6 +7,7 @@
 
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/upload/scene_upload.h"
+#include "shaders/interface/cluster.h"
 #include "tests/passes/support/scene_builder.h"
 
 /// Uploads a scene of one square and returns the choice for its material.
@@ -16,7 +17,8 @@ static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *mater
     scene_end(scene);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    uint32_t subdivision = passes_subdivision_choose(scene, &uploaded->materials[0]);
+    uint32_t subdivision =
+        passes_subdivision_choose(scene, &uploaded->materials[0], CLUSTERS_TURNED);
     passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     return subdivision;
