@@ -10,14 +10,18 @@ static void copy(const float source[3], vec3 target) {
         target[i] = source[i];
 }
 
-/// In double precision, in which squares of tiny and of huge lengths are neither 0 nor infinite.
-/// False, with `vector` unchanged, if it has no length.
+/// Scales by a power of two first, which is exact: squares of tiny and of huge lengths are then
+/// neither 0 nor infinite. False, with `vector` unchanged, if it has no length.
 static bool normalise(vec3 vector) {
-    double length = sqrt((double)vector[0] * vector[0] + (double)vector[1] * vector[1] +
-                         (double)vector[2] * vector[2]);
-    for (int i = 0; i < 3 && length > 0; i++)
-        vector[i] = (float)(vector[i] / length);
-    return length > 0;
+    float largest = fmaxf(fmaxf(fabsf(vector[0]), fabsf(vector[1])), fabsf(vector[2]));
+    int exponent;
+    if (largest == 0)
+        return false;
+    frexpf(largest, &exponent);
+    for (int i = 0; i < 3; i++)
+        vector[i] = ldexpf(vector[i], -exponent);
+    glm_vec3_normalize(vector);
+    return true;
 }
 
 static void view_direction(const lobe_camera *camera, vec3 forward) {
