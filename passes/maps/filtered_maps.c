@@ -163,6 +163,8 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
         if (is_like_lobes(material, map))
             like_lobes |= 1u << map;
     }
+    passes_appearance_specialise(appearance, SPECIALISE_INTERPOLATED,
+                                 passes_device_map_is_interpolated(material, MAP_NORMAL));
     passes_appearance_specialise(appearance, SPECIALISE_LIKE_LOBES, like_lobes);
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));

@@ -2,22 +2,35 @@
 
 #include <stdio.h>
 
-#include "passes/context/material_specialisation.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
+#include "shaders/interface/specialisation.h"
+
+void passes_base_map_read(const filter_context *context, const device_material *material,
+                          uint32_t map, const char *name, lobe_pass *pass) {
+    lobe_pass_read(pass, &(lobe_binding){.name = name,
+                                         .resource = passes_device_map_import(
+                                             context->graph, context->scene, material, map),
+                                         .sampler = passes_device_map_sampler(material, map)});
+}
 
 void passes_base_maps_read(const filter_context *context, const device_material *material,
                            bool colours, lobe_pass *pass) {
     static const char *const names[] = {[MAP_NORMAL] = "normal_map", [MAP_WIDTH] = "width_map"};
     for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; map++)
-        lobe_pass_read(pass, &(lobe_binding){.name = names[map],
-                                             .resource = passes_device_map_import(
-                                                 context->graph, context->scene, material, map)});
+        passes_base_map_read(context, material, map, names[map], pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "material_block",
                                          .resource = lobe_graph_import_buffer(
                                              context->graph, colours ? material->constants
                                                                      : material->map_constants)});
+}
+
+void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
+    passes_material_specialise(material, list);
+    passes_specialise(list, SPECIALISE_INTERPOLATED,
+                      passes_device_map_is_interpolated(material, MAP_NORMAL) ||
+                          passes_device_map_is_interpolated(material, MAP_WIDTH));
 }
 
 void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
@@ -49,7 +62,7 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     map.resource = lobe_pass_write(
         pass, &(lobe_binding){kind->binding, map.resource, .range = {0, 1, 0, map.layers}});
     specialisation_list list = {.graph = context->graph};
-    passes_material_specialise(material, &list);
+    passes_base_maps_specialise(material, &list);
     const struct lobe_grid_constants extent = {grid.width, grid.height};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = kind->shader,

@@ -4,6 +4,7 @@
 
 #include "passes/context/sample_pattern.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/lobe_grid.h"
 
 /// Xu et al. 2017, Eq. 6, as in shaders/lib/lobe/von_mises_fisher.glsl.
 static double evaluate(const material_lobe *lobe, const double direction[3]) {
@@ -40,8 +41,10 @@ bool passes_material_patch_read(const lobe_scene *scene, const device_material *
     patch->count = 0;
     for (uint32_t y = 0; y < rows; y++) {
         for (uint32_t x = 0; x < columns; x++) {
-            uint32_t count = passes_material_lobes_read(scene, material, left + x, top + y,
-                                                        &patch->lobes[patch->count]);
+            // One point in every texel is enough: see shaders/lib/map/texel_point.glsl.
+            uint32_t count = passes_material_lobes_read(
+                scene, material, left + x + 0.5 + TEXEL_POINT, top + y + 0.5 + TEXEL_POINT,
+                &patch->lobes[patch->count]);
             if (count == 0)
                 return false;
             patch->count += count;

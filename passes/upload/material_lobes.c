@@ -1,6 +1,7 @@
 #include "passes/upload/material_lobes.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "passes/upload/material_maps.h"
 
@@ -21,23 +22,58 @@ float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
                    : 1.0f / (float)material->lobe_count;
 }
 
-static bool map_texel(const lobe_scene *scene, const device_map *map, uint32_t x, uint32_t y,
-                      uint32_t width, uint32_t height, float value[4]) {
-    const lobe_image *image = &scene->images[map->use->image].image;
-    return passes_image_texel(image, (uint32_t)((uint64_t)x * image->width / width),
-                              (uint32_t)((uint64_t)y * image->height / height), value);
+/// Texel `i` of a row of `size`, where `i` may lie outside it.
+static uint32_t wrapped(int64_t i, uint32_t size, lobe_scene_wrap wrap) {
+    if (wrap == LOBE_SCENE_WRAP_CLAMP)
+        return (uint32_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
+    int64_t period = wrap == LOBE_SCENE_WRAP_MIRROR ? 2 * (int64_t)size : size;
+    int64_t place = (i % period + period) % period;
+    return (uint32_t)(place < size ? place : period - 1 - place);
 }
 
-static bool texel_normal(const lobe_scene *scene, const device_material *material, uint32_t x,
-                         uint32_t y, uint32_t width, uint32_t height, double normal[3]) {
-    float value[4] = {0.5f, 0.5f, 1, 1};
-    const device_map *map = &material->maps[MAP_NORMAL];
-    if (map->use && !map_texel(scene, map, x, y, width, height, value))
+/// Adds one texel with a weight to the values.
+static bool add_texel(const lobe_image *image, const lobe_texture_use *use, int64_t x, int64_t y,
+                      double weight, double value[4]) {
+    float texel[4];
+    if (!passes_image_texel(image, wrapped(x, image->width, use->wrap_u),
+                            wrapped(y, image->height, use->wrap_v), texel))
         return false;
-    double scale[3] = {material->material->normal_scale, material->material->normal_scale, 1};
+    for (int i = 0; i < 4; i++)
+        value[i] += weight * (double)texel[i];
+    return true;
+}
+
+/// A map's value at texture coordinates, as its sampler gives it.
+static bool sample_map(const lobe_scene *scene, const device_map *map, double u, double v,
+                       double value[4]) {
+    const lobe_image *image = &scene->images[map->use->image].image;
+    double x = u * image->width, y = v * image->height;
+    memset(value, 0, 4 * sizeof *value);
+    if (map->use->nearest)
+        return add_texel(image, map->use, (int64_t)floor(x), (int64_t)floor(y), 1, value);
+    double left = floor(x - 0.5), top = floor(y - 0.5);
+    double right_part = x - 0.5 - left, lower_part = y - 0.5 - top;
+    for (int i = 0; i < 4; i++) {
+        double weight =
+            (i & 1 ? right_part : 1 - right_part) * (i & 2 ? lower_part : 1 - lower_part);
+        if (!add_texel(image, map->use, (int64_t)left + (i & 1), (int64_t)top + (i >> 1), weight,
+                       value))
+            return false;
+    }
+    return true;
+}
+
+static bool sample_normal(const lobe_scene *scene, const device_material *material, double u,
+                          double v, double normal[3]) {
+    double value[4] = {0.5, 0.5, 1, 1};
+    const device_map *map = &material->maps[MAP_NORMAL];
+    if (map->use && !sample_map(scene, map, u, v, value))
+        return false;
+    double scale[3] = {(double)material->material->normal_scale,
+                       (double)material->material->normal_scale, 1};
     double square = 0;
     for (int i = 0; i < 3; i++) {
-        normal[i] = (2 * (double)value[i] - 1) * scale[i];
+        normal[i] = (2 * value[i] - 1) * scale[i];
         square += normal[i] * normal[i];
     }
     for (int i = 0; i < 3; i++)
@@ -85,18 +121,17 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
 }
 
 uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
-                                    uint32_t x, uint32_t y,
+                                    double x, double y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
     bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_grid grid = passes_lobe_grid(material);
-    double normal[3];
-    float widths[4] = {1, 1, 1, 1};
-    if (!texel_normal(scene, material, x, y, grid.width, grid.height, normal) ||
+    double u = x / grid.width, v = y / grid.height;
+    double normal[3], widths[4] = {1, 1, 1, 1};
+    if (!sample_normal(scene, material, u, v, normal) ||
         (material->maps[MAP_WIDTH].use &&
-         !map_texel(scene, &material->maps[MAP_WIDTH], x, y, grid.width, grid.height, widths)))
+         !sample_map(scene, &material->maps[MAP_WIDTH], u, v, widths)))
         return 0;
-    return passes_material_lobes_of(material->material, normal, (double)widths[microfacet ? 1 : 0],
-                                    lobes);
+    return passes_material_lobes_of(material->material, normal, widths[microfacet ? 1 : 0], lobes);
 }
 
 void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]) {

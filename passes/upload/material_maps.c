@@ -58,6 +58,11 @@ lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t
     };
 }
 
+bool passes_device_map_is_interpolated(const device_material *material, uint32_t index) {
+    const device_map *map = &material->maps[index];
+    return map->use && !map->use->nearest && map->width * map->height > 1;
+}
+
 lobe_grid passes_lobe_grid(const device_material *material) {
     const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
     const uint32_t map = normal->use ? MAP_NORMAL : MAP_WIDTH;

@@ -12,6 +12,8 @@ lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *sc
                                        const device_material *material, uint32_t map);
 /// How a map's texels are read, without interpolation between levels.
 lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map);
+/// Whether the material has the map, with more than one texel, and reads it interpolated.
+bool passes_device_map_is_interpolated(const device_material *material, uint32_t map);
 
 /// The grid of texels that a material's lobes come from: its normal map and its width map; the
 /// coarser one is read at the texels of the finer one.

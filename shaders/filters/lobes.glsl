@@ -7,7 +7,7 @@
 // those it needs: first the base lobes if level 0 has a share, then the footprint's one lobe, then
 // each sector and its halves.
 
-#include "shading/filtered_maps.glsl"
+#include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/lobe/dispersion.glsl"
@@ -311,9 +311,9 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     float breadth = widened_complement(fetched.complement, fetched.variance);
     fetched.spread = 1.0 - base_complement_share(breadth, mean.w);
     if (may_see_level_0(lobe_map())) {
-        fetched.base = unfiltered_material(surface);
-        fetched.diffuse_normal =
-            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
+        level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
+        fetched.base = level_0_material(surface, normals);
+        fetched.diffuse_normal = mix(fetched.diffuse_normal, normals.mean, fetched.base_share);
     }
 }
 

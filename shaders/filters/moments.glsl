@@ -3,7 +3,7 @@
 // the normals, convolved with the base lobe's own shape. Developed here, after Olano, Baker 2010,
 // LEAN Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
 
-#include "shading/filtered_maps.glsl"
+#include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "interface/moment_bins.h"
 #include "lib/lobe/characteristic_vector.glsl"
@@ -258,7 +258,8 @@ appearance fetch_appearance(surface_point surface) {
         result.base_share =
             may_see_level_0(lobe_map()) ? clamp(1.0 - result.level, 0.0, 1.0) : 0.0;
         if (may_see_level_0(lobe_map()))
-            result.base = unfiltered_material(surface);
+            result.base =
+                level_0_material(surface, normals_of_level_0(surface, result.level, 1.0));
     }
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
@@ -288,11 +289,12 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
             frame.specular = mix(frame.specular, fetched.base.specular, fetched.base_share);
             frame.diffuse = mix(frame.diffuse, fetched.base.diffuse, fetched.base_share);
         }
-        frame.width = mix(frame.width, fetched.base.width, fetched.base_share);
+        float width = widened_width(fetched.base);
+        frame.width = mix(frame.width, width, fetched.base_share);
         normal = mix(normal, fetched.base.normal, fetched.base_share);
         distribution +=
             fetched.base_share *
-            evaluate_normal_distribution(fetched.base.normal, halfway, fetched.base.width);
+            evaluate_normal_distribution(fetched.base.normal, halfway, width);
     }
     frame.normal = mean_direction(normal, fetched.normal);
     return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,

@@ -9,7 +9,7 @@
 
 #include "shading/averaged_maps.glsl"
 
-// A length of one, as at level 0, widens nothing.
+// A length of one widens nothing.
 base_material widened_material(appearance fetched) {
     base_material base = fetched.base;
     if (AVERAGED)

@@ -13,4 +13,9 @@ struct lobe_grid_constants {
 INTERFACE_SIZE(lobe_grid_constants, 8)
 INTERFACE_OFFSET(lobe_grid_constants, height, 4)
 
+// Points of a texel at which interpolated maps are read, and how far they are from its centre along
+// both axes, in texels: see lib/map/texel_point.glsl.
+#define TEXEL_POINTS 2
+#define TEXEL_POINT  0.21132487
+
 #endif

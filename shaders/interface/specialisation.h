@@ -18,6 +18,8 @@
 #define SPECIALISE_VERTEX_COLOUR        9  // bool
 #define SPECIALISE_MIRRORED             10 // bool, the transform mirrors
 #define SPECIALISE_METALLIC_MAP         11 // bool, the width map says where a microfacet is metal
+// bool: shading sees the normal map interpolated; in passes that build maps, it or the width map
+#define SPECIALISE_INTERPOLATED 12
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool

@@ -1,19 +1,27 @@
 #ifndef BASE_MAPS_GLSL
 #define BASE_MAPS_GLSL
 
-// Texels of a material's normal and width map, for the passes that build filtered maps from them.
-// The two may differ in size: the passes run over the larger, the smaller repeats its texels.
+// The normal and width of a material's surface, for the passes that build filtered maps from it.
+//
+// The surface is what shading sees: maps whose sampler is linear are interpolated between texels,
+// and normals made unit length after that. The passes run over the texels of the larger map and
+// read both maps at a few points inside each texel.
 
 #include "interface/material.h"
 #include "interface/specialisation.h"
 #include "lib/lobe/base_lobe.glsl"
 #include "lib/map/normal_map.glsl"
+#include "lib/map/texel_point.glsl"
 
 layout(constant_id = SPECIALISE_MODEL) const uint MODEL = MODEL_MICROFACET;
 layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBUTION_GGX;
 layout(constant_id = SPECIALISE_LOBE_COUNT) const uint LOBE_COUNT = 1;
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
 layout(constant_id = SPECIALISE_NORMAL_CONCENTRATION) const bool NORMAL_CONCENTRATION = false;
+layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
+
+// Points of a texel at which the maps are read: its centre where no map is interpolated.
+const int POINTS = INTERPOLATED ? TEXEL_POINTS : 1;
 
 layout(set = 0, binding = 3, std140) uniform material_block { material_constants material; };
 layout(set = 0, binding = 5) uniform sampler2D normal_map;
@@ -23,19 +31,24 @@ bool has_map(int map) {
     return (MAPS & (1u << map)) != 0u;
 }
 
-vec3 texel_normal(ivec2 texel, ivec2 base_size) {
-    if (!has_map(MAP_NORMAL))
-        return vec3(0.0, 0.0, 1.0);
-    ivec2 position = texel * textureSize(normal_map, 0) / base_size;
-    return decode_normal(texelFetch(normal_map, position, 0).xyz, material.normal_scale);
+// Point `index` of POINTS of a texel, in the coordinates of all maps; `size`: texels of the larger.
+vec2 map_point(ivec2 texel, int index, ivec2 size) {
+    vec2 offset = INTERPOLATED ? texel_point(index) : vec2(0.0);
+    return (vec2(texel) + 0.5 + offset) / vec2(size);
+}
+
+vec3 normal_at(vec2 point) {
+    return has_map(MAP_NORMAL)
+               ? decode_normal(textureLod(normal_map, point, 0.0).xyz, material.normal_scale)
+               : vec3(0.0, 0.0, 1.0);
 }
 
 // The factor of the material's width: red for half-vector lobes, green (roughness) for
 // microfacets.
-float texel_width(ivec2 texel, ivec2 base_size) {
+float width_at(vec2 point) {
     if (!has_map(MAP_WIDTH))
         return 1.0;
-    vec4 value = texelFetch(width_map, texel * textureSize(width_map, 0) / base_size, 0);
+    vec4 value = textureLod(width_map, point, 0.0);
     return MODEL == MODEL_MICROFACET ? value.g : value.r;
 }
 

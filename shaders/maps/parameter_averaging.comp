@@ -24,10 +24,13 @@ void main() {
     vec4 mean = vec4(0.0);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            ivec2 texel = 2 * position + ivec2(x, y);
-            float factor = texel_width(texel, size);
-            float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
-            mean += row_weights[y] * column_weights[x] * vec4(texel_normal(texel, size), width);
+            float weight = row_weights[y] * column_weights[x] / float(POINTS);
+            for (int i = 0; i < POINTS; ++i) {
+                vec2 point = map_point(2 * position + ivec2(x, y), i, size);
+                float factor = width_at(point);
+                float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
+                mean += weight * vec4(normal_at(point), width);
+            }
         }
     }
     imageStore(parameter_map, ivec3(position, 0), mean);

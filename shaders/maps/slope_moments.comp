@@ -34,7 +34,7 @@ float base_variance(int lobe, float factor) {
     return 1.0 / max(base_concentration(lobe, factor), 1.0);
 }
 
-void add_texel(inout moment_sums sums, vec3 normal, float factor, float weight) {
+void add_point(inout moment_sums sums, vec3 normal, float factor, float weight) {
     sums.first.z += weight * normal.z;
     if (MODEL == MODEL_MICROFACET) {
         add_direction(sums, normal, base_variance(0, factor), weight);
@@ -55,9 +55,11 @@ void main() {
     moment_sums sums = moment_sums(vec4(0.0), vec4(0.0));
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            ivec2 texel = 2 * position + ivec2(x, y);
-            add_texel(sums, texel_normal(texel, size), texel_width(texel, size),
-                      row_weights[y] * column_weights[x]);
+            float weight = row_weights[y] * column_weights[x] / float(POINTS);
+            for (int i = 0; i < POINTS; ++i) {
+                vec2 point = map_point(2 * position + ivec2(x, y), i, size);
+                add_point(sums, normal_at(point), width_at(point), weight);
+            }
         }
     }
     imageStore(moment_map, ivec3(position, SLOPE_LAYER_FIRST), sums.first);

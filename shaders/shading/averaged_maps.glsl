@@ -4,7 +4,7 @@
 // Fetching one mean normal and one mean width of a footprint, for filters that shade with them as
 // if they were one texel's.
 
-#include "shading/filtered_maps.glsl"
+#include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 
@@ -45,8 +45,9 @@ vec4 fetch_averages(map_area area, surface_point surface) {
         sum += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
     sum /= float(probes_of(area));
     if (may_see_level_0(lobe_map())) {
-        base_material base = unfiltered_material(surface);
-        sum = mix(vec4(base.normal, averaged_width(base)), sum, min(area.level, 1.0));
+        vec3 normal = normals_of_level_0(surface, area.level, 1.0).mean;
+        float width = averaged_width(unfiltered_material(surface, normal));
+        sum = mix(vec4(normal, width), sum, min(area.level, 1.0));
     }
     return sum;
 }

@@ -32,8 +32,8 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
 void fetch_base(inout appearance fetched, surface_point surface) {
-    fetched.base = unfiltered_material(surface);
-    fetched.base.normal = scaled_normal(fetched.base.normal);
+    fetched.base = level_0_material(
+        surface, normals_of_level_0(surface, fetched.level, height_scale()));
     fetched.base.diffuse = fetched.filtered.diffuse;
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         fetched.base.specular = fetched.filtered.specular;

@@ -3,7 +3,7 @@
 
 // Reading maps of slope moments over a pixel's footprint.
 
-#include "shading/filtered_maps.glsl"
+#include "shading/level_0.glsl"
 #include "interface/slope_moments.h"
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/microfacet/slope_distribution.glsl"

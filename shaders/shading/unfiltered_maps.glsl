@@ -31,10 +31,14 @@ float unoccluded(float texel) {
     return has_map(MAP_OCCLUSION) ? 1.0 + material.occlusion_strength * (texel - 1.0) : 1.0;
 }
 
-base_material unfiltered_material(surface_point surface) {
-    return assemble_material(surface, unfiltered_normal(surface), unfiltered_base_colour(surface),
+base_material unfiltered_material(surface_point surface, vec3 normal) {
+    return assemble_material(surface, normal, unfiltered_base_colour(surface),
                              unfiltered_texel(MAP_WIDTH, width_map, surface),
                              unfiltered_texel(MAP_SPECULAR, specular_map, surface).rgb);
+}
+
+base_material unfiltered_material(surface_point surface) {
+    return unfiltered_material(surface, unfiltered_normal(surface));
 }
 
 #endif

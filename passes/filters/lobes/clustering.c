@@ -6,7 +6,6 @@
 #include <cglm/cglm.h>
 
 #include "passes/context/camera.h"
-#include "passes/context/material_specialisation.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/surface_atlas.h"
@@ -88,7 +87,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
                                               .range = {0, 1, 0, mixture.map.layers}});
 
     specialisation_list list = {.graph = context->graph};
-    passes_material_specialise(material, &list);
+    passes_base_maps_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, request->subdivision);
     passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);

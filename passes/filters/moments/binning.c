@@ -3,7 +3,6 @@
 #include <stdio.h>
 
 #include "passes/context/knob_values.h"
-#include "passes/context/material_specialisation.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/upload/material_maps.h"
@@ -14,16 +13,13 @@ static void read_colours(const filter_context *context, const device_material *m
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
     static const char *const names[] = {"base_colour_map", "specular_map"};
     for (int i = 0; i < 2; i++)
-        lobe_pass_read(pass,
-                       &(lobe_binding){.name = names[i],
-                                       .resource = passes_device_map_import(
-                                           context->graph, context->scene, material, maps[i])});
+        passes_base_map_read(context, material, maps[i], names[i], pass);
 }
 
 static void specialise_binning(const filter_context *context, const device_material *material,
                                const moment_partition *partition, bool colour,
                                specialisation_list *list) {
-    passes_material_specialise(material, list);
+    passes_base_maps_specialise(material, list);
     passes_knob_specialise(context, &passes_knob_base, list);
     passes_specialise(list, SPECIALISE_BINS, partition->bins);
     passes_specialise(list, SPECIALISE_PARTITION, partition->kind);

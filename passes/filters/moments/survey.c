@@ -117,9 +117,25 @@ static void extend(const float *values, uint32_t count, float *low, float *high)
     }
 }
 
-static void extend_places(surveying *s) {
-    for (int axis = 0; axis < 2; axis++)
+/// How far along one axis of the plane the directions lie that have this slope along it. What is
+/// interpolated between directions has a slope between theirs, but its place may lie beyond theirs.
+static void reach_row(const float *along, const float *z, uint32_t count, float *restrict reach) {
+    for (uint32_t i = 0; i < count; i++) {
+        float length = sqrtf(along[i] * along[i] + z[i] * z[i]);
+        float square = length * (length + z[i]);
+        bool far = square < 1e-6f;
+        float sign = along[i] < 0 ? -1.0f : 1.0f;
+        reach[i] = far ? 2 * sign * length : along[i] * sqrtf(2 / (far ? 1 : square));
+    }
+}
+
+/// Of directions whose places are the current row's. Overwrites those.
+static void extend_places(surveying *s, float *const direction[3]) {
+    for (int axis = 0; axis < 2; axis++) {
         extend(s->place[axis], s->rows->width, &s->low[axis], &s->high[axis]);
+        reach_row(direction[axis], direction[2], s->rows->width, s->place[axis]);
+        extend(s->place[axis], s->rows->width, &s->low[axis], &s->high[axis]);
+    }
 }
 
 /// Turns normals into lobes that lean away from them: passes_material_lobe_rotate for a row.
@@ -136,11 +152,10 @@ static void lean_row(const material_rows *rows, const float lobe[3], float *rest
 }
 
 static void extend_places_of_lobes(surveying *s) {
-    const uint32_t width = s->rows->width;
     for (uint32_t k = 0; k < s->material->lobe_count; k++) {
         lean_row(s->rows, s->material->lobes[k].direction, s->axis[0], s->axis[1], s->axis[2]);
-        place_row(s->axis[0], s->axis[1], s->axis[2], width, s->place[0], s->place[1]);
-        extend_places(s);
+        place_row(s->axis[0], s->axis[1], s->axis[2], s->rows->width, s->place[0], s->place[1]);
+        extend_places(s, s->axis);
     }
 }
 
@@ -190,7 +205,7 @@ static void read_all(surveying *s) {
         weigh_row(s);
         passes_coreset_add_row(&s->chosen, s->density, rows->width, y);
         if (s->material->model == LOBE_MATERIAL_MICROFACET)
-            extend_places(s);
+            extend_places(s, rows->normal);
         else
             extend_places_of_lobes(s);
         extend(rows->factor, rows->width, &s->factors[0], &s->factors[1]);
@@ -253,7 +268,10 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
     for (uint32_t i = 0; i < s->chosen.count; i++) {
         const coreset_texel *texel = &s->chosen.texels[i];
         material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
-        uint32_t count = passes_material_lobes_read(scene, material, texel->x, texel->y, lobes);
+        // The texels themselves, which spread further than what is interpolated between them:
+        // borders between bins are softer.
+        uint32_t count =
+            passes_material_lobes_read(scene, material, texel->x + 0.5, texel->y + 0.5, lobes);
         for (uint32_t k = 0; k < count; k++) {
             plane_sample *taken = &survey->samples[survey->count++];
             passes_plane_from_direction(lobes[k].axis, taken->place);

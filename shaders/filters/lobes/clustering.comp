@@ -22,22 +22,11 @@ void main() {
     cluster_sums sums = no_lobes();
     float complements[MATERIAL_MAXIMUM_LOBES];
     if (!has_map(MAP_WIDTH))
-        texel_complements(1.0, complements);
+        base_complements(1.0, complements);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             float weight = row_weights[y] * column_weights[x];
-            ivec2 texel = 2 * position + ivec2(x, y);
-            vec3 normal = texel_normal(texel, size);
-            if (has_map(MAP_WIDTH))
-                texel_complements(texel_width(texel, size), complements);
-            add_normal(sums, normal, weight);
-            for (int i = 0; i < LOBE_COUNT; ++i) {
-                vec3 axis = MODEL == MODEL_MICROFACET
-                                ? normal
-                                : rotate_from_pole(normal, material.lobe_direction[i].xyz);
-                float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
-                add_lobe(sums, axis, complements[i], weight * share);
-            }
+            add_texel(sums, 2 * position + ivec2(x, y), size, mat3(1.0), complements, weight);
         }
     }
     store_clusters(position, sums);

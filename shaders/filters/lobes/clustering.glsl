@@ -47,15 +47,32 @@ void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight
     sums.mean.w += weight * complement;
 }
 
-void add_normal(inout cluster_sums sums, vec3 normal, float weight) {
-    sums.mean.xyz += weight * normal;
-}
-
-// 1 - |r| of each base lobe of a texel. If widths do not vary, it is constant over the dispatch,
-// and the caller hoists it out of its loop over texels.
-void texel_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]) {
+// 1 - |r| of each base lobe. If widths do not vary, it is constant over the dispatch, and the caller
+// hoists it out of its loop over texels.
+void base_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]) {
     for (int i = 0; i < LOBE_COUNT; ++i)
         complements[i] = mean_resultant_complement(base_concentration(i, width));
+}
+
+// Adds what a texel of weight `weight` holds. `to_mixture`: from the tangent frame to the space of
+// the mixtures.
+void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture,
+               inout float complements[MATERIAL_MAXIMUM_LOBES], float weight) {
+    weight /= float(POINTS);
+    for (int index = 0; index < POINTS; ++index) {
+        vec2 point = map_point(texel, index, size);
+        vec3 normal = normal_at(point);
+        if (has_map(MAP_WIDTH))
+            base_complements(width_at(point), complements);
+        sums.mean.xyz += weight * (to_mixture * normal);
+        for (int i = 0; i < LOBE_COUNT; ++i) {
+            vec3 axis = MODEL == MODEL_MICROFACET
+                            ? normal
+                            : rotate_from_pole(normal, material.lobe_direction[i].xyz);
+            float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
+            add_lobe(sums, to_mixture * axis, complements[i], weight * share);
+        }
+    }
 }
 
 void store_layer(ivec2 position, int layer, vec4 value) {

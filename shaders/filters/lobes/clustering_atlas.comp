@@ -16,9 +16,9 @@ layout(set = 0, binding = 19) uniform sampler2D atlas_position; // xyz
 
 layout(push_constant) uniform constants_block { atlas_constants constants; };
 
-vec3 rotated(vec3 direction) {
-    return vec3(dot(constants.rotation[0].xyz, direction), dot(constants.rotation[1].xyz, direction),
-                dot(constants.rotation[2].xyz, direction));
+mat3 rotation() {
+    return transpose(mat3(constants.rotation[0].xyz, constants.rotation[1].xyz,
+                          constants.rotation[2].xyz));
 }
 
 bool faces_away(vec3 normal, ivec2 texel) {
@@ -38,7 +38,7 @@ void main() {
     cluster_sums sums = no_lobes();
     float complements[MATERIAL_MAXIMUM_LOBES];
     if (!has_map(MAP_WIDTH))
-        texel_complements(1.0, complements);
+        base_complements(1.0, complements);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             ivec2 texel = 2 * position + ivec2(x, y);
@@ -48,18 +48,9 @@ void main() {
             vec4 tangent = texelFetch(atlas_tangent, texel, 0);
             mat3 from_tangent = mat3(tangent.xyz, tangent.w * cross(surface_normal.xyz, tangent.xyz),
                                      surface_normal.xyz);
+            mat3 to_mixture = rotation() * from_tangent;
             float weight = row_weights[y] * column_weights[x];
-            vec3 normal = texel_normal(texel, size);
-            if (has_map(MAP_WIDTH))
-                texel_complements(texel_width(texel, size), complements);
-            add_normal(sums, rotated(from_tangent * normal), weight);
-            for (int i = 0; i < LOBE_COUNT; ++i) {
-                vec3 axis = MODEL == MODEL_MICROFACET
-                                ? normal
-                                : rotate_from_pole(normal, material.lobe_direction[i].xyz);
-                float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
-                add_lobe(sums, rotated(from_tangent * axis), complements[i], weight * share);
-            }
+            add_texel(sums, texel, size, to_mixture, complements, weight);
         }
     }
     store_clusters(position, sums);

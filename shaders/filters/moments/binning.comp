@@ -88,23 +88,21 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
     }
 }
 
-vec4 texel_of(int map, sampler2D image, ivec2 texel, ivec2 base_size) {
-    return has_map(map) ? texelFetch(image, texel * textureSize(image, 0) / base_size, 0)
-                        : vec4(1.0);
+vec4 value_at(int map, sampler2D image, vec2 point) {
+    return has_map(map) ? textureLod(image, point, 0.0) : vec4(1.0);
 }
 
 // Specular: F0 of microfacets, or the factor of the lobes' colours. Diffuse: what is not metal.
-void texel_colours(ivec2 texel, ivec2 size, out vec3 specular, out vec3 diffuse) {
-    diffuse =
-        material.base_colour.rgb * texel_of(MAP_BASE_COLOUR, base_colour_map, texel, size).rgb;
+void colours_at(vec2 point, out vec3 specular, out vec3 diffuse) {
+    diffuse = material.base_colour.rgb * value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb;
     if (MODEL == MODEL_MICROFACET) {
         float metallic = material.metallic;
         if (METALLIC_MAP)
-            metallic *= texel_of(MAP_WIDTH, width_map, texel, size).b;
+            metallic *= value_at(MAP_WIDTH, width_map, point).b;
         specular = mix(vec3(0.04), diffuse, metallic);
         diffuse *= 1.0 - metallic;
     } else {
-        specular = texel_of(MAP_SPECULAR, specular_map, texel, size).rgb;
+        specular = value_at(MAP_SPECULAR, specular_map, point).rgb;
     }
 }
 
@@ -128,6 +126,17 @@ plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
     return lobe;
 }
 
+void add_point(inout bin_sums sums, vec2 point, float weight) {
+    vec3 normal = normal_at(point);
+    float factor = width_at(point);
+    vec3 specular = vec3(0.0), diffuse = vec3(0.0);
+    if (BIN_COLOUR)
+        colours_at(point, specular, diffuse);
+    sums.diffuse += weight * diffuse;
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
+}
+
 void main() {
     ivec2 position = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(position, imageSize(moment_map).xy)))
@@ -143,16 +152,9 @@ void main() {
     }
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            ivec2 texel = 2 * position + ivec2(x, y);
-            float weight = row_weights[y] * column_weights[x];
-            vec3 normal = texel_normal(texel, size);
-            float factor = texel_width(texel, size);
-            vec3 specular = vec3(0.0), diffuse = vec3(0.0);
-            if (BIN_COLOUR)
-                texel_colours(texel, size, specular, diffuse);
-            sums.diffuse += weight * diffuse;
-            for (int i = 0; i < LOBE_COUNT; ++i)
-                add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
+            float weight = row_weights[y] * column_weights[x] / float(POINTS);
+            for (int i = 0; i < POINTS; ++i)
+                add_point(sums, map_point(2 * position + ivec2(x, y), i, size), weight);
         }
     }
     int layers = BIN_COLOUR ? 3 : 2;

@@ -274,9 +274,10 @@ static void rough_lambert_looks_back(void **state) {
 // Energy and reciprocity
 
 /// Under uniform light, white dielectrics reflect slightly more than all of it at grazing angles,
-/// because the half vector determines what the layer below keeps: single texels do the same.
+/// because the half vector determines what the layer below keeps: a flat surface does the same.
 static void no_energy_is_gained(void **state) {
     static const double tilts[] = {0.3, 0.8};
+    lobe_image flat = constant_map(1, 1, 0.5f, 0.5f, 1);
     for (int i = 0; i < 12; i++) {
         lobe_image image =
             i % 3 == 2 ? slope_plane_leaning_map(276) : random_normal_map(8, 8, tilts[i % 3], 277);
@@ -287,7 +288,7 @@ static void no_energy_is_gained(void **state) {
                 slope_plane_furnace(*state, &material, &image, "leadr", NULL, angles[j]);
             double most = 1.003;
             if (i >= 6)
-                most = 1.01 * fmax(1, slope_plane_furnace(*state, &material, &image, "reference",
+                most = 1.01 * fmax(1, slope_plane_furnace(*state, &material, &flat, "reference",
                                                           NULL, angles[j]));
             if (!(reflected > 0.2 && reflected <= most))
                 fail_msg("ground %d, material %d, %g degrees: %g of the light comes back", i % 3,
@@ -295,6 +296,7 @@ static void no_energy_is_gained(void **state) {
         }
         lobe_image_free(&image);
     }
+    lobe_image_free(&flat);
 }
 
 /// Both parts, over the cosine to the mean normal (or, the same for both, the height above it).

@@ -90,9 +90,10 @@ static void one_normal_is_the_base_material(void **state) {
 }
 
 /// Under uniform light, a rough and tilted surface reflects no more than arrives, or no more than
-/// its texels do: those of white dielectrics reflect slightly more at grazing angles.
+/// a flat one does: white dielectrics reflect slightly more at grazing angles.
 static void no_energy_is_gained(void **state) {
     static const double tilts[] = {0.3, 0.8};
+    lobe_image flat = constant_map(1, 1, 0.5f, 0.5f, 1);
     for (int i = 0; i < 12; i++) {
         lobe_image image =
             i % 3 == 2 ? slope_plane_leaning_map(264) : random_normal_map(8, 8, tilts[i % 3], 263);
@@ -103,13 +104,16 @@ static void no_energy_is_gained(void **state) {
                 slope_plane_furnace(*state, &material, &image, "lean", NULL, angles[j]);
             double texels =
                 slope_plane_furnace(*state, &material, &image, "reference", NULL, angles[j]);
-            if (!(reflected > 0.7 * texels && reflected <= 1.003 * fmax(texels, 1)))
+            double most = 1.003 * fmax(1, slope_plane_furnace(*state, &material, &flat, "reference",
+                                                              NULL, angles[j]));
+            if (!(reflected > 0.7 * texels && reflected <= most))
                 fail_msg("ground %d, material %d, %g degrees: %g of the light comes back, from "
                          "texels %g",
                          i % 3, i / 3, angles[j], reflected, texels);
         }
         lobe_image_free(&image);
     }
+    lobe_image_free(&flat);
 }
 
 int main(void) {

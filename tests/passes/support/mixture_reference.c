@@ -10,38 +10,8 @@
 #include "tests/reference/lobe/base_lobe.h"
 #include "tests/reference/lobe/half_vector_lobe.h"
 #include "tests/reference/map/box_reduction.h"
-#include "tests/reference/map/normal_map.h"
 #include "tests/reference/microfacet/slope_distribution.h"
 #include "tests/reference/mixture/lobe_mixture.h"
-
-void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]) {
-    uint32_t channels = lobe_format_channels(image->format);
-    size_t index = ((size_t)y * image->width + x) * channels;
-    texel[0] = texel[1] = texel[2] = 0;
-    texel[3] = 1;
-    for (uint32_t i = 0; i < channels; i++) {
-        if (image->format == LOBE_FORMAT_RGBA8_UNORM)
-            texel[i] = ((const uint8_t *)image->texels)[index + i] / 255.0;
-        else
-            texel[i] = (double)((const float *)image->texels)[index + i];
-    }
-}
-
-const lobe_image *image_of_map(const lobe_scene *scene, const lobe_texture_use *use) {
-    return use->image >= 0 ? &scene->images[use->image].image : NULL;
-}
-
-static const lobe_image *width_image(const lobe_scene *scene, const lobe_material *material) {
-    return image_of_map(scene, material->model == LOBE_MATERIAL_MICROFACET
-                                   ? &material->metallic_roughness_map
-                                   : &material->width_map);
-}
-
-void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x, uint32_t y,
-                   double texel[4]) {
-    reference_image_texel(image, (uint32_t)((uint64_t)x * image->width / size->width),
-                          (uint32_t)((uint64_t)y * image->height / size->height), texel);
-}
 
 double base_lobe_parameter(const lobe_material *material, uint32_t i, const double width[4]) {
     double parameter =
@@ -77,16 +47,19 @@ static void turn(double frame[3][3], const double local[3], double result[3]) {
         result[i] = frame[0][i] * local[0] + frame[1][i] * local[1] + frame[2][i] * local[2];
 }
 
-/// Adds the lobes of one texel.
-static void add_texel(const lobe_material *material, const double normal[3], const double width[4],
-                      double frame[3][3], const reference_layers *layers, uint32_t x, uint32_t y) {
+/// Adds the lobes of a point of a texel.
+static void add_point(const lobe_material *material, const double normal[3], const double width[4],
+                      double share, double frame[3][3], const reference_layers *layers, uint32_t x,
+                      uint32_t y) {
     double turned[3];
     turn(frame, normal, turned);
+    for (int i = 0; i < 3; i++)
+        turned[i] *= share;
     reference_add_normal(layers, x, y, turned);
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
         reference_lobe lobe = {.concentration = base_lobe_concentration(material, i, width),
-                               .share = base_lobe_share(material, i)};
+                               .share = share * base_lobe_share(material, i)};
         double direction[3] = {0, 0, 1}, axis[3];
         for (int j = 0; j < 3 && !microfacet; j++)
             direction[j] = (double)material->lobes[i].direction[j];
@@ -99,7 +72,7 @@ static void add_texel(const lobe_material *material, const double normal[3], con
 reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_material *material,
                                       uint32_t layers) {
     const lobe_image *normals = image_of_map(scene, &material->normal_map);
-    const lobe_image *widths = width_image(scene, material);
+    const lobe_image *widths = image_of_map(scene, width_map_of(material));
     uint32_t width = normals ? normals->width : 1, height = normals ? normals->height : 1;
     if (widths && widths->width > width)
         width = widths->width;
@@ -108,32 +81,26 @@ reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_materi
     return reference_layers_allocate(width, height, layers);
 }
 
-void read_lobe_texel(const lobe_scene *scene, const lobe_material *material,
-                     const reference_layers *size, uint32_t x, uint32_t y, double normal[3],
-                     double width[4]) {
-    const lobe_image *normals = image_of_map(scene, &material->normal_map);
-    const lobe_image *widths = width_image(scene, material);
-    double texel[4];
-    normal[0] = normal[1] = 0;
-    normal[2] = width[0] = width[1] = width[2] = width[3] = 1;
-    if (normals) {
-        nearest_texel(normals, size, x, y, texel);
-        reference_decode_normal(texel, (double)material->normal_scale, normal);
-    }
-    if (widths)
-        nearest_texel(widths, size, x, y, width);
+void read_lobe_point(const lobe_scene *scene, const lobe_material *material,
+                     const reference_layers *size, uint32_t x, uint32_t y, double offset,
+                     double normal[3], double width[4]) {
+    read_surface(scene, material, (x + 0.5 + offset) / size->width,
+                 (y + 0.5 + offset) / size->height, normal, width);
 }
 
 reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
                                    texel_frame frame, const void *user) {
     reference_layers layers = allocate_lobe_texels(scene, material, REFERENCE_MIXTURE_LAYERS);
+    const texel_points points = texel_points_of(scene, material);
     for (uint32_t i = 0; i < layers.width * layers.height; i++) {
         uint32_t x = i % layers.width, y = i / layers.width;
         double normal[3], width[4], axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         if (frame && !frame(user, (x + 0.5) / layers.width, (y + 0.5) / layers.height, axes))
             continue;
-        read_lobe_texel(scene, material, &layers, x, y, normal, width);
-        add_texel(material, normal, width, axes, &layers, x, y);
+        for (uint32_t j = 0; j < points.count; j++) {
+            read_lobe_point(scene, material, &layers, x, y, points.offsets[j], normal, width);
+            add_point(material, normal, width, 1.0 / points.count, axes, &layers, x, y);
+        }
     }
     return layers;
 }
@@ -142,11 +109,16 @@ reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
                                                const lobe_material *material) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     reference_layers layers = allocate_lobe_texels(scene, material, 1);
-    for (uint32_t i = 0; i < layers.width * layers.height; i++) {
-        uint32_t x = i % layers.width, y = i / layers.width;
-        double width[4], *parameters = reference_texel(&layers, x, y, 0);
-        read_lobe_texel(scene, material, &layers, x, y, parameters, width);
-        parameters[3] = microfacet ? base_lobe_concentration(material, 0, width) : width[0];
+    const texel_points points = texel_points_of(scene, material);
+    for (uint32_t i = 0; i < layers.width * layers.height * points.count; i++) {
+        uint32_t texel = i / points.count, x = texel % layers.width, y = texel / layers.width;
+        double normal[3], width[4], *parameters = reference_texel(&layers, x, y, 0);
+        read_lobe_point(scene, material, &layers, x, y, points.offsets[i % points.count], normal,
+                        width);
+        for (int j = 0; j < 3; j++)
+            parameters[j] += normal[j] / points.count;
+        parameters[3] +=
+            (microfacet ? base_lobe_concentration(material, 0, width) : width[0]) / points.count;
     }
     return layers;
 }
@@ -164,24 +136,32 @@ static void add_slopes(const double direction[3], double variance, double weight
     second[2] += weight * slope[0] * slope[1];
 }
 
-reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material) {
+/// Adds the moments of a point of a texel.
+static void add_moments(const lobe_material *material, const double normal[3],
+                        const double width[4], double share, double *first, double *second) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    first[2] += share * normal[2];
+    for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
+        double local[3] = {0, 0, 1}, axis[3];
+        for (int j = 0; j < 3 && !microfacet; j++)
+            local[j] = (double)material->lobes[i].direction[j];
+        reference_rotate_from_pole(normal, local, axis);
+        add_slopes(axis, 1 / fmax(base_lobe_concentration(material, i, width), 1),
+                   share * base_lobe_share(material, i), first, second);
+    }
+}
+
+reference_layers slope_moments_of_texels(const lobe_scene *scene, const lobe_material *material) {
     reference_layers layers = allocate_lobe_texels(scene, material, SLOPE_LAYERS);
-    for (uint32_t at = 0; at < layers.width * layers.height; at++) {
-        uint32_t x = at % layers.width, y = at / layers.width;
-        double *first = reference_texel(&layers, x, y, SLOPE_LAYER_FIRST);
-        double *second = reference_texel(&layers, x, y, SLOPE_LAYER_SECOND);
+    const texel_points points = texel_points_of(scene, material);
+    for (uint32_t at = 0; at < layers.width * layers.height * points.count; at++) {
+        uint32_t texel = at / points.count, x = texel % layers.width, y = texel / layers.width;
         double normal[3], width[4];
-        read_lobe_texel(scene, material, &layers, x, y, normal, width);
-        first[2] = normal[2];
-        for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
-            double local[3] = {0, 0, 1}, axis[3];
-            for (int j = 0; j < 3 && !microfacet; j++)
-                local[j] = (double)material->lobes[i].direction[j];
-            reference_rotate_from_pole(normal, local, axis);
-            add_slopes(axis, 1 / fmax(base_lobe_concentration(material, i, width), 1),
-                       base_lobe_share(material, i), first, second);
-        }
+        read_lobe_point(scene, material, &layers, x, y, points.offsets[at % points.count], normal,
+                        width);
+        add_moments(material, normal, width, 1.0 / points.count,
+                    reference_texel(&layers, x, y, SLOPE_LAYER_FIRST),
+                    reference_texel(&layers, x, y, SLOPE_LAYER_SECOND));
     }
     return layers;
 }

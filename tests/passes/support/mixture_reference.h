@@ -4,27 +4,19 @@
 #include <lobe/scene.h>
 
 #include "passes/filters/lobes/clustering.h"
+#include "tests/passes/support/map_reference.h"
 #include "tests/reference/mixture/layers.h"
 
 /// What lobe_clustering computes, in double precision and directly from a material's maps.
-
-/// Four channels of a texel, missing ones 0, alpha 1.
-void reference_image_texel(const lobe_image *image, uint32_t x, uint32_t y, double texel[4]);
-
-/// NULL where a material has no such map.
-const lobe_image *image_of_map(const lobe_scene *scene, const lobe_texture_use *use);
-/// Maps smaller than the largest repeat their texels.
-void nearest_texel(const lobe_image *image, const reference_layers *size, uint32_t x, uint32_t y,
-                   double texel[4]);
 
 /// Zeroes for every texel of the lobes' maps: the larger of the normal and the width map, each way.
 /// The caller frees the result.
 reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_material *material,
                                       uint32_t layers);
-/// Normal and factor of the width of one of those texels.
-void read_lobe_texel(const lobe_scene *scene, const lobe_material *material,
-                     const reference_layers *size, uint32_t x, uint32_t y, double normal[3],
-                     double width[4]);
+/// Normal and factor of the width at a point of one of those texels (texel_points.offsets).
+void read_lobe_point(const lobe_scene *scene, const lobe_material *material,
+                     const reference_layers *size, uint32_t x, uint32_t y, double offset,
+                     double normal[3], double width[4]);
 
 /// The frame of a texel as columns (tangent, bitangent, normal); false: the texel is left out.
 typedef bool (*texel_frame)(const void *user, double u, double v, double frame[3][3]);
@@ -34,8 +26,9 @@ typedef bool (*texel_frame)(const void *user, double u, double v, double frame[3
 reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,
                                    texel_frame frame, const void *user);
 
-/// What parameter_averaging averages, of every texel: its normal, and the concentration of
-/// microfacets or the factor of the widths of half-vector lobes. To free by the caller.
+/// What parameter_averaging averages, of every texel: the mean of its points' normals, and of the
+/// concentration of microfacets or the factor of the widths of half-vector lobes. To free by the
+/// caller.
 reference_layers averaged_parameters_of_texels(const lobe_scene *scene,
                                                const lobe_material *material);
 

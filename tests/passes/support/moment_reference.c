@@ -30,21 +30,11 @@ reference_moment_bins moment_bins_of(const moment_partition *partition, bool col
 // ---------------------------------------------------------------------------------------------
 // Moments
 
-static void read_colour(const lobe_scene *scene, const lobe_texture_use *use,
-                        const reference_layers *size, uint32_t x, uint32_t y, double texel[4]) {
-    const lobe_image *image = image_of_map(scene, use);
-    for (int i = 0; i < 4; i++)
-        texel[i] = 1;
-    if (image)
-        nearest_texel(image, size, x, y, texel);
-}
-
-/// Of one texel: F0 of microfacets or the factor of the lobes' colours; and what is not metal.
-static void read_colours(const lobe_scene *scene, const lobe_material *material,
-                         const reference_layers *size, uint32_t x, uint32_t y,
+/// At one point: F0 of microfacets or the factor of the lobes' colours; and what is not metal.
+static void read_colours(const lobe_scene *scene, const lobe_material *material, double u, double v,
                          const double width[4], double specular[4], double diffuse[4]) {
-    read_colour(scene, &material->base_colour_map, size, x, y, diffuse);
-    read_colour(scene, &material->specular_map, size, x, y, specular);
+    reference_map_value(scene, &material->base_colour_map, u, v, diffuse);
+    reference_map_value(scene, &material->specular_map, u, v, specular);
     for (int i = 0; i < 3; i++) {
         double metallic = (double)material->metallic * width[2];
         diffuse[i] *= (double)material->base_colour[i];
@@ -55,7 +45,7 @@ static void read_colours(const lobe_scene *scene, const lobe_material *material,
     }
 }
 
-static reference_plane_lobe lobe_of_texel(const lobe_material *material, uint32_t i,
+static reference_plane_lobe lobe_at_point(const lobe_material *material, uint32_t i,
                                           const double normal[3], const double width[4],
                                           const double specular[3], bool as_lobe) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
@@ -82,18 +72,23 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     uint32_t last = reference_moment_layers(partition) - 1;
     reference_layers layers = allocate_lobe_texels(scene, material, last + 1);
-    for (uint32_t at = 0; at < layers.width * layers.height; at++) {
-        uint32_t x = at % layers.width, y = at / layers.width;
+    const texel_points points = texel_points_of(scene, material);
+    for (uint32_t at = 0; at < layers.width * layers.height * points.count; at++) {
+        uint32_t texel = at / points.count, x = texel % layers.width, y = texel / layers.width;
+        double offset = points.offsets[at % points.count];
         double normal[3], width[4], specular[4], diffuse[4];
-        read_lobe_texel(scene, material, &layers, x, y, normal, width);
-        read_colours(scene, material, &layers, x, y, width, specular, diffuse);
+        read_lobe_point(scene, material, &layers, x, y, offset, normal, width);
+        read_colours(scene, material, (x + 0.5 + offset) / layers.width,
+                     (y + 0.5 + offset) / layers.height, width, specular, diffuse);
         for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
             reference_plane_lobe lobe =
-                lobe_of_texel(material, i, normal, width, specular, as_lobe);
+                lobe_at_point(material, i, normal, width, specular, as_lobe);
+            lobe.mass /= points.count;
             reference_add_plane_lobe(partition, &lobe, &layers, x, y);
         }
         for (int j = 0; partition->colour && j < 3; j++)
-            reference_texel(&layers, x, y, last)[j] = diffuse[j] / partition->colour_scale;
+            reference_texel(&layers, x, y, last)[j] +=
+                diffuse[j] / partition->colour_scale / points.count;
     }
     return layers;
 }

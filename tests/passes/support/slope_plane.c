@@ -46,6 +46,7 @@ lobe_scene *slope_plane(const lobe_material *material, const lobe_image *normals
            (size_t)image.width * image.height * lobe_format_size(image.format));
     *mapped = *material;
     mapped->normal_map = scene_add_map(scene, image);
+    mapped->normal_map.nearest = true;
     scene_add_square(scene, mapped, 40, NULL);
     double world[3];
     to_world(outgoing, world);

@@ -5,9 +5,9 @@
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
-/// A plane of which one pixel sees all texels of a normal map, many times. Tests how a filter
-/// shades the means of the whole map, from any direction and under any light. Directions are in the
-/// tangent frame.
+/// A plane of which one pixel sees all texels of a normal map, many times, each a flat facet. Tests
+/// how a filter shades the means of the whole map, from any direction and under any light.
+/// Directions are in the tangent frame.
 
 lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
                                       double metallic);

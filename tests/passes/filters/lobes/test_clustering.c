@@ -130,7 +130,8 @@ static void check_tangent_space(fixture *f, lobe_scene *scene, const request *as
                       (asked->mean ? 1 : 0);
     assert_int_equal(found.mixture.map.layers, layers);
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], NULL, NULL);
-    check_clusters(&found, &texels, asked->half_floats ? 1e-3 : 3e-6);
+    // Texture coordinates have 24 bits, those of a large map's texels fewer.
+    check_clusters(&found, &texels, asked->half_floats ? 1e-3 : 3e-6 + 4e-8 * texels.width);
     reference_layers_free(&texels);
     free(found.texels);
 }
@@ -253,6 +254,7 @@ static void eight_bit_normals_are_decoded(void **state) {
         bytes[i] = (uint8_t)(i % 4 == 2 ? 200 + i % 50 : 90 + (i * 37) % 70);
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 300);
     material.normal_map = scene_add_map(scene, image);
+    material.normal_map.nearest = true; // some devices interpolate eight bits with eight bits
     square_of(&material, scene);
     check_tangent_space(*state, scene, &(request){LOBE_SPACE_TANGENT, 2, true, false, false});
     lobe_scene_destroy(&scene);

@@ -45,6 +45,7 @@ static uint32_t choose_for_normals(fixture *f, float width, const double (*angle
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, width);
     material.normal_map = scene_add_map(scene, normals_in_turn(64, 48, angles, count));
+    material.normal_map.nearest = true;
     return choose(f, scene, &material);
 }
 

@@ -25,7 +25,7 @@ static void directions_at(int i, double outgoing[3], double incoming[3]) {
     slope_plane_direction(angles[i % 4], 0.4 + 0.7 * i, incoming);
 }
 
-/// Maps of a plane; a single pixel sees all texels, many times.
+/// Maps of a plane; a single pixel sees all texels, many times, and nothing between them.
 typedef struct ground {
     lobe_material material;
     lobe_image normals, widths; ///< widths: may have no texels
@@ -44,7 +44,9 @@ static lobe_texture_use add_copy(lobe_scene *scene, const lobe_image *image) {
     lobe_image copy = map_image(image->format, image->width, image->height);
     memcpy(copy.texels, image->texels,
            (size_t)copy.width * copy.height * lobe_format_size(copy.format));
-    return scene_add_map(scene, copy);
+    lobe_texture_use use = scene_add_map(scene, copy);
+    use.nearest = true;
+    return use;
 }
 
 /// Seen from `outgoing`, without a light. `mapped` receives the material with its maps.

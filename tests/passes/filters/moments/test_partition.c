@@ -65,6 +65,7 @@ static moment_partition partition_of_tilts(fixture *f, float concentration, cons
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, concentration);
     material.normal_map = scene_add_map(scene, tilts_in_turn(64, 48, tilts, count));
+    material.normal_map.nearest = true;
     return partition_of(f, scene, &material, PARTITION_FITTED, bins, false);
 }
 
@@ -73,6 +74,7 @@ static moment_partition partition_of_widths(fixture *f, const float *widths, uin
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
     material.width_map = scene_add_map(scene, widths_in_turn(40, 30, widths, count));
+    material.width_map.nearest = true;
     return partition_of(f, scene, &material, PARTITION_FITTED, bins, false);
 }
 
@@ -125,6 +127,7 @@ static void what_was_asked_for(void **state) {
         lobe_scene *scene = scene_begin();
         lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
         material.width_map = scene_add_map(scene, widths_in_turn(8, 8, two_widths, 2));
+        material.width_map.nearest = true;
         moment_partition partition = partition_of(*state, scene, &material, kind, 3, false);
         assert_int_equal(partition.bins, kind == PARTITION_CAP ? 6 : 5);
         // Between the two widths.
@@ -177,6 +180,29 @@ static void ranges_hold_all_lobes(void **state) {
         }
         lobe_scene_destroy(&scene);
     }
+}
+
+/// Between facets that lean to either side of an axis, the surface leans further along it than
+/// they.
+static void ranges_hold_what_lies_between_texels(void **state) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, 8, 8);
+    for (uint32_t i = 0; i < 64; i++) {
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        texel[0] = i % 8 < 4 ? 0.75f : 0.25f;
+        texel[1] = i / 8 % 2 ? 0.75f : 0.25f;
+        texel[2] = (float)(0.5 + sqrt(0.125));
+    }
+    material.normal_map = scene_add_map(scene, image);
+    moment_partition partition = partition_of(*state, scene, &material, PARTITION_FITTED, 1, true);
+    reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+    reference_layers texels = moments_of_texels(scene, &material, &bins, false);
+    for (uint32_t i = 0; i < texels.width * texels.height * 8; i++)
+        assert_true(fabs(texels.texels[i]) <= 1);
+    reference_layers_free(&texels);
+    lobe_scene_destroy(&scene);
 }
 
 static void the_same_every_time(void **state) {
@@ -283,10 +309,15 @@ static void unreadable_maps_are_drawn(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(directions_are_told_apart), cmocka_unit_test(widths_are_told_apart),
-        cmocka_unit_test(as_many_bins_as_pay),       cmocka_unit_test(what_was_asked_for),
-        cmocka_unit_test(ranges_hold_all_lobes),     cmocka_unit_test(the_same_every_time),
-        cmocka_unit_test(any_map_has_a_partition),   cmocka_unit_test(unreadable_maps_are_drawn),
+        cmocka_unit_test(directions_are_told_apart),
+        cmocka_unit_test(widths_are_told_apart),
+        cmocka_unit_test(as_many_bins_as_pay),
+        cmocka_unit_test(what_was_asked_for),
+        cmocka_unit_test(ranges_hold_all_lobes),
+        cmocka_unit_test(ranges_hold_what_lies_between_texels),
+        cmocka_unit_test(the_same_every_time),
+        cmocka_unit_test(any_map_has_a_partition),
+        cmocka_unit_test(unreadable_maps_are_drawn),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

@@ -68,6 +68,7 @@ static void grooves_of_any_pitch(void **state) {
         lobe_material_default(&material);
         material.roughness = 0.3f;
         material.normal_map = scene_add_map(scene, grooves(width, 128, pitch, i / 24));
+        material.normal_map.nearest = true;
         lobe_survey *survey = survey_of(*state, scene, &material);
         for (int side = -1; side <= 1; side++) {
             // A third of the part of a pitch of 64 texels is within three of its deviations.
@@ -110,6 +111,7 @@ static void rare_widths_are_seen(void **state) {
     lobe_material material;
     lobe_material_default(&material);
     material.metallic_roughness_map = scene_add_map(scene, constant_map(400, 300, 0, 0.8f, 1));
+    material.metallic_roughness_map.nearest = true;
     lobe_image *image = &scene->images[0].image;
     for (uint32_t k = 0; k < 12; k++)
         ((float *)image->texels)[4 * (k * 9973) + 1] = 0.2f;

@@ -1,0 +1,55 @@
+#ifndef LEVEL_0_GLSL
+#define LEVEL_0_GLSL
+
+// Level 0 of the maps under a pixel that is about as large as a texel: the base material itself.
+// Normals that are interpolated between texels turn inside the pixel, which widens the lobes about
+// them; less and less as the map is magnified.
+
+#include "shading/filtered_maps.glsl"
+#include "lib/lobe/characteristic_vector.glsl"
+
+layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
+
+// Normals of level 0 over the pixel's box.
+struct level_0_normals {
+    vec3 mean;      // at most of unit length
+    float variance; // (1 - |mean|)/|mean|, as variance_of_mean_normal
+};
+
+// The map's normal at texture coordinates, with slopes multiplied by `relief`.
+vec3 level_0_normal(vec2 coordinates, float relief) {
+    return decode_normal(textureLod(normal_map, coordinates, 0.0).xyz,
+                         material.normal_scale * relief);
+}
+
+// In each direction of the pixel two points that have the mean and the variance of all its points
+// if normals change linearly. Otherwise, and where level 0 has no share, its centre.
+level_0_normals normals_of_level_0(surface_point surface, float level, float relief) {
+    if (!has_map(MAP_NORMAL))
+        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0);
+    vec2 centre = map_coordinates(MAP_NORMAL, surface.coordinates, 1.0);
+    if (!INTERPOLATED || level >= 1.0)
+        return level_0_normals(level_0_normal(centre, relief), 0.0);
+    vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(12.0);
+    vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(12.0);
+    vec3 a = level_0_normal(centre - dx - dy, relief);
+    vec3 b = level_0_normal(centre + dx - dy, relief);
+    vec3 c = level_0_normal(centre - dx + dy, relief);
+    vec3 d = level_0_normal(centre + dx + dy, relief);
+    vec3 mean = 0.25 * ((a + b) + (c + d));
+    // 1 - |mean|^2, which would cancel.
+    float complement = 0.25 * (difference_squared(a, mean) + difference_squared(b, mean) +
+                               difference_squared(c, mean) + difference_squared(d, mean));
+    float length = max(length(mean), 1e-4);
+    return level_0_normals(mean, complement / ((1.0 + length) * length));
+}
+
+// `normals`: of level 0.
+base_material level_0_material(surface_point surface, level_0_normals normals) {
+    base_material base =
+        unfiltered_material(surface, mean_direction(normals.mean, vec3(0.0, 0.0, 1.0)));
+    base.variance += normals.variance;
+    return base;
+}
+
+#endif
