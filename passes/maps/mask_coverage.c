@@ -31,6 +31,8 @@ static struct mask_constants constants_of(const device_scene *scene, uint32_t in
         .width = map->width,
         .height = map->height,
         .interpolated = !map->use->nearest,
+        .repeats_u = map->use->wrap_u == LOBE_SCENE_WRAP_REPEAT,
+        .repeats_v = map->use->wrap_v == LOBE_SCENE_WRAP_REPEAT,
         .alpha = material->material->base_colour[3] * vertex_alpha(scene, index),
         .cutoff = material->material->alpha_cutoff,
     };
@@ -47,8 +49,7 @@ reduced_map passes_mask_coverage(const filter_context *context, uint32_t index) 
     lobe_pass_read(
         pass, &(lobe_binding){.name = "base_colour_map",
                               .resource = passes_device_map_import(context->graph, context->scene,
-                                                                   material, MAP_BASE_COLOUR),
-                              .sampler = passes_device_map_sampler(material, MAP_BASE_COLOUR)});
+                                                                   material, MAP_BASE_COLOUR)});
     map.resource =
         lobe_pass_write(pass, &(lobe_binding){"coverage_map", map.resource, .range = {0, 1, 0, 1}});
     lobe_pass_dispatch(pass, &(lobe_dispatch){

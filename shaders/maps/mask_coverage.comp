@@ -43,22 +43,44 @@ vec4 kept_of_line(vec4 from, vec4 to) {
 // The mean over a square from the colours of its corners, interpolated between them. Lines run
 // along the steeper change of alpha.
 vec4 kept_of_square(vec4 corner_00, vec4 corner_10, vec4 corner_01, vec4 corner_11) {
-    vec2 change = vec2(corner_10.a + corner_11.a - corner_00.a - corner_01.a,
-                       corner_01.a + corner_11.a - corner_00.a - corner_10.a);
-    bool along_y = abs(change.y) > abs(change.x);
+    vec4 above = vec4(above_cutoff(corner_00), above_cutoff(corner_10), above_cutoff(corner_01),
+                      above_cutoff(corner_11));
+    bool all_kept = all(greaterThanEqual(above, vec4(0.0)));
+    bool along_y = abs(above.z + above.w - above.x - above.y) >
+                   abs(above.y + above.w - above.x - above.z);
     vec4 right = along_y ? corner_01 : corner_10;
     vec4 below = along_y ? corner_10 : corner_01;
+    // Most squares need no lines.
+    int lines = all_kept || all(lessThan(above, vec4(0.0))) ? 0 : LINES;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < LINES; ++i) {
+    for (int i = 0; i < lines; ++i) {
         float place = (float(i) + 0.5) / float(LINES);
         sum += kept_of_line(mix(corner_00, below, place), mix(right, corner_11, place));
     }
-    return sum / float(LINES);
+    vec4 mean = vec4(0.25 * (corner_00 + corner_10 + corner_01 + corner_11).rgb, 1.0);
+    return all_kept ? mean : sum / float(LINES);
 }
 
-// `place`: in texels from the map's corner.
-vec4 colour_at(vec2 place) {
-    return textureLod(base_colour_map, place / vec2(constants.width, constants.height), 0.0);
+// One step outside the map, the texel on the other side or the same again.
+int wrapped(int texel, int size, bool repeats) {
+    return repeats ? (texel + size) % size : clamp(texel, 0, size - 1);
+}
+
+vec4 texel_at(ivec2 texel) {
+    return texelFetch(base_colour_map,
+                      ivec2(wrapped(texel.x, int(constants.width), constants.repeats_u != 0u),
+                            wrapped(texel.y, int(constants.height), constants.repeats_v != 0u)),
+                      0);
+}
+
+// The interpolated map at a texel's left and right edge (0, 2) and in the middle, on three rows.
+void read_columns(ivec2 texel, out vec4 rows[3][3]) {
+    for (int y = 0; y < 3; ++y) {
+        vec4 middle = texel_at(texel + ivec2(0, y - 1));
+        rows[y][0] = 0.5 * (texel_at(texel + ivec2(-1, y - 1)) + middle);
+        rows[y][1] = middle;
+        rows[y][2] = 0.5 * (texel_at(texel + ivec2(1, y - 1)) + middle);
+    }
 }
 
 // The mean over a texel of what is kept.
@@ -67,14 +89,15 @@ vec4 kept_of_texel(ivec2 texel) {
         vec4 colour = texelFetch(base_colour_map, texel, 0);
         return above_cutoff(colour) < 0.0 ? vec4(0.0) : vec4(colour.rgb, 1.0);
     }
-    vec4 colours[9];
-    for (int i = 0; i < 9; ++i)
-        colours[i] = colour_at(vec2(texel) + 0.5 * vec2(i % 3, i / 3));
+    vec4 rows[3][3];
+    read_columns(texel, rows);
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
-        int corner = 3 * (i / 2) + i % 2;
-        sum += kept_of_square(colours[corner], colours[corner + 1], colours[corner + 3],
-                              colours[corner + 4]);
+    for (int x = 0; x < 2; ++x) {
+        vec4 left = rows[1][x], right = rows[1][x + 1];
+        sum += kept_of_square(0.5 * (rows[0][x] + left), 0.5 * (rows[0][x + 1] + right), left,
+                              right);
+        sum += kept_of_square(left, right, 0.5 * (rows[2][x] + left),
+                              0.5 * (rows[2][x + 1] + right));
     }
     return 0.25 * sum;
 }

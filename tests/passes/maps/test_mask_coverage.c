@@ -14,7 +14,7 @@
 typedef struct mask_case {
     mask_pattern pattern;
     uint32_t width, height;
-    bool nearest;
+    mask_sampling sampling;
     float alpha, cutoff;
 } mask_case;
 
@@ -35,7 +35,7 @@ static void check_map(const uint16_t *texel, const reduced_map *map, const lobe_
             // Boxes with parts of texels take the same share of all that those texels keep.
             if ((extent[0] != floor(extent[0]) || extent[1] != floor(extent[1])))
                 continue;
-            mask_mean(image, tested->nearest, tested->cutoff / (double)tested->alpha, corner,
+            mask_mean(image, tested->sampling, tested->cutoff / (double)tested->alpha, corner,
                       extent, mean);
             for (int channel = 0; channel < 4; channel++)
                 if (!(fabs((double)engine_half_to_float(texel[channel]) - mean[channel]) <= bound))
@@ -57,7 +57,9 @@ static void check_case(fixture *f, const mask_case *tested) {
     material.base_colour[3] = tested->alpha;
     material.base_colour_map =
         scene_add_map(scene, mask_image(tested->pattern, tested->width, tested->height));
-    material.base_colour_map.nearest = tested->nearest;
+    material.base_colour_map.nearest = tested->sampling.nearest;
+    if (tested->sampling.clamped)
+        material.base_colour_map.wrap_u = material.base_colour_map.wrap_v = LOBE_SCENE_WRAP_CLAMP;
     scene_add_square(scene, &material, 1, NULL);
     scene_look_down(scene, 2);
     scene_end(scene);
@@ -82,16 +84,20 @@ static void coverage_is_what_a_count_gives(void **state) {
             check_case(*state, &(mask_case){.pattern = (mask_pattern)pattern,
                                             .width = 16,
                                             .height = 8,
-                                            .nearest = i % 2,
+                                            .sampling = {.nearest = i % 2},
                                             .alpha = 1,
                                             .cutoff = cutoffs[i / 2]});
 }
 
-static void sizes_and_factors(void **state) {
+static void sizes_factors_and_edges(void **state) {
     static const mask_case cases[] = {
-        {MASK_SMOOTH, 7, 5, false, 1, 0.5f},      {MASK_SMOOTH, 1, 12, false, 1, 0.5f},
-        {MASK_SMOOTH, 16, 16, false, 0.5f, 0.3f}, {MASK_SMOOTH, 16, 16, true, 0.5f, 0.6f},
-        {MASK_DISCS, 16, 16, false, 1, 0},        {MASK_DISCS, 16, 16, true, 1, 1.5f},
+        {MASK_SMOOTH, 7, 5, {0}, 1, 0.5f},
+        {MASK_SMOOTH, 1, 12, {0}, 1, 0.5f},
+        {MASK_SMOOTH, 8, 8, {.clamped = true}, 1, 0.5f},
+        {MASK_SMOOTH, 16, 16, {0}, 0.5f, 0.3f},
+        {MASK_SMOOTH, 16, 16, {.nearest = true}, 0.5f, 0.2f},
+        {MASK_DISCS, 16, 16, {0}, 1, 0},
+        {MASK_DISCS, 16, 16, {.nearest = true}, 1, 1.5f},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
@@ -100,7 +106,7 @@ static void sizes_and_factors(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage_is_what_a_count_gives),
-        cmocka_unit_test(sizes_and_factors),
+        cmocka_unit_test(sizes_factors_and_edges),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

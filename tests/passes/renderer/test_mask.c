@@ -77,8 +77,8 @@ static void check_distances(fixture *f, const char *filter, mask_scene wanted) {
     lobe_image image = mask_image(wanted.pattern, MAP, MAP);
     double factor = wanted.vertex_alpha > 0 ? wanted.vertex_alpha : 1;
     double exact[4];
-    mask_mean(&image, wanted.nearest, wanted.cutoff / factor, (double[]){0, 0},
-              (double[]){MAP, MAP}, exact);
+    mask_mean(&image, (mask_sampling){.nearest = wanted.nearest}, wanted.cutoff / factor,
+              (double[]){0, 0}, (double[]){MAP, MAP}, exact);
     lobe_image_free(&image);
     for (int distance = 0; distance < 4; distance++) {
         wanted.tiles = distances[distance];

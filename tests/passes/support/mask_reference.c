@@ -50,31 +50,39 @@ lobe_image mask_image(mask_pattern pattern, uint32_t width, uint32_t height) {
     return image;
 }
 
-/// `x` and `y`: above -1.
-static const float *texel_at(const lobe_image *image, double x, double y) {
-    uint32_t column = (uint32_t)((int32_t)x + (int32_t)image->width) % image->width;
-    uint32_t row = (uint32_t)((int32_t)y + (int32_t)image->height) % image->height;
+static uint32_t wrapped_texel(int32_t texel, int32_t size, bool clamped) {
+    if (clamped)
+        return (uint32_t)(texel < 0 ? 0 : texel < size ? texel : size - 1);
+    return (uint32_t)((texel + size) % size);
+}
+
+static const float *texel_at(const lobe_image *image, bool clamped, double x, double y) {
+    uint32_t column = wrapped_texel((int32_t)x, (int32_t)image->width, clamped);
+    uint32_t row = wrapped_texel((int32_t)y, (int32_t)image->height, clamped);
     return (const float *)image->texels + 4 * ((size_t)row * image->width + column);
 }
 
-void mask_colour(const lobe_image *image, bool nearest, double x, double y, double colour[4]) {
-    double left = nearest ? floor(x) : floor(x - 0.5), top = nearest ? floor(y) : floor(y - 0.5);
-    double u = nearest ? 0 : x - 0.5 - left, v = nearest ? 0 : y - 0.5 - top;
+/// RGBA at a place of the map, in texels.
+static void colour_at(const lobe_image *image, mask_sampling sampling, double x, double y,
+                      double colour[4]) {
+    double left = sampling.nearest ? floor(x) : floor(x - 0.5),
+           top = sampling.nearest ? floor(y) : floor(y - 0.5);
+    double u = sampling.nearest ? 0 : x - 0.5 - left, v = sampling.nearest ? 0 : y - 0.5 - top;
     for (int i = 0; i < 4; i++)
-        colour[i] = (1 - v) * ((1 - u) * (double)texel_at(image, left, top)[i] +
-                               u * (double)texel_at(image, left + 1, top)[i]) +
-                    v * ((1 - u) * (double)texel_at(image, left, top + 1)[i] +
-                         u * (double)texel_at(image, left + 1, top + 1)[i]);
+        colour[i] = (1 - v) * ((1 - u) * (double)texel_at(image, sampling.clamped, left, top)[i] +
+                               u * (double)texel_at(image, sampling.clamped, left + 1, top)[i]) +
+                    v * ((1 - u) * (double)texel_at(image, sampling.clamped, left, top + 1)[i] +
+                         u * (double)texel_at(image, sampling.clamped, left + 1, top + 1)[i]);
 }
 
-void mask_mean(const lobe_image *image, bool nearest, double cutoff, const double corner[2],
-               const double extent[2], double mean[4]) {
+void mask_mean(const lobe_image *image, mask_sampling sampling, double cutoff,
+               const double corner[2], const double extent[2], double mean[4]) {
     int columns = (int)ceil(extent[0] * POINTS), rows = (int)ceil(extent[1] * POINTS);
     memset(mean, 0, 4 * sizeof *mean);
     for (int i = 0; i < columns * rows; i++) {
         double colour[4];
-        mask_colour(image, nearest, corner[0] + extent[0] * (i % columns + 0.5) / columns,
-                    corner[1] + extent[1] * (i / columns + 0.5) / rows, colour);
+        colour_at(image, sampling, corner[0] + extent[0] * (i % columns + 0.5) / columns,
+                  corner[1] + extent[1] * (i / columns + 0.5) / rows, colour);
         if (colour[3] < cutoff)
             continue;
         colour[3] = 1;

@@ -16,11 +16,15 @@ typedef enum mask_pattern {
 /// Aborts if memory runs out.
 lobe_image mask_image(mask_pattern pattern, uint32_t width, uint32_t height);
 
-/// RGBA at a place of a repeated map, in texels, at least 0.
-void mask_colour(const lobe_image *image, bool nearest, double x, double y, double colour[4]);
+/// How a map is read.
+typedef struct mask_sampling {
+    bool nearest; ///< without interpolation
+    bool clamped; ///< the edge goes on beyond the map, which otherwise is repeated
+} mask_sampling;
 
-/// The mean over a rectangle of texels of colour times what is kept, and of what is kept.
-void mask_mean(const lobe_image *image, bool nearest, double cutoff, const double corner[2],
-               const double extent[2], double mean[4]);
+/// The mean over a rectangle of texels of colour times what is kept, and of what is kept. The
+/// rectangle lies within the map.
+void mask_mean(const lobe_image *image, mask_sampling sampling, double cutoff,
+               const double corner[2], const double extent[2], double mean[4]);
 
 #endif
