@@ -14,7 +14,8 @@
 // Xu et al. 2017, "Real-Time Linear BRDF MIP-Mapping", Fig. 1 and section 5.2: a pillow whose BRDF
 // varies by a diffuse colour, a specular colour and a specular coefficient map of 2048 x 1024
 // texels. Ours shows a brocade: a warp of dark silk with a sharp lobe and a weft of gold thread
-// with a broad one, in a twill that brings one or the other to the top.
+// with a broad one, in a twill that brings one or the other to the top. Threads are round, and dive
+// under those that cross them: a normal map, which the paper's pillow does not have.
 
 enum { MAP_WIDTH = 2048, MAP_HEIGHT = 1024, PITCH = 4, TWILL = 4, MOTIF_EXTENT = 512 };
 
@@ -22,10 +23,11 @@ enum { MAP_WIDTH = 2048, MAP_HEIGHT = 1024, PITCH = 4, TWILL = 4, MOTIF_EXTENT =
 typedef struct thread_kind {
     double diffuse[3], specular[3]; // sRGB, 0 to 255
     double exponent;                // Blinn-Phong
+    double roundness;               // slope at its sides
 } thread_kind;
 
-static const thread_kind silk = {{158, 30, 44}, {255, 206, 196}, 150};
-static const thread_kind gold = {{214, 160, 84}, {255, 206, 120}, 8};
+static const thread_kind silk = {{158, 30, 44}, {255, 206, 196}, 150, 0.14};
+static const thread_kind gold = {{214, 160, 84}, {255, 206, 120}, 8, 0.5};
 
 // A thread at one texel of the maps.
 typedef struct thread_point {
@@ -68,6 +70,31 @@ static thread_point find_thread(uint32_t column, uint32_t row) {
                           .vary = bits / 2147483648.0 - 1};
 }
 
+// The slope of a thread at one texel of its breadth, and of its length where it comes from below or
+// goes there, as parts of the thread's roundness.
+static const double across_thread[PITCH] = {1, 0.3, -0.3, -1};
+static const double at_start[PITCH] = {0.8, 0.25, 0, 0}, at_end[PITCH] = {0, 0, -0.25, -0.8};
+
+static double slope_along(uint32_t warp, uint32_t weft, bool on_top, uint32_t place) {
+    const uint32_t warps = MAP_WIDTH / PITCH, wefts = MAP_HEIGHT / PITCH;
+    uint32_t before[2] = {warp, weft}, after[2] = {warp, weft};
+    // A warp thread runs down the columns, a weft thread along the rows.
+    before[on_top] += on_top ? wefts - 1 : warps - 1;
+    after[on_top] += 1;
+    const bool comes = warp_is_on_top(before[0] % warps, before[1] % wefts) != on_top;
+    const bool goes = warp_is_on_top(after[0] % warps, after[1] % wefts) != on_top;
+    return (comes ? at_start[place] : 0) + (goes ? at_end[place] : 0);
+}
+
+static void fill_normal(uint32_t column, uint32_t row, void *texel) {
+    uint32_t warp = column / PITCH, weft = row / PITCH;
+    bool on_top = warp_is_on_top(warp, weft);
+    double roundness = on_top ? silk.roundness : gold.roundness;
+    double along = roundness * slope_along(warp, weft, on_top, (on_top ? row : column) % PITCH);
+    double across = roundness * across_thread[(on_top ? column : row) % PITCH];
+    scenes_normal_map_store_slope(texel, on_top ? across : along, on_top ? along : across);
+}
+
 static void store_colour(uint8_t *texel, const double colour[3], double scale) {
     for (int channel = 0; channel < 3; channel++)
         texel[channel] = (uint8_t)fmin(colour[channel] * scale + 0.5, 255);
@@ -94,6 +121,8 @@ static lobe_result add_brocade(lobe_scene *scene, const lobe_host *host) {
                                         MAP_WIDTH, MAP_HEIGHT, fill_diffuse};
     static const builtin_map specular = {"brocade specular colours", LOBE_FORMAT_RGBA8_SRGB,
                                          MAP_WIDTH, MAP_HEIGHT, fill_specular};
+    static const builtin_map normals = {"brocade normals", LOBE_FORMAT_RGBA8_UNORM, MAP_WIDTH,
+                                        MAP_HEIGHT, fill_normal};
     static const builtin_map exponents = {"brocade exponents", LOBE_FORMAT_R32_FLOAT, MAP_WIDTH,
                                           MAP_HEIGHT, fill_exponent};
     lobe_material material;
@@ -104,6 +133,8 @@ static lobe_result add_brocade(lobe_scene *scene, const lobe_host *host) {
         status = scenes_builtin_add_map(scene, &specular, host, &material.specular_map.image);
     if (!status)
         status = scenes_builtin_add_map(scene, &exponents, host, &material.width_map.image);
+    if (!status)
+        status = scenes_builtin_add_map(scene, &normals, host, &material.normal_map.image);
     if (status)
         return status;
     material.model = LOBE_MATERIAL_HALF_VECTOR_LOBES;
