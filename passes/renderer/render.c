@@ -48,7 +48,7 @@ static lobe_result choose_filter(rendering *r, const lobe_filter **filter) {
     lobe_result result = LOBE_OK;
     *filter = r->parameters->filter;
     if (!*filter)
-        result = lobe_filter_find("lobes", host, filter);
+        result = lobe_filter_find("moments", host, filter);
     if (result != LOBE_OK)
         return result;
     lobe_settings_default(*filter, &r->settings);

@@ -59,7 +59,7 @@ static void append_times(attribute_list *list, const lobe_profile_summary *times
             (float)times->passes[i].median_milliseconds;
 }
 
-enum { FIXED_ATTRIBUTES = 8 };
+enum { FIXED_ATTRIBUTES = 9 };
 
 static bool describe(const capture *capture, attribute_list *list) {
     size_t knobs = lobe_filter_knob_count(capture->filter);
@@ -75,6 +75,9 @@ static bool describe(const capture *capture, attribute_list *list) {
     append(list, "samples", "", LOBE_EXR_INTEGER)->integer = (int32_t)capture->samples;
     for (size_t i = 0; i < knobs; i++)
         append_knob(list, lobe_filter_knob(capture->filter, i), capture->settings->values[i]);
+    append_text(list, "timing",
+                capture->first_frame ? "a first frame, compilation of its shaders included"
+                                     : "medians of later frames");
     append_times(list, capture->times);
     return true;
 }

@@ -1,6 +1,8 @@
 #ifndef TOOLS_RENDER_CAPTURE_H
 #define TOOLS_RENDER_CAPTURE_H
 
+#include <stdbool.h>
+
 #include <lobe/device.h>
 #include <lobe/exr.h>
 #include <lobe/filter.h>
@@ -17,6 +19,7 @@ typedef struct capture {
     uint32_t samples; ///< a pixel
     const lobe_device_information *device;
     const lobe_profile_summary *times;
+    bool first_frame;     ///< the times include compiling shaders
     lobe_exr_depth depth; ///< of the radiance; other layers are float
     double exposure;      ///< stops, PNG only
 } capture;

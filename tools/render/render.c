@@ -3,7 +3,6 @@
 
 #include <lobe/lobe.h>
 
-#include "tools/bench/timing.h"
 #include "tools/choice/budget.h"
 #include "tools/cli/cache_options.h"
 #include "tools/cli/console.h"
@@ -15,6 +14,7 @@
 #include "tools/cli/view_options.h"
 #include "tools/render/capture.h"
 #include "tools/render/empty_picture.h"
+#include "tools/render/frame_times.h"
 
 /// The command line.
 typedef struct render_request {
@@ -50,8 +50,7 @@ typedef struct render_state {
     lobe_device *device;
     lobe_renderer *renderer;
     lobe_frame frame;
-    lobe_profile *profile;
-    lobe_profile_summary times;
+    frame_times times;
     progress progress;
     const char *cache; ///< cache folder for filtered environments; NULL: none
     char cache_folder[CACHE_FOLDER_SIZE];
@@ -212,12 +211,12 @@ static lobe_result render_frame(const render_request *request, render_state *sta
                                  .host = {.progress = progress_part, .user = &state->progress},
                              },
                              &state->frame);
-    return result == LOBE_OK ? timing_add(state->profile, &state->frame, &state->host) : result;
+    return result == LOBE_OK ? frame_times_add(&state->times, &state->frame, &state->host) : result;
 }
 
 /// The first frame builds the maps, later ones retain them.
 static lobe_result render_frames(const render_request *request, render_state *state) {
-    lobe_result result = lobe_profile_create(&state->host, &state->profile);
+    lobe_result result = LOBE_OK;
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames; i++) {
         progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
                       request->frames);
@@ -225,7 +224,7 @@ static lobe_result render_frames(const render_request *request, render_state *st
     }
     progress_end(&state->progress);
     if (result == LOBE_OK)
-        result = lobe_profile_statistics(state->profile, &state->times);
+        result = frame_times_finish(&state->times);
     return result == LOBE_OK ? device_options_check(state->device, &state->host) : result;
 }
 
@@ -263,7 +262,8 @@ static lobe_result write_images(const render_request *request, render_state *sta
         .settings = &request->settings,
         .samples = samples_of(request),
         .device = lobe_device_describe(state->device),
-        .times = &state->times,
+        .times = &state->times.summary,
+        .first_frame = frame_times_are_first(&state->times),
         .depth = (lobe_exr_depth)request->depth,
         .exposure = request->exposure,
     };
@@ -278,18 +278,12 @@ static lobe_result write_images(const render_request *request, render_state *sta
 
 static void print_times(const render_request *request, const render_state *state) {
     const lobe_device_information *device = lobe_device_describe(state->device);
-    const lobe_profile_summary *times = &state->times;
     printf("%s, filter %s, %ux%u, %u sample%s per pixel, on %s%s\n", state->scene->name,
            lobe_filter_name(request->filter), request->size[0], request->size[1],
            samples_of(request), samples_of(request) == 1 ? "" : "s", device->name,
            device->type == LOBE_DEVICE_CPU ? " (a CPU: times are those of a software renderer)"
                                            : "");
-    printf("  %-36s %8s %12s\n", "pass", "frames", "median ms");
-    for (size_t i = 0; i < times->pass_count; i++)
-        printf("  %-36s %8u %12.3f\n", times->passes[i].name, times->passes[i].runs,
-               times->passes[i].median_milliseconds);
-    printf("  %-36s %8u %12.3f\n", "whole frame", times->frame.runs,
-           times->frame.median_milliseconds);
+    frame_times_print(&state->times);
 }
 
 /// Checks early, so that a misspelt folder does not cost minutes of waiting.
@@ -328,7 +322,7 @@ static lobe_result render(render_request *request, render_state *state) {
 }
 
 static void free_state(render_state *state) {
-    lobe_profile_destroy(&state->profile);
+    frame_times_free(&state->times);
     lobe_frame_free(&state->frame);
     lobe_renderer_destroy(&state->renderer);
     lobe_device_destroy(&state->device);
@@ -374,7 +368,7 @@ static int run(int argc, char **argv) {
          .argument = "NAME",
          .summary = "the appearance filter, see 'lobe filters'",
          .target = &request.filter_name,
-         .fallback = "lobes",
+         .fallback = "moments",
          .values = OPTION_VALUES_FILTER,
          .given = &request.has_filter},
         {.name = "set",
@@ -411,7 +405,8 @@ static int run(int argc, char **argv) {
          .kind = OPTION_INTEGER,
          .argument = "N",
          .summary = "render the still scene this many times and write the last frame: the first "
-                    "builds the maps, later ones retain them",
+                    "compiles shaders and builds the maps, later ones retain them; their times are "
+                    "apart",
          .target = &request.frames,
          .fallback = "1",
          .minimum = 1,

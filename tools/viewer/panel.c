@@ -209,15 +209,20 @@ static void show_skipped(const viewer_side *side) {
 
 static void show_passes(const viewer_side *side) {
     char text[64];
-    snprintf(text, sizeof text, "%.2f ms", side->milliseconds);
+    bool first = false;
+    for (size_t i = 0; i < side->pass_count; i++)
+        first |= side->passes[i].first;
+    snprintf(text, sizeof text, first ? "(%.2f) ms" : "%.2f ms", side->milliseconds);
     imgui_line(lobe_filter_name(side->filter), text);
     for (size_t i = 0; i < side->pass_count; i++) {
         const viewer_pass *pass = &side->passes[i];
         if (pass->run == 0)
             continue;
-        snprintf(text, sizeof text, "%.2f", pass->milliseconds);
+        snprintf(text, sizeof text, pass->first ? "(%.2f)" : "%.2f", pass->milliseconds);
         imgui_indented_line(pass->name, text);
     }
+    if (first)
+        imgui_faint_text("(in brackets): with compiling shaders");
     show_skipped(side);
 }
 

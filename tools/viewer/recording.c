@@ -66,6 +66,7 @@ static lobe_result write_file(const viewer *v, const viewer_side *side, const lo
             .samples = lobe_filter_supersamples(side->filter) && side->samples ? side->samples : 1,
             .device = lobe_device_describe(v->device.lobe),
             .times = times,
+            .first_frame = true,
             .depth = LOBE_EXR_HALF,
         },
         &v->host);

@@ -41,6 +41,7 @@ void viewer_side_close(const viewer_view *view, viewer_side *side) {
 
 lobe_result viewer_side_set_scene(const viewer_view *view, viewer_side *side) {
     side->stale = true;
+    side->compiled = (viewer_compiled){0}; // other materials have other shaders
     return lobe_renderer_set_scene(side->renderer, view->scene);
 }
 
@@ -71,10 +72,37 @@ static viewer_pass *line_of(viewer_side *side, const char *name) {
     return line;
 }
 
+/// Of the filter and those of its knobs that are built into shaders.
+static uint64_t hash_of_shaders(const viewer_side *side) {
+    uint64_t hash = 14695981039346656037u ^ (uint64_t)side->output; // FNV-1a
+    for (const char *name = lobe_filter_name(side->filter); *name; name++)
+        hash = (hash ^ (unsigned char)*name) * 1099511628211u;
+    for (size_t i = 0; i < lobe_filter_knob_count(side->filter); i++)
+        if (lobe_filter_knob(side->filter, i)->kind != LOBE_KNOB_NUMBER)
+            hash = (hash ^ (uint64_t)side->settings.values[i]) * 1099511628211u;
+    return hash;
+}
+
+static bool is_compiled(const viewer_side *side, const char *pass) {
+    for (size_t i = 0; i < side->compiled.pass_count; i++)
+        if (strcmp(side->compiled.passes[i], pass) == 0)
+            return true;
+    return false;
+}
+
+static void remember_compiled(viewer_side *side) {
+    viewer_compiled *compiled = &side->compiled;
+    for (size_t i = 0; i < side->pass_count; i++)
+        if (side->passes[i].first && compiled->pass_count < VIEWER_MAXIMUM_PASSES)
+            snprintf(compiled->passes[compiled->pass_count++], sizeof *compiled->passes, "%s",
+                     side->passes[i].name);
+}
+
 static void add_pass(viewer_side *side, const lobe_pass_report *pass) {
     viewer_pass *line = line_of(side, pass->name);
     if (!line)
         return;
+    line->first |= pass->state == LOBE_PASS_RUN && !is_compiled(side, pass->name);
     line->milliseconds += pass->milliseconds;
     line->run += pass->state == LOBE_PASS_RUN;
     line->skipped += pass->state == LOBE_PASS_SKIPPED;
@@ -83,9 +111,13 @@ static void add_pass(viewer_side *side, const lobe_pass_report *pass) {
 
 static void take_times(viewer_side *side) {
     const lobe_graph_report *report = lobe_graph_describe(lobe_renderer_graph(side->renderer));
+    const uint64_t shaders = hash_of_shaders(side);
+    if (side->compiled.shaders != shaders)
+        side->compiled = (viewer_compiled){.shaders = shaders};
     side->pass_count = 0;
     for (size_t i = 0; i < report->pass_count; i++)
         add_pass(side, &report->passes[i]);
+    remember_compiled(side);
     side->milliseconds = report->milliseconds;
 }
 

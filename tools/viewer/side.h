@@ -2,6 +2,7 @@
 #define TOOLS_VIEWER_SIDE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <lobe/renderer.h>
 
@@ -21,7 +22,15 @@ typedef struct viewer_pass {
     char name[64];
     double milliseconds;
     uint32_t run, skipped, culled;
+    bool first; ///< it ran for the first time as it is set: compiling its shaders is included
 } viewer_pass;
+
+/// The passes that have run, whose shaders the driver has compiled, as the filter is set.
+typedef struct viewer_compiled {
+    uint64_t shaders; ///< hash of what decides which shaders passes use
+    char passes[VIEWER_MAXIMUM_PASSES][64];
+    size_t pass_count;
+} viewer_compiled;
 
 /// One of the pictures to compare: a filter with its knobs, and its picture. A supersampling filter
 /// refines its picture from frame to frame, through host memory; others draw into one of the
@@ -47,6 +56,7 @@ typedef struct viewer_side {
     viewer_pass passes[VIEWER_MAXIMUM_PASSES];
     size_t pass_count;
     double milliseconds, former_milliseconds;
+    viewer_compiled compiled;
 } viewer_side;
 
 /// Shared by both sides.

@@ -63,7 +63,7 @@ static int run(int argc, char **argv) {
          .argument = "NAME",
          .summary = "the initial appearance filter, see 'lobe filters'",
          .target = &texts.filter_name,
-         .fallback = "lobes",
+         .fallback = "moments",
          .values = OPTION_VALUES_FILTER},
         {.name = "set",
          .kind = OPTION_LIST,

@@ -146,7 +146,7 @@ typedef struct lobe_render_host {
 
 /// All members may be zero.
 typedef struct lobe_render_parameters {
-    const lobe_filter *filter;     ///< NULL: "lobes"
+    const lobe_filter *filter;     ///< NULL: "moments"
     const lobe_settings *settings; ///< NULL: the filter's defaults
     const lobe_camera *camera;     ///< NULL: the scene's
     uint32_t width, height;        ///< pixels; both 0: 1280, 720

@@ -43,16 +43,16 @@ def test_both_outputs_at_once():
 
 def test_metadata():
     folder = fresh_folder("metadata")
-    succeeds("render", "tablecloth", *SMALL, "--set", "epsilon0=0.5", "--set", "probes=2",
-             "--set", "threshold=dispersion", "-o", folder / "a.exr")
+    succeeds("render", "tablecloth", *SMALL, "--set", "curvature=0.5", "--set", "probes=2",
+             "--set", "storage=float16", "-o", folder / "a.exr")
     header = exr_header(folder / "a.exr")
-    expected = {"scene": "tablecloth", "filter": "lobes", "samples": 1, "knob.epsilon0": 0.5,
-                "knob.probes": 2, "knob.threshold": "dispersion", "knob.view": "radiance",
+    expected = {"scene": "tablecloth", "filter": "moments", "samples": 1, "knob.curvature": 0.5,
+                "knob.probes": 2, "knob.storage": "float16", "knob.view": "radiance",
                 "lobeVersion": succeeds("--version").stdout.split()[1]}
     for name, value in expected.items():
         check(header.get(name) == value, f"{name}: {header.get(name)}, not {value}")
     knobs = [name for name in header if name.startswith("knob.")]
-    listed = succeeds("filters").stdout.split("\nlobes: ")[1].split("\n\n")[0]
+    listed = succeeds("filters").stdout.split("\nmoments: ")[1].split("\n\n")[0]
     check(all(name[5:] in listed for name in knobs) and len(knobs) >= 10, str(knobs))
     device = succeeds("info").stdout.split("Device in use:")[1]
     check(header["device"] in device and header["driver"] in device, str(header))
@@ -91,8 +91,10 @@ def test_frames_keep_their_maps():
     succeeds("render", "tablecloth", *SMALL, "-o", folder / "one.exr")
     result = succeeds("render", "tablecloth", *SMALL, "--frames", "3", "-o", folder / "three.exr",
                       "--graph", folder / "three.txt")
-    frames = {line.split()[0]: line.split()[-2] for line in result.stdout.splitlines()[2:]}
-    check(frames["lobe_clustering"] == "1" and frames["shading"] == "3", report(result))
+    later = {line.split()[0]: line.split()[-2:] for line in result.stdout.splitlines()[2:]}
+    check(later["moment_binning"] == ["0", "-"] and later["shading"][0] == "2", report(result))
+    timing = [exr_header(folder / name)["timing"] for name in ("one.exr", "three.exr")]
+    check("first" in timing[0] and "later" in timing[1], str(timing))
     check(compare(folder / "three.exr", folder / "one.exr")["rmse"] == 0, "frames differ")
     check("skipped" in (folder / "three.txt").read_text(), "no pass was skipped")
 

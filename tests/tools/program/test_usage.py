@@ -38,7 +38,7 @@ def test_help_of_each_subcommand():
 
 def test_help_shows_defaults_and_ranges():
     text = " ".join(succeeds("render", "--help").stdout.split())
-    for words in ("(default 1280x720)", "(default lobes)", "[1, 4096] (default 64)",
+    for words in ("(default 1280x720)", "(default moments)", "[1, 4096] (default 64)",
                   "half, float (default half)", "directional:DX,DY,DZ:R,G,B", "point:X,Y,Z:R,G,B",
                   "LOBE_DEVICE"):
         check(words in text, f"no '{words}' in {text}")
@@ -91,7 +91,7 @@ def test_unknown_filter():
 
 
 def test_unknown_knob():
-    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "colour=1", says=["colour", "epsilon0"])
+    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "colours=1", says=["colours", "least_share"])
     is_wrong_usage("render", "bumps", *OUTPUT, "--filter", "direct", "--set", "epsilon0=1",
                    says=["epsilon0", "direct"])
     is_wrong_usage("bench", "bumps", "--set", "colour=1", says="colour")
@@ -100,10 +100,11 @@ def test_unknown_knob():
 
 def test_knob_out_of_range():
     for value in ("1.1", "-0.1", "nan", "inf", "", "half", "0.5x"):
-        is_wrong_usage("render", "bumps", *OUTPUT, "--set", f"epsilon0={value}", says="epsilon0")
+        is_wrong_usage("render", "bumps", *OUTPUT, "--set", f"least_share={value}",
+                       says="least_share")
     is_wrong_usage("render", "bumps", *OUTPUT, "--set", "probes=1.5", says="probes")
     is_wrong_usage("render", "bumps", *OUTPUT, "--set", "view=beauty", says=["beauty", "level"])
-    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "epsilon0", says="NAME=VALUE")
+    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "probes", says="NAME=VALUE")
     is_wrong_usage("bench", "bumps", "--set", "epsilon0=2", says="epsilon0")
     is_wrong_usage("bench", "bumps", "--set", "epsilon0", says="NAME=VALUE")
 
@@ -161,7 +162,7 @@ def test_filters_are_listed_with_their_knobs():
 def test_wrong_usage_writes_nothing():
     folder = fresh_folder("usage")
     is_wrong_usage("render", "bumps", "-o", folder / "a.exr", "--graph", folder / "a.dot",
-                   "--set", "epsilon0=7")
+                   "--set", "probes=70")
     is_wrong_usage("bench", "bumps", "--json", folder / "a.json", "--filters", "blur")
     leaves(folder)
 

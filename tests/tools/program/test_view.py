@@ -188,13 +188,14 @@ def test_keys_fly_while_they_are_held():
 def test_filters_and_outputs():
     if missing():
         return missing()
-    before, after = changes("key", "f")
+    before, _ = changes("key", "f")
+    _, after = changes("key", "f")  # the reference, which is next, depends on the time it had
     names = [line.split(":")[0] for line in succeeds("filters").stdout.splitlines()
              if ": " in line and not line.startswith(" ")]
-    following = names[(names.index("lobes") + 1) % len(names)]
+    following = names[(names.index("moments") + 2) % len(names)]
     difference = largest_difference(after, rendered("--filter", following))
     check(difference <= 1, f"{following}: differs by {difference} of 255")
-    for _ in range(len(names) - 1):
+    for _ in range(len(names) - 2):
         window().do("key", "f")
     check(seen() == before, "does not come round")
     changes("key", "v")
@@ -342,12 +343,12 @@ def test_monitors_of_other_dots():
     check(panel_width() == width, f"{width} pixels have become {panel_width()}")
     radiance = colours()
     # The knob "view": its choices come down.
-    window().meets("unit 2", "mousemove", 200, 371)
-    for choice in (410, 394):
-        window().do("mousemove", 200, 371, "click", 1)
+    window().meets("unit 2", "mousemove", 200, 325)
+    for choice in (364, 348):
+        window().do("mousemove", 200, 325, "click", 1)
         window().do("mousemove", 150, choice, "click", 1)
         window().do("mousemove", 600, 100)  # no explanation then
-        expected = 1 if choice == 410 else len(radiance)
+        expected = 1 if choice == 364 else len(radiance)
         check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
     window().meets("unit 1", "mousemove", 630, 470)
     window().do("windowsize", window().number, *SIZE, "key", "Tab")
