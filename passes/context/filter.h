@@ -45,6 +45,14 @@ typedef struct filter_context {
     const lobe_host *host; ///< log and memory
 } filter_context;
 
+/// Whether a filter turns microfacets into Gaussian slopes (Beckmann's distribution), and how these
+/// mask each other.
+typedef enum filter_slopes {
+    FILTER_NO_SLOPES,
+    FILTER_SLOPES_MASKED_AS_MATERIAL,
+    FILTER_SLOPES_MASKED_AS_SLOPES,
+} filter_slopes;
+
 struct lobe_filter {
     const char *name;
     const char *summary;
@@ -53,6 +61,7 @@ struct lobe_filter {
     const char *shading;
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
+    filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material. Called in every frame, before `build`, for each
     /// material that is drawn, so it must return at once if the slot is still valid. `*slot` is

@@ -1,5 +1,7 @@
 #include "passes/environment/irradiance_harmonics.h"
 
+#include <lobe/environment_maps.h>
+
 #include <math.h>
 
 #include "shaders/interface/irradiance_harmonics.h"
@@ -48,13 +50,21 @@ static uint32_t level_to_read(const irradiance_source *source) {
     return level;
 }
 
+/// What a von Mises-Fisher lobe of a large concentration leaves of degree l: Mardia, Jupp 2000,
+/// Directional Statistics, section 9.3.
+static double lobe_factor(int degree, double concentration) {
+    double first = 1 - 1 / concentration;
+    return degree == 0 ? 1 : degree == 1 ? first : 1 - 3 * first / concentration;
+}
+
 static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32_t count,
-                                   double window) {
+                                   double concentration, double window) {
     struct irradiance_harmonics_sum_constants constants = {.count = count};
     double lambda = passes_harmonics_window(window);
     for (int degree = 0; degree < 3; degree++)
         constants.band_factors[degree] =
-            (float)(cosine_factor[degree] / (1 + lambda * squared_eigenvalue(degree)));
+            (float)(cosine_factor[degree] / (1 + lambda * squared_eigenvalue(degree)) /
+                    lobe_factor(degree, concentration));
     lobe_resource harmonics = lobe_graph_buffer(
         graph, &(lobe_buffer_description){"environment irradiance harmonics",
                                           sizeof(struct irradiance_harmonics), .retained = true});
@@ -86,5 +96,7 @@ lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source s
                                               .threads = {groups * HARMONICS_GROUP_SIZE},
                                               .constants = &constants,
                                               .constants_size = sizeof constants});
-    return add_up_groups(graph, sums, groups, window);
+    double concentration =
+        source.filtered ? lobe_environment_level_concentration(source.size, level) : INFINITY;
+    return add_up_groups(graph, sums, groups, concentration, window);
 }

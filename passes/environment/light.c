@@ -51,10 +51,30 @@ static bool uses_ggx(const filter_context *context) {
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
+static lobe_resource albedo_table(lobe_graph *graph, environment_light *light,
+                                  lobe_distribution distribution, lobe_distribution masking) {
+    lobe_resource *table = &light->albedo[distribution][masking];
+    if (!table->version)
+        *table = passes_directional_albedo(graph, distribution, masking);
+    return *table;
+}
+
+/// The masking of a filter's slopes.
+static lobe_distribution slope_masking(const filter_context *context,
+                                       lobe_distribution distribution) {
+    return context->filter->slopes == FILTER_SLOPES_MASKED_AS_MATERIAL ? distribution
+                                                                       : LOBE_DISTRIBUTION_BECKMANN;
+}
+
 static void build_albedo(const filter_context *context, environment_light *light) {
     for (uint32_t i = 0; i < DISTRIBUTION_COUNT; i++) {
-        if (uses_distribution(context, i))
-            light->albedo[i] = passes_directional_albedo(context->graph, (lobe_distribution)i);
+        if (!uses_distribution(context, i))
+            continue;
+        lobe_distribution distribution = (lobe_distribution)i;
+        albedo_table(context->graph, light, distribution, distribution);
+        if (context->filter->slopes)
+            albedo_table(context->graph, light, LOBE_DISTRIBUTION_BECKMANN,
+                         slope_masking(context, distribution));
     }
 }
 
@@ -123,10 +143,12 @@ static environment_maps build_cubes(const filter_context *context, const environ
 static void build_maps(const filter_context *context, const environment_work *work,
                        environment_light *light) {
     environment_maps maps = build_cubes(context, work, light);
-    irradiance_source source = {light->cube, maps.width[LOBE_ENVIRONMENT_RADIANCE],
-                                maps.levels[LOBE_ENVIRONMENT_RADIANCE]};
-    bool harmonics =
-        light->method == ENVIRONMENT_PREFILTERED || light->method == ENVIRONMENT_SAMPLED;
+    // The harmonics are those of the filtered cubes: both change at the same time.
+    bool filtered = light->method == ENVIRONMENT_PREFILTERED;
+    lobe_environment_map map =
+        filtered ? LOBE_ENVIRONMENT_VON_MISES_FISHER : LOBE_ENVIRONMENT_RADIANCE;
+    irradiance_source source = {maps.cubes[map], maps.width[map], maps.levels[map], filtered};
+    bool harmonics = filtered || light->method == ENVIRONMENT_SAMPLED;
     light->harmonics = harmonics ? passes_irradiance_harmonics(
                                        context->graph, source,
                                        passes_knob_value(context, &passes_knob_environment_window))
@@ -248,15 +270,26 @@ void passes_environment_light_specialise(const environment_light *light,
         passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
 }
 
+static lobe_binding bind_albedo(const char *name, lobe_resource table,
+                                const filter_context *context, const lobe_material *material) {
+    bool used = material->model == LOBE_MATERIAL_MICROFACET && table.version;
+    if (!used)
+        table = lobe_graph_import_texture(context->graph, context->scene->white);
+    return (lobe_binding){
+        .name = name, .resource = table, .sampler = passes_directional_albedo_sampler};
+}
+
 lobe_binding passes_environment_light_albedo(const environment_light *light,
                                              const filter_context *context,
                                              const lobe_material *material) {
-    lobe_binding binding = {.name = "directional_albedo_table",
-                            .resource = light->albedo[material->distribution],
-                            .sampler = passes_directional_albedo_sampler};
-    bool table = material->model == LOBE_MATERIAL_MICROFACET &&
-                 (binding.resource.index || binding.resource.version);
-    if (!table)
-        binding.resource = lobe_graph_import_texture(context->graph, context->scene->white);
-    return binding;
+    lobe_distribution own = material->distribution;
+    return bind_albedo("directional_albedo_table", light->albedo[own][own], context, material);
+}
+
+lobe_binding passes_environment_light_slope_albedo(const environment_light *light,
+                                                   const filter_context *context,
+                                                   const lobe_material *material) {
+    lobe_distribution masking = slope_masking(context, material->distribution);
+    return bind_albedo("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
+                       context, material);
 }

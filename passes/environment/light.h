@@ -37,8 +37,9 @@ typedef struct environment_light {
     /// Filtered with lobes; the plain MIP chain where the method does not use them.
     lobe_resource prefiltered, prefiltered_ggx, between;
     lobe_resource harmonics; ///< of the irradiance
-    /// Directional albedo for each microfacet distribution; none where no material needs it.
-    lobe_resource albedo[DISTRIBUTION_COUNT];
+    /// Directional albedo by the distribution of microfacets and that of their masking; none where
+    /// no material needs it.
+    lobe_resource albedo[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];
 } environment_light;
 
 /// Loads the maps that this frame needs from the cache, if there is one. Call it before the frame
@@ -73,5 +74,9 @@ void passes_environment_light_specialise(const environment_light *light, special
 lobe_binding passes_environment_light_albedo(const environment_light *light,
                                              const filter_context *context,
                                              const lobe_material *material);
+/// The same for the slopes that a filter turns its microfacets into.
+lobe_binding passes_environment_light_slope_albedo(const environment_light *light,
+                                                   const filter_context *context,
+                                                   const lobe_material *material);
 
 #endif

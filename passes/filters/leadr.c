@@ -51,6 +51,7 @@ const lobe_filter passes_filter_leadr = {
     .summary = "one anisotropic Beckmann lobe, masked and lit as displaced facets are",
     .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping",
     .shading = "leadr",
+    .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
     .knobs = knobs,
     .build = passes_slope_moments_build,
     .ignores = ignores,

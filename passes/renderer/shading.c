@@ -185,6 +185,9 @@ static size_t bind_draw(const filter_context *context, const environment_light *
             .resource = passes_device_map_import(graph, context->scene, material, map),
             .sampler = passes_device_map_sampler(material, map)};
     bindings[count++] = passes_environment_light_albedo(light, context, material->material);
+    if (context->filter->slopes)
+        bindings[count++] =
+            passes_environment_light_slope_albedo(light, context, material->material);
     for (size_t i = 0; i < appearance->binding_count; i++)
         bindings[count++] = appearance->bindings[i];
     return count;
@@ -201,7 +204,7 @@ static void draw_instance(const filter_context *context, const environment_light
         for (int column = 0; column < 4; column++)
             constants.rows[row][column] = transform[4 * column + row];
     }
-    lobe_binding bindings[3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
+    lobe_binding bindings[4 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
     size_t binding_count = bind_draw(context, light, instance, appearance, bindings);
     specialisation_list list = {.graph = context->graph};
     specialise_draw(context, light, instance, appearance, &list);

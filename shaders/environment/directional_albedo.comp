@@ -17,6 +17,7 @@
 #include "lib/microfacet/microfacet.glsl"
 
 layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBUTION_GGX;
+layout(constant_id = SPECIALISE_MASKING) const uint MASKING = DISTRIBUTION_GGX;
 
 // One workgroup per row.
 layout(local_size_x = DIRECTIONAL_ALBEDO_SIZE) in;
@@ -64,7 +65,8 @@ float fifth_power(float x) {
 // The azimuth range ends where incoming light would be below the horizon: cos(azimuth) =
 // limit/across. With sin(azimuth/2) = m sin(tau), where m is its largest value, the integrand is
 // smooth and periodic in tau, so that few points suffice.
-vec2 reflected_by_ring(vec3 ring, float outgoing_cosine, float outgoing_sine, float parameter) {
+vec2 reflected_by_ring(vec3 ring, float outgoing_cosine, float outgoing_sine, float parameter,
+                       float masking_parameter) {
     float across = outgoing_sine * ring.y;
     float limit = outgoing_cosine * (0.5 / ring.x - ring.x);
     float m_squared = clamp(0.5 * (across - limit) / max(across, 1e-20), 0.0, 1.0);
@@ -80,7 +82,7 @@ vec2 reflected_by_ring(vec3 ring, float outgoing_cosine, float outgoing_sine, fl
         float facing = across * (1.0 - 2.0 * m_squared * s) + outgoing_cosine * ring.x;
         float incident_cosine = 2.0 * facing * ring.x - outgoing_cosine;
         float shadowed =
-            masking_shadowing(DISTRIBUTION, incident_cosine, outgoing_cosine, parameter);
+            masking_shadowing(MASKING, incident_cosine, outgoing_cosine, masking_parameter);
         float specular = microfacet_specular(vec3(1.0), density, shadowed, outgoing_cosine).x;
         // Walter, Marschner, Li, Torrance, 2007, Eq. 14: steradians of incidence per steradian of
         // half vectors.
@@ -95,10 +97,11 @@ vec2 specular_parts(float outgoing_cosine, float roughness) {
     float outgoing_sine = sqrt((1.0 - outgoing_cosine) * (1.0 + outgoing_cosine));
     float alpha = alpha_from_roughness(roughness);
     float parameter = microfacet_parameter(DISTRIBUTION, roughness);
+    float masking_parameter = microfacet_parameter(MASKING, roughness);
     vec2 sum = vec2(0.0);
     for (int i = 0; i < RINGS; ++i)
         sum += reflected_by_ring(ring_of_half_vectors(i, outgoing_cosine, outgoing_sine, alpha),
-                                 outgoing_cosine, outgoing_sine, parameter);
+                                 outgoing_cosine, outgoing_sine, parameter, masking_parameter);
     return sum;
 }
 

@@ -65,29 +65,51 @@ vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axi
                       mip_level(environment_width(), exponent)).rgb;
 }
 
-// Whether a round lobe is read from two cubes. For GGX lobes there is only one.
-bool is_blended(uint kind) {
-    return ENVIRONMENT_BLENDED && kind != DISTRIBUTION_GGX;
+// How much of a round lobe has the long tails of GGX. Microfacets that reflect broad lobes cut their
+// tails off at the horizon: these are von Mises-Fisher's.
+float share_of_tails(uint kind, float concentration) {
+    if (kind != DISTRIBUTION_GGX)
+        return 0.0;
+    // From alpha = 0.17 to 0.1 of directions.
+    float alpha = inversesqrt(2.0 * concentration);
+    return MODEL == MODEL_MICROFACET ? 1.0 - smoothstep(0.1, 0.17, alpha) : 1.0;
 }
 
-prefiltered_blend levels_of_lobe(uint kind, float width, float concentration) {
-    if (is_blended(kind))
-        return blend_of_lobe(width, concentration);
-    return prefiltered_blend(prefiltered_level(width, concentration), 0.0, 1.0);
+// Where a round lobe is read.
+struct prefiltered_lobe {
+    float tails;              // share of the GGX cube
+    float level;              // of the cubes' levels
+    prefiltered_blend levels; // of those that have no tails
+};
+
+// The lobes without tails may be read from two cubes, the others only from one.
+prefiltered_lobe levels_of_lobe(uint kind, float width, float concentration) {
+    prefiltered_lobe lobe;
+    lobe.tails = share_of_tails(kind, concentration);
+    lobe.level = prefiltered_level(width, concentration);
+    lobe.levels = ENVIRONMENT_BLENDED ? blend_of_lobe(width, concentration)
+                                      : prefiltered_blend(lobe.level, 0.0, 1.0);
+    return lobe;
 }
 
 float finest_concentration(uint kind, float width) {
-    return prefiltered_concentration(width, 0.0) * (is_blended(kind) ? 2.0 : 1.0);
+    bool blended = ENVIRONMENT_BLENDED && kind != DISTRIBUTION_GGX;
+    return prefiltered_concentration(width, 0.0) * (blended ? 2.0 : 1.0);
 }
 
 // Mean radiance over a round lobe.
-vec3 prefiltered_radiance(uint kind, vec3 direction, prefiltered_blend levels) {
-    if (kind == DISTRIBUTION_GGX)
-        return textureLod(prefiltered_environment_ggx, direction, levels.level).rgb;
-    vec3 radiance = textureLod(prefiltered_environment, direction, levels.level).rgb;
-    if (is_blended(kind))
-        radiance = mix(textureLod(environment_between, direction, levels.level_between).rgb,
-                       radiance, levels.share);
+vec3 prefiltered_radiance(vec3 direction, prefiltered_lobe lobe) {
+    vec3 radiance = vec3(0.0);
+    if (lobe.tails < 1.0) {
+        radiance = textureLod(prefiltered_environment, direction, lobe.levels.level).rgb;
+        if (ENVIRONMENT_BLENDED)
+            radiance =
+                mix(textureLod(environment_between, direction, lobe.levels.level_between).rgb,
+                    radiance, lobe.levels.share);
+    }
+    if (lobe.tails > 0.0)
+        radiance = mix(radiance, textureLod(prefiltered_environment_ggx, direction, lobe.level).rgb,
+                       lobe.tails);
     return radiance;
 }
 
@@ -105,14 +127,14 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
     float reach = sqrt(max(major - variance, 0.0) / major) * sqrt(12.0 / (count + 1.0));
     float width = float(textureSize(prefiltered_environment, 0).x);
     float concentration = 1.0 / max(variance, 1e-8);
-    prefiltered_blend levels = levels_of_lobe(kind, width, concentration);
+    prefiltered_lobe levels = levels_of_lobe(kind, width, concentration);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint i = 0u; i < uint(count); ++i) {
         float place = float(i) - 0.5 * (count - 1.0);
         float weight = exp(-6.0 / (count + 1.0) * place * place);
         vec3 direction = lobe.axis + place * reach * lobe.first;
-        sum += weight * prefiltered_radiance(kind, to_environment(surface, direction), levels);
+        sum += weight * prefiltered_radiance(to_environment(surface, direction), levels);
         weights += weight;
     }
     // Lobes sharper than the finest level blend towards the unfiltered radiance.

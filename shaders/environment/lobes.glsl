@@ -5,12 +5,6 @@
 
 #include "shading/base_material.glsl"
 #include "environment/environment.glsl"
-#include "interface/irradiance_harmonics.h"
-#include "lib/light/spherical_harmonics.glsl"
-
-layout(set = 0, binding = 29, std430) readonly buffer irradiance_block {
-    irradiance_harmonics irradiance;
-};
 
 const vec3 SURFACE_NORMAL = vec3(0.0, 0.0, 1.0);
 
@@ -69,25 +63,29 @@ half_vector_sample gaussian_sample(direction_lobe lobe, uint j, uint k) {
 }
 
 // GGX has no variance: points of equal probability, Walter, Marschner, Li, Torrance, 2007, Eqs. 35
-// and 36, tan theta = alpha sqrt(u/(1 - u)), and a deviation is alpha/sqrt(2).
-half_vector_sample ggx_sample(direction_lobe lobe, uint j, uint k) {
+// and 36, tan theta = alpha sqrt(u/(1 - u)), and a deviation is alpha/sqrt(2). Of a Gaussian they
+// are at sqrt(-2 log(1 - u)) deviations: where it is due to varying normals (`spread`, [0, 1]), a
+// lobe has no tails.
+half_vector_sample ggx_sample(direction_lobe lobe, uint j, uint k, float spread) {
     float n = float(ENVIRONMENT_GRID);
     float u = (float(j) + 0.5) / n;
     float angle = 2.0 * PI * (float(k) + 0.5 * float(j & 1u)) / n;
-    float tangent = sqrt(2.0 * u / (1.0 - u));
+    float ggx = sqrt(2.0 * u / (1.0 - u)), gaussian = sqrt(-2.0 * log(1.0 - u));
+    float tangent = mix(ggx, gaussian, spread);
     half_vector_sample result;
     result.half_vector = normalize(lobe.axis + tangent * (cos(angle) * lobe.first +
                                                           sin(angle) * lobe.second));
-    // Per unit of the plane the density is 1/(pi a^2) (1 - u)^2, a^2 = 2 first x second.
-    float area = 2.0 * PI * length(cross(lobe.first, lobe.second)) / (n * n * (1.0 - u) * (1.0 - u));
+    // tangent d(tangent) d(angle) for a step of u and of the angle.
+    float step = mix(1.0 / (ggx * (1.0 - u)), 1.0 / gaussian, spread) / (1.0 - u);
+    float area = 2.0 * PI * tangent * step * length(cross(lobe.first, lobe.second)) / (n * n);
     float cosine = dot(result.half_vector, lobe.axis);
     result.weight = 1.0;
     result.solid_angle = area * cosine * cosine * cosine;
     return result;
 }
 
-half_vector_sample sample_of(half_vector_distribution lobe, uint j, uint k) {
-    return lobe.kind == DISTRIBUTION_GGX ? ggx_sample(lobe.shape, j, k)
+half_vector_sample sample_of(half_vector_distribution lobe, uint j, uint k, float spread) {
+    return lobe.kind == DISTRIBUTION_GGX ? ggx_sample(lobe.shape, j, k, spread)
                                          : gaussian_sample(lobe.shape, j, k);
 }
 
@@ -110,7 +108,7 @@ vec3 sampled_half_vectors(surface_point surface, half_vector_distribution lobe, 
     float weights = 0.0;
     for (uint j = 0u; j < side; ++j) {
         for (uint k = 0u; k < side; ++k) {
-            half_vector_sample point = sample_of(lobe, j, k);
+            half_vector_sample point = sample_of(lobe, j, k, 0.0);
             float cosine = dot(surface.outgoing, point.half_vector);
             vec3 incoming = 2.0 * cosine * point.half_vector - surface.outgoing;
             float seen = above_horizon(incoming) ? 4.0 * max(cosine, 0.0) : 0.0;
@@ -156,117 +154,6 @@ vec3 reflect_half_vectors(surface_point surface, half_vector_distribution lobe) 
     float wide = share_of_wide_slopes(lobe);
     uint side = wide > 0.0 ? ENVIRONMENT_GRID : 0u;
     return mix(light, sampled_half_vectors(surface, lobe, side), wide);
-}
-
-// ---------------------------------------------------------------------------------------------
-// Microfacets, about a normal of their own
-
-// A lobe is broader than base lobes of this parameter because the normals vary. If both are
-// Gaussian, the mean normal of the facets that reflect about a half vector lies between the axis
-// and the half vector. [0, 1]: how far.
-float spread_of_normals(direction_lobe lobe, float parameter) {
-    float base = 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
-    return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
-}
-
-vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                         float parameter) {
-    float spread = spread_of_normals(lobe.shape, parameter);
-    float mean_cosine = dot(lobe.shape.axis, surface.outgoing);
-    vec3 sum = vec3(0.0);
-    float weights = 0.0;
-    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
-        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
-            half_vector_sample point = sample_of(lobe, j, k);
-            float half_cosine = dot(surface.outgoing, point.half_vector);
-            vec3 incoming = 2.0 * half_cosine * point.half_vector - surface.outgoing;
-            vec3 normal = normalize(mix(lobe.shape.axis, point.half_vector, spread));
-            float outgoing_cosine = max(dot(normal, surface.outgoing), 1e-3);
-            float visible = masking_shadowing(DISTRIBUTION, dot(normal, incoming), outgoing_cosine,
-                                              parameter);
-            float scale = max(half_cosine, 0.0) /
-                          (outgoing_cosine * max(dot(normal, point.half_vector), 1e-3));
-            float seen = above_horizon(incoming) ? visible * scale : 0.0;
-            vec3 fresnel = fresnel_schlick(f0, vec3(1.0), half_cosine);
-            sum += point.weight * seen * fresnel * sample_radiance(surface, point, incoming);
-            weights += point.weight;
-        }
-    }
-    return sum * (scattering_scale(f0, mean_cosine, parameter) / weights);
-}
-
-// Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, the reflection of a
-// white environment and the mean of the environment over the lobe.
-//
-// `parameter` is that of the base lobes and determines masking. The albedo for a white environment
-// accounts for the base lobes' own horizon, but not for the surface's.
-vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                         float parameter) {
-    if (sampled_by_grid())
-        return sampled_microfacets(surface, lobe, f0, parameter);
-    vec3 normal = lobe.shape.axis;
-    float outgoing_cosine = dot(normal, surface.outgoing);
-    vec3 reflected = specular_albedo(albedo_of(outgoing_cosine, parameter), f0, vec3(1.0)) *
-                     scattering_scale(f0, outgoing_cosine, parameter);
-    direction_lobe incoming = reflected_lobe(lobe.shape, surface.outgoing);
-    if (HORIZON != HORIZON_IGNORED) {
-        float own = max(lobe_share_above(incoming, normal), 0.05);
-        reflected *= min(lobe_share_above(incoming, SURFACE_NORMAL) / own, 1.0);
-    }
-    if (HORIZON == HORIZON_CLIPPED)
-        incoming = lobe_above(lobe_above(incoming, normal), SURFACE_NORMAL);
-    return reflected * lobe_radiance(surface, lobe, incoming);
-}
-
-// ---------------------------------------------------------------------------------------------
-// Lambert's part
-
-// Irradiance over pi, for a mean normal of at most unit length.
-vec3 mean_irradiance(surface_point surface, vec3 mean_normal) {
-    vec3 normal = to_environment(surface, mean_normal);
-    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP)
-        return environment.intensity * length(mean_normal) *
-               textureLod(environment_cube, normal, 16.0).rgb;
-    return (environment.intensity * INVERSE_PI) *
-           harmonic_irradiance_of_mean_normal(irradiance.coefficients, normal);
-}
-
-// The albedo of what microfacets let through: 1 - F = (1 - F0) (1 - (1 - c)^5).
-vec3 let_through(surface_point surface, base_material base) {
-    if (MODEL != MODEL_MICROFACET)
-        return base.diffuse;
-    vec4 albedo = albedo_of(dot(base.normal, surface.outgoing), base.width);
-    return diffuse_albedo(albedo, base.diffuse, base.specular, vec3(1.0));
-}
-
-vec3 reflect_lambert(surface_point surface, base_material base, vec3 mean_normal) {
-    return let_through(surface, base) * mean_irradiance(surface, mean_normal);
-}
-
-// ---------------------------------------------------------------------------------------------
-// A base material
-
-vec3 reflect_base_specular(surface_point surface, base_material base) {
-    if (MODEL == MODEL_MICROFACET) {
-        float width = widened_width(base);
-        return reflect_microfacets(surface, base_half_vectors(base.normal, width, surface.outgoing),
-                                   base.specular, width);
-    }
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i) {
-        vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
-        float parameter = widened_lobe_parameter(i, base);
-        sum += material.lobe_colour[i].rgb *
-               reflect_half_vectors(surface, base_half_vectors(axis, parameter, surface.outgoing));
-    }
-    return base.specular * sum;
-}
-
-vec3 reflect_base_material(surface_point surface, base_material base, vec3 mean_normal) {
-    vec3 sum = reflect_base_specular(surface, base);
-    if (DIFFUSE)
-        sum += reflect_lambert(surface, base, mean_normal);
-    return sum;
 }
 
 #endif

@@ -4,7 +4,7 @@
 #include "shading/unfiltered_maps.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #include "environment/sample.glsl"
 #endif
 

@@ -13,7 +13,7 @@
 #include "lib/lobe/dispersion.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;

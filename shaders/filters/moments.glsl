@@ -12,7 +12,7 @@
 #include "lib/lobe/plane_lobe.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
@@ -352,12 +352,16 @@ direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
 // blending both in proportion is no better).
 vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
     bool tails = MODEL == MODEL_MICROFACET && distribution_kind() == DISTRIBUTION_GGX;
-    half_vector_distribution half_vectors = half_vector_distribution(
-        lobe_of_bin(bin, bin.covariance), tails ? DISTRIBUTION_GGX : DISTRIBUTION_VMF);
+    uint kind = tails ? DISTRIBUTION_GGX : DISTRIBUTION_VMF;
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
-        return reflect_half_vectors(surface, half_vectors);
-    return reflect_microfacets(surface, half_vectors, f0,
-                               parameter_of_plane_variance(DISTRIBUTION, bin.variance));
+        return reflect_half_vectors(
+            surface, half_vector_distribution(lobe_of_bin(bin, bin.covariance), kind));
+    // Broad base lobes have another variance in the plane than on the sphere.
+    float parameter = parameter_of_plane_variance(DISTRIBUTION, bin.variance);
+    float excess = bin.variance - 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
+    vec3 covariance = bin.covariance - excess * plane_distortion(bin.mean);
+    return reflect_microfacets(
+        surface, half_vector_distribution(lobe_of_bin(bin, covariance), kind), f0, parameter);
 }
 
 // A bin's share of the appearance. For microfacets as seen along the normal, where a lobe's mass is

@@ -20,6 +20,7 @@
 #define SPECIALISE_METALLIC_MAP         11 // bool, the width map says where a microfacet is metal
 // bool: shading sees the normal map interpolated; in passes that build maps, it or the width map
 #define SPECIALISE_INTERPOLATED 12
+#define SPECIALISE_MASKING      13 // uint, DISTRIBUTION_... whose masking is used
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
 #define SPECIALISE_POINT_LIGHTS       17 // bool

@@ -15,10 +15,27 @@ vec4 albedo_of(float cosine, float parameter) {
     return directional_albedo(directional_albedo_table, DISTRIBUTION, cosine, parameter);
 }
 
+#ifdef SLOPE_FILTER
+// The same for microfacets that the filter has turned into Gaussian slopes.
+layout(set = 0, binding = 32) uniform sampler2D slope_albedo_table;
+#endif
+
+// Of a lobe of this kind, by the parameter of the material's distribution.
+vec4 albedo_of_lobe(uint kind, float cosine, float parameter) {
+#ifdef SLOPE_FILTER
+    if (kind == DISTRIBUTION_BECKMANN)
+        return directional_albedo(slope_albedo_table, DISTRIBUTION, cosine, parameter);
+#endif
+    return albedo_of(cosine, parameter);
+}
+
 // Factor of reflectance that adds light reflected more than once.
+vec3 scattering_scale(vec4 albedo, vec3 f0) {
+    return MULTIPLE_SCATTERING ? multiple_scattering_scale(albedo, f0) : vec3(1.0);
+}
+
 vec3 scattering_scale(vec3 f0, float cosine, float parameter) {
-    return MULTIPLE_SCATTERING ? multiple_scattering_scale(albedo_of(cosine, parameter), f0)
-                               : vec3(1.0);
+    return MULTIPLE_SCATTERING ? scattering_scale(albedo_of(cosine, parameter), f0) : vec3(1.0);
 }
 
 #endif

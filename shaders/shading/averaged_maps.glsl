@@ -9,7 +9,7 @@
 #include "lib/lobe/characteristic_vector.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;

@@ -3,6 +3,9 @@
 
 // Reading maps of slope moments over a pixel's footprint.
 
+// Filters with these maps turn microfacets into Gaussian slopes.
+#define SLOPE_FILTER
+
 #include "shading/level_0.glsl"
 #include "interface/slope_moments.h"
 #include "lib/lobe/characteristic_vector.glsl"
@@ -10,7 +13,7 @@
 #include "lib/microfacet/tilted_slopes.glsl"
 
 #ifdef ENVIRONMENT
-#include "environment/lobes.glsl"
+#include "environment/reflection.glsl"
 #endif
 
 layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;

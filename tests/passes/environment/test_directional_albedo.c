@@ -21,7 +21,8 @@ static void tabulate(fixture *f, albedo_table tables[DISTRIBUTIONS]) {
     lobe_resource resources[DISTRIBUTIONS];
     lobe_graph_begin(f->graph);
     for (int i = 0; i < DISTRIBUTIONS; i++) {
-        resources[i] = passes_directional_albedo(f->graph, (lobe_distribution)i);
+        resources[i] =
+            passes_directional_albedo(f->graph, (lobe_distribution)i, (lobe_distribution)i);
         lobe_graph_read_back(f->graph, resources[i], (lobe_range){0});
     }
     if (lobe_graph_execute(f->graph) != LOBE_OK)

@@ -125,7 +125,7 @@ static lobe_resource declare(fixture *f, const device_cube *cube) {
 static struct irradiance_harmonics run(fixture *f, const device_cube *cube, double window) {
     lobe_graph_begin(f->graph);
     lobe_resource harmonics = passes_irradiance_harmonics(
-        f->graph, (irradiance_source){declare(f, cube), cube->size, cube->levels}, window);
+        f->graph, (irradiance_source){declare(f, cube), cube->size, cube->levels, false}, window);
     lobe_graph_read_back(f->graph, harmonics, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);

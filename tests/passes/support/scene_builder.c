@@ -84,6 +84,15 @@ void scene_add_square(lobe_scene *scene, const lobe_material *material, double t
     require(scenes_add_instance(scene, mesh_index, material_index, transform, NULL));
 }
 
+void scene_add_sphere(lobe_scene *scene, const lobe_material *material, double tiles) {
+    lobe_mesh mesh;
+    uint32_t mesh_index, material_index;
+    require(scenes_shape_sphere(48, 96, (float)(2 * tiles), (float)tiles, NULL, &mesh));
+    require(scenes_add_mesh(scene, &mesh, NULL, &mesh_index));
+    require(scenes_add_material(scene, "material", material, NULL, &material_index));
+    require(scenes_add_instance(scene, mesh_index, material_index, NULL, NULL));
+}
+
 void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity) {
     lobe_light light = {.type = LOBE_LIGHT_DIRECTIONAL};
     double length =

@@ -25,6 +25,9 @@ lobe_texture_use scene_add_map(lobe_scene *scene, lobe_image image);
 void scene_add_square(lobe_scene *scene, const lobe_material *material, double tiles,
                       const float transform[16]);
 
+/// A sphere around the origin of radius 1 m, with `tiles` of texture coordinates from pole to pole.
+void scene_add_sphere(lobe_scene *scene, const lobe_material *material, double tiles);
+
 /// A directional light; `towards` need not be of unit length.
 void scene_add_sun(lobe_scene *scene, const double towards[3], double intensity);
 

@@ -8,10 +8,16 @@
 
 enum { ANGLES = 240, AZIMUTHS = 96, DIFFUSE_STEPS = 400 };
 
+/// Integrals of the parts of F_0 and of F_90: reflectance, and reflectance times the direction of
+/// incidence.
+typedef struct reflection {
+    double sum[2], towards[2][3];
+} reflection;
+
 /// Adds what one half vector of a solid angle reflects.
 static void add_half_vector(lobe_distribution distribution, double parameter,
                             const double outgoing[3], const double half_vector[3],
-                            double solid_angle, double parts[2]) {
+                            double solid_angle, reflection *parts) {
     const double normal[3] = {0, 0, 1};
     double facing = reference_dot(outgoing, half_vector);
     double incident_cosine = 2 * facing * half_vector[2] - outgoing[2];
@@ -22,18 +28,21 @@ static void add_half_vector(lobe_distribution distribution, double parameter,
         reference_masking_shadowing(distribution, incident_cosine, outgoing[2], parameter),
         outgoing[2]);
     double reflected = specular * 4 * facing * solid_angle, grazing = pow(1 - facing, 5);
-    parts[0] += reflected * (1 - grazing);
-    parts[1] += reflected * grazing;
+    const double part[2] = {reflected * (1 - grazing), reflected * grazing};
+    for (int i = 0; i < 2; i++) {
+        parts->sum[i] += part[i];
+        for (int k = 0; k < 3; k++)
+            parts->towards[i][k] += part[i] * (2 * facing * half_vector[k] - outgoing[k]);
+    }
 }
 
 // Half vectors by the angle psi with tan(theta) = alpha tan(psi), so that smooth surfaces are as
 // well sampled as rough ones, crowded at both ends; by the midpoint rule.
-void reference_specular_parts(lobe_distribution distribution, double cosine, double roughness,
-                              double parts[2]) {
+static reflection integrate(lobe_distribution distribution, double cosine, double roughness) {
     double parameter = reference_microfacet_parameter(distribution, roughness);
     double alpha = reference_microfacet_parameter(LOBE_DISTRIBUTION_GGX, roughness);
     const double outgoing[3] = {sqrt(1 - cosine * cosine), 0, cosine};
-    parts[0] = parts[1] = 0;
+    reflection parts = {0};
     for (int i = 0; i < ANGLES; i++) {
         double t = (i + 0.5) / ANGLES;
         double psi = M_PI / 2 * (t * t * t * (10 - 15 * t + 6 * t * t));
@@ -45,8 +54,25 @@ void reference_specular_parts(lobe_distribution distribution, double cosine, dou
             const double half_vector[3] = {sin(theta) * cos(azimuth), sin(theta) * sin(azimuth),
                                            cos(theta)};
             add_half_vector(distribution, parameter, outgoing, half_vector,
-                            sin(theta) * scale * step * 2 * M_PI / AZIMUTHS, parts);
+                            sin(theta) * scale * step * 2 * M_PI / AZIMUTHS, &parts);
         }
+    }
+    return parts;
+}
+
+void reference_specular_parts(lobe_distribution distribution, double cosine, double roughness,
+                              double parts[2]) {
+    reflection whole = integrate(distribution, cosine, roughness);
+    for (int i = 0; i < 2; i++)
+        parts[i] = whole.sum[i];
+}
+
+void reference_specular_directions(lobe_distribution distribution, double cosine, double roughness,
+                                   double directions[2][2]) {
+    reflection whole = integrate(distribution, cosine, roughness);
+    for (int i = 0; i < 2; i++) {
+        directions[i][0] = -whole.towards[i][0] / whole.sum[i];
+        directions[i][1] = whole.towards[i][2] / whole.sum[i];
     }
 }
 

@@ -11,6 +11,11 @@
 void reference_specular_parts(lobe_distribution distribution, double cosine, double roughness,
                               double parts[2]);
 
+/// The mean direction that their light comes from, of length below one: tangential, away from the
+/// viewer, and along the normal.
+void reference_specular_directions(lobe_distribution distribution, double cosine, double roughness,
+                                   double directions[2][2]);
+
 /// Mean of (1 - <omega_i, omega_h>)^5 over cosine-weighted directions of incidence, to 1e-6.
 double reference_diffuse_part(double cosine);
 

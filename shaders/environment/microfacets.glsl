@@ -1,0 +1,239 @@
+#ifndef ENVIRONMENT_MICROFACETS_GLSL
+#define ENVIRONMENT_MICROFACETS_GLSL
+
+// What microfacets about a normal of their own reflect of the environment.
+
+#include "environment/irradiance.glsl"
+#include "environment/lobes.glsl"
+#include "lib/microfacet/reflection_lobe.glsl"
+
+// A lobe is broader than base lobes of this parameter because the normals vary. If both are
+// Gaussian, the mean normal of the facets that reflect about a half vector lies between the axis
+// and the half vector. [0, 1]: how far.
+float spread_of_normals(direction_lobe lobe, float parameter) {
+    float base = 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
+    return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
+}
+
+vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter) {
+    float spread = spread_of_normals(lobe.shape, parameter);
+    float mean_cosine = dot(lobe.shape.axis, surface.outgoing);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
+        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
+            half_vector_sample point = sample_of(lobe, j, k, spread);
+            float half_cosine = dot(surface.outgoing, point.half_vector);
+            vec3 incoming = 2.0 * half_cosine * point.half_vector - surface.outgoing;
+            vec3 normal = normalize(mix(lobe.shape.axis, point.half_vector, spread));
+            float outgoing_cosine = max(dot(normal, surface.outgoing), 1e-3);
+            float visible = masking_shadowing(DISTRIBUTION, dot(normal, incoming), outgoing_cosine,
+                                              parameter);
+            float scale = max(half_cosine, 0.0) /
+                          (outgoing_cosine * max(dot(normal, point.half_vector), 1e-3));
+            float seen = above_horizon(incoming) ? visible * scale : 0.0;
+            vec3 fresnel = fresnel_schlick(f0, vec3(1.0), half_cosine);
+            sum += point.weight * seen * fresnel * sample_radiance(surface, point, incoming);
+            weights += point.weight;
+        }
+    }
+    return sum * (scattering_scale(f0, mean_cosine, parameter) / weights);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The lobe of incoming directions
+
+// About a normal that is the same everywhere.
+direction_lobe incoming_lobe(reflection_lobe base, vec3 normal, vec3 outgoing) {
+    vec3 forward = -perpendicular_towards(normal, outgoing);
+    float cosine = cos(base.angle), sine = sin(base.angle);
+    return direction_lobe(cosine * normal + sine * forward,
+                          base.along * (cosine * forward - sine * normal),
+                          base.across * cross(normal, forward));
+}
+
+// The part of a lobe of half vectors that is due to varying normals: the rest has the variance of
+// base lobes.
+direction_lobe lobe_of_normals(direction_lobe half_vectors, float base_variance) {
+    direction_lobe lobe = principal_lobe(half_vectors);
+    lobe.first *= sqrt(max(1.0 - base_variance / max(dot(lobe.first, lobe.first), 1e-20), 0.0));
+    lobe.second *= sqrt(max(1.0 - base_variance / max(dot(lobe.second, lobe.second), 1e-20), 0.0));
+    return lobe;
+}
+
+// Adds a covariance to a lobe's, across its axis.
+direction_lobe broadened_lobe(direction_lobe lobe, vec3 first, vec3 second) {
+    vec3 u = normalize(lobe.first), v = normalize(lobe.second);
+    vec2 a = vec2(dot(first, u), dot(first, v)), b = vec2(dot(second, u), dot(second, v));
+    float x = sqrt(dot(lobe.first, lobe.first) + a.x * a.x + b.x * b.x);
+    float mixed = (a.x * a.y + b.x * b.y) / x;
+    float rest = dot(lobe.second, lobe.second) + a.y * a.y + b.y * b.y - mixed * mixed;
+    return direction_lobe(lobe.axis, x * u + mixed * v, sqrt(max(rest, 1e-12)) * v);
+}
+
+// The axis is a(c) n - b(c) o, c = <n, o>, and turns with the normal: to first order by
+//   a dn + 2 b <o, dn> n,
+// which is exact for a mirror, where a = 2 c and b = 1, and for a surface that reflects the same
+// for all views, where b = 0.
+vec3 turned_by(vec3 step, vec3 normal, vec3 outgoing, float along_normal, float against_viewer) {
+    return along_normal * step + (2.0 * against_viewer * dot(outgoing, step)) * normal;
+}
+
+direction_lobe incoming_lobe_of_normals(reflection_lobe base, direction_lobe normals,
+                                        vec3 outgoing) {
+    direction_lobe lobe = incoming_lobe(base, normals.axis, outgoing);
+    float cosine = clamp(dot(normals.axis, outgoing), 0.0, 1.0);
+    float sine = sqrt(1.0 - cosine * cosine);
+    float against_viewer = sine > 1e-3 ? sin(base.angle) / sine : 1.0;
+    float along_normal = cos(base.angle) + against_viewer * cosine;
+    return broadened_lobe(
+        lobe, turned_by(normals.first, normals.axis, outgoing, along_normal, against_viewer),
+        turned_by(normals.second, normals.axis, outgoing, along_normal, against_viewer));
+}
+
+// ---------------------------------------------------------------------------------------------
+// Horizons
+
+// What a plane cuts off a lobe whose height above it is a normal number: lobe_above() of
+// lib/lobe/direction_lobe.glsl in parts.
+struct horizon_cut {
+    float share;    // what is left
+    vec3 shift;     // of the axis
+    float variance; // of the height, relative to the whole lobe's
+};
+
+// `scale`: of the height in standard deviations.
+horizon_cut cut_by_plane(direction_lobe lobe, vec3 plane_normal, float scale) {
+    float a = dot(lobe.first, plane_normal), b = dot(lobe.second, plane_normal);
+    float deviation = sqrt(max(a * a + b * b, 1e-12));
+    float x = max(scale * dot(lobe.axis, plane_normal) / deviation, -3.0);
+    float share = normal_below(x), mean = normal_density(x) / max(share, 1e-3);
+    return horizon_cut(share, (mean / deviation) * (a * lobe.first + b * lobe.second),
+                       clamp(1.0 - mean * (mean + x), 0.05, 1.0));
+}
+
+// Normals are Gaussian as slopes, and a direction's angle is twice theirs: at the angle e above the
+// plane, 2 tan(e/2) takes the place of tan(e).
+horizon_cut cut_by_horizon(direction_lobe lobe, vec3 plane_normal) {
+    float height = clamp(dot(lobe.axis, plane_normal), -1.0, 1.0);
+    float level = sqrt(1.0 - height * height);
+    return cut_by_plane(lobe, plane_normal, 2.0 * level / (1.0 + level));
+}
+
+// A lobe moved by `shift` towards `up` and made narrower in that direction.
+direction_lobe moved_lobe(direction_lobe lobe, vec3 up, float shift, float variance) {
+    float narrower = sqrt(variance) - 1.0;
+    return direction_lobe(normalize(lobe.axis + shift * up),
+                          lobe.first + (narrower * dot(lobe.first, up)) * up,
+                          lobe.second + (narrower * dot(lobe.second, up)) * up);
+}
+
+vec3 direction_of(vec3 shift) {
+    return shift * inversesqrt(max(dot(shift, shift), 1e-20));
+}
+
+// `own` is the lobe without varying normals, which the horizon of its own normal has already cut:
+// the surface's horizon takes only what lies beyond. Scales `share`.
+direction_lobe lobe_above_surface(direction_lobe lobe, direction_lobe own, vec3 normal,
+                                  inout float share) {
+    if (HORIZON == HORIZON_IGNORED)
+        return lobe;
+    horizon_cut before = cut_by_horizon(own, normal);
+    horizon_cut cut = cut_by_horizon(lobe, SURFACE_NORMAL);
+    share *= min(cut.share / max(before.share, 0.05), 1.0);
+    if (HORIZON == HORIZON_FADED)
+        return lobe;
+    vec3 up = direction_of(cut.shift);
+    return moved_lobe(lobe, up, max(dot(cut.shift - before.shift, up), 0.0),
+                      min(cut.variance / before.variance, 1.0));
+}
+
+// Facets that face away reflect nothing: the normals that are left, and their share.
+direction_lobe facing_normals(direction_lobe normals, vec3 outgoing, out float share) {
+    horizon_cut cut = cut_by_plane(normals, outgoing, 1.0);
+    share = cut.share;
+    return moved_lobe(normals, direction_of(cut.shift), length(cut.shift), cut.variance);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Reflection
+
+// Karis, 2013, Real Shading in Unreal Engine 4: the product of two integrals, the reflection of a
+// white environment and the mean of the environment over the lobe. The albedo for a white
+// environment accounts for the base lobes' own horizon, but not for the surface's.
+
+// The lobe about the mirror direction.
+vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                        float parameter) {
+    vec3 normal = lobe.shape.axis;
+    float outgoing_cosine = dot(normal, surface.outgoing);
+    vec3 reflected = specular_albedo(albedo_of(outgoing_cosine, parameter), f0, vec3(1.0)) *
+                     scattering_scale(f0, outgoing_cosine, parameter);
+    direction_lobe incoming = reflected_lobe(lobe.shape, surface.outgoing);
+    if (HORIZON != HORIZON_IGNORED) {
+        float own = max(lobe_share_above(incoming, normal), 0.05);
+        reflected *= min(lobe_share_above(incoming, SURFACE_NORMAL) / own, 1.0);
+    }
+    if (HORIZON == HORIZON_CLIPPED)
+        incoming = lobe_above(lobe_above(incoming, normal), SURFACE_NORMAL);
+    return reflected * lobe_radiance(surface, lobe, incoming);
+}
+
+// The light that a Lambert surface gathers, under the surface's horizon too.
+vec3 gathered_light(surface_point surface, vec3 mean_normal) {
+    float seen = HORIZON == HORIZON_IGNORED ? 1.0 : 0.5 + 0.5 * clamp(mean_normal.z, -1.0, 1.0);
+    return seen * mean_irradiance(surface, mean_normal);
+}
+
+// The lobe that is fitted to what microfacets reflect, and light as a Lambert surface gathers it.
+vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
+                    float parameter, bool spread_out) {
+    float cosine = dot(normals.axis, surface.outgoing);
+    if (cosine <= 0.0)
+        return vec3(0.0);
+    float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
+    vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
+    reflection_lobe base = lobe_of_reflection(kind == DISTRIBUTION_GGX, cosine, roughness);
+    vec3 gathered = f0 * (albedo.x * base.diffuse_share);
+    vec3 reflected = specular_albedo(albedo, f0, vec3(1.0)) - gathered;
+    base = mixed_lobe(base, lobe_of_grazing_reflection(cosine, roughness),
+                      3.0 * albedo.y / max(reflected.r + reflected.g + reflected.b, 1e-10));
+    direction_lobe own = incoming_lobe(base, normals.axis, surface.outgoing), incoming = own;
+    float resultant = 1.0;
+    if (spread_out) {
+        incoming = incoming_lobe_of_normals(base, normals, surface.outgoing);
+        resultant = max(1.0 - 0.5 * (dot(normals.first, normals.first) +
+                                     dot(normals.second, normals.second)), 0.3);
+    }
+    float share = 1.0;
+    incoming = lobe_above_surface(incoming, own, normals.axis, share);
+    vec3 sum = share * reflected *
+                   lobe_radiance(surface, half_vector_distribution(normals, kind), incoming) +
+               gathered * gathered_light(surface, resultant * normals.axis);
+    return scattering_scale(albedo, f0) * sum;
+}
+
+vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                             float parameter) {
+    bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
+    if (!spread_out)
+        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
+    float share;
+    direction_lobe normals = facing_normals(
+        lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter)),
+        surface.outgoing, share);
+    return share * reflect_facing(surface, normals, lobe.kind, f0, parameter, true);
+}
+
+// `parameter` is that of the base lobes and determines masking.
+vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter) {
+    if (sampled_by_grid())
+        return sampled_microfacets(surface, lobe, f0, parameter);
+    return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
+               ? microfacets_by_mip(surface, lobe, f0, parameter)
+               : prefiltered_microfacets(surface, lobe, f0, parameter);
+}
+
+#endif
