@@ -26,24 +26,30 @@ double passes_material_patch_evaluate(const material_patch *patch, const double 
     return passes_material_lobes_evaluate(patch->lobes, patch->count, direction);
 }
 
-bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
-                                uint32_t index, material_patch *patch) {
+material_patch_place passes_material_patch_place(const device_material *material, uint32_t index) {
     const lobe_grid grid = passes_lobe_grid(material);
     // Moved by hashed parts of a cell, so that no period of the maps is met at the same phase.
-    const double corner[2] = {
-        (index + passes_hashed_number(2 * (uint64_t)index)) / MATERIAL_PATCHES,
+    const double x = (index + passes_hashed_number(2 * (uint64_t)index)) / MATERIAL_PATCHES;
+    const double y =
         (index * 5 % MATERIAL_PATCHES + passes_hashed_number(2 * (uint64_t)index + 1)) /
-            MATERIAL_PATCHES};
-    uint32_t columns = grid.width < MATERIAL_PATCH_EXTENT ? grid.width : MATERIAL_PATCH_EXTENT;
-    uint32_t rows = grid.height < MATERIAL_PATCH_EXTENT ? grid.height : MATERIAL_PATCH_EXTENT;
-    uint32_t left = (uint32_t)(corner[0] * (grid.width - columns + 1));
-    uint32_t top = (uint32_t)(corner[1] * (grid.height - rows + 1));
+        MATERIAL_PATCHES;
+    material_patch_place at = {
+        .columns = grid.width < MATERIAL_PATCH_EXTENT ? grid.width : MATERIAL_PATCH_EXTENT,
+        .rows = grid.height < MATERIAL_PATCH_EXTENT ? grid.height : MATERIAL_PATCH_EXTENT};
+    at.left = (uint32_t)(x * (grid.width - at.columns + 1));
+    at.top = (uint32_t)(y * (grid.height - at.rows + 1));
+    return at;
+}
+
+bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
+                                uint32_t index, material_patch *patch) {
+    const material_patch_place at = passes_material_patch_place(material, index);
     patch->count = 0;
-    for (uint32_t y = 0; y < rows; y++) {
-        for (uint32_t x = 0; x < columns; x++) {
+    for (uint32_t y = 0; y < at.rows; y++) {
+        for (uint32_t x = 0; x < at.columns; x++) {
             // One point in every texel is enough: see shaders/lib/map/texel_point.glsl.
             uint32_t count = passes_material_lobes_read(
-                scene, material, left + x + 0.5 + TEXEL_POINT, top + y + 0.5 + TEXEL_POINT,
+                scene, material, at.left + x + 0.5 + TEXEL_POINT, at.top + y + 0.5 + TEXEL_POINT,
                 &patch->lobes[patch->count]);
             if (count == 0)
                 return false;
@@ -51,7 +57,7 @@ bool passes_material_patch_read(const lobe_scene *scene, const device_material *
         }
     }
     for (size_t i = 0; i < patch->count; i++)
-        patch->lobes[i].weight /= (double)columns * rows;
+        patch->lobes[i].weight /= (double)at.columns * at.rows;
     return true;
 }
 

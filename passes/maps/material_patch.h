@@ -14,6 +14,13 @@ typedef struct material_patch {
     size_t count;
 } material_patch;
 
+/// Where a patch lies in the lobe_grid, texels.
+typedef struct material_patch_place {
+    uint32_t left, top, columns, rows;
+} material_patch_place;
+
+material_patch_place passes_material_patch_place(const device_material *material, uint32_t index);
+
 /// Patch `index` of MATERIAL_PATCHES. False if a map has a format that the host does not read.
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch);

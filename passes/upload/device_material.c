@@ -89,7 +89,7 @@ static lobe_result find_maps(lobe_device *device, device_scene *result, device_m
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
-        material->maps[map] = (device_map){use, image->width, image->height};
+        material->maps[map] = (device_map){use, use->image, image->width, image->height};
         material->map_bits |= 1u << map;
         if (use->texture_coordinates)
             material->second_coordinates |= 1u << map;
@@ -97,12 +97,28 @@ static lobe_result find_maps(lobe_device *device, device_scene *result, device_m
     return LOBE_OK;
 }
 
-static void forget_colours(struct material_constants *constants) {
+/// What no lobe depends on.
+static void forget_paint(struct material_constants *constants) {
     memset(constants->base_colour, 0, sizeof constants->base_colour);
     memset(constants->emissive, 0, sizeof constants->emissive);
+    constants->occlusion_strength = 0;
+}
+
+/// What neither the directions nor the widths of lobes depend on.
+static void forget_colours(struct material_constants *constants) {
+    forget_paint(constants);
     constants->metallic = 0;
     for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; i++)
         memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
+}
+
+/// Whether two sets of constants are equal but for what `forget` clears.
+static bool are_equal(const struct material_constants *a, const struct material_constants *b,
+                      void (*forget)(struct material_constants *)) {
+    struct material_constants left = *a, right = *b;
+    forget(&left);
+    forget(&right);
+    return memcmp(&left, &right, sizeof left) == 0;
 }
 
 static lobe_result store(lobe_device *device, const char *name,
@@ -119,27 +135,46 @@ static lobe_result store_constants(lobe_device *device, device_material *materia
     const char *name = material->material->name;
     struct material_constants constants;
     fill_constants(material, &constants);
+    bool same = material->map_constants && are_equal(&constants, &material->values, forget_colours);
+    material->values = constants;
     lobe_result status = store(device, name, &constants, &material->constants);
+    if (status != LOBE_OK || same)
+        return status;
     forget_colours(&constants);
-    bool same =
-        material->map_constants && memcmp(&constants, &material->map_values, sizeof constants) == 0;
-    material->map_values = constants;
-    return status != LOBE_OK || same ? status
-                                     : store(device, name, &constants, &material->map_constants);
+    return store(device, name, &constants, &material->map_constants);
+}
+
+/// Whether the material has the lobes that it had, apart from changes in the images.
+static bool keeps_lobes(const device_material *before, const device_material *after) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (before->maps[map].image != after->maps[map].image)
+            return false;
+    return before->model == after->model && before->distribution == after->distribution &&
+           before->lobe_count == after->lobe_count &&
+           before->second_coordinates == after->second_coordinates &&
+           are_equal(&before->values, &after->values, forget_paint);
 }
 
 lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
                                                 uint32_t index, const lobe_host *host) {
     device_material *material = &scene->materials[index];
+    const device_material before = *material;
     // Rebuild everything except the GPU buffers.
-    *material = (device_material){.material = &scene->scene->materials[index],
-                                  .constants = material->constants,
-                                  .map_constants = material->map_constants,
-                                  .map_values = material->map_values,
-                                  .version = material->version + 1};
+    const lobe_material *source = &scene->scene->materials[index];
+    *material = (device_material){.material = source,
+                                  .model = source->model,
+                                  .distribution = source->distribution,
+                                  .lobe_count = source->lobe_count,
+                                  .constants = before.constants,
+                                  .map_constants = before.map_constants,
+                                  .values = before.values,
+                                  .version = before.version};
     lobe_result status = find_maps(device, scene, material, host);
-    if (status != LOBE_OK)
-        return status;
-    measure_metallic(scene->scene, material);
-    return store_constants(device, material);
+    if (status == LOBE_OK) {
+        measure_metallic(scene->scene, material);
+        status = store_constants(device, material);
+    }
+    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material))
+        ++material->version;
+    return status;
 }

@@ -11,6 +11,7 @@
 /// A map of a material, ready to be bound.
 typedef struct device_map {
     const lobe_texture_use *use; ///< NULL: the material has no such map
+    int32_t image;               ///< of the scene, when the map was uploaded
     uint32_t width, height;      ///< texels
 } device_map;
 
@@ -20,13 +21,18 @@ typedef struct device_material {
     /// The same without colours and metal. Maps of directions and widths read these, so that a
     /// change of colours alone does not rebuild them.
     lobe_buffer *map_constants;
-    struct material_constants map_values; ///< what `map_constants` holds
+    struct material_constants values; ///< what `constants` holds
+    lobe_material_model model;        ///< when it was uploaded, like the next two
+    lobe_distribution distribution;
+    uint32_t lobe_count;
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
     bool metallic_varies;        ///< the width map determines where the material is metal
     float metallic;              ///< its metallic factor, times the map's where that is constant
-    uint32_t version; ///< increases with each change of it or its maps; 0: not on the device
+    /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
+    /// emission or occlusion alone. 0: not on the device.
+    uint32_t version;
 } device_material;
 
 typedef struct device_instance {

@@ -169,6 +169,15 @@ static lobe_result update_environment(const scene_update *update) {
     return passes_device_scene_upload_environment(update->device, scene);
 }
 
+/// Other texels are other lobes.
+static void mark_new_texels(const scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    for (size_t m = 0; m < update->scene->scene->material_count; m++)
+        for (size_t i = 0; i < changes->image_count; i++)
+            if (uses_image(&update->scene->materials[m], changes->images[i]))
+                ++update->scene->materials[m].version;
+}
+
 static lobe_result apply(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     const lobe_scene *scene = update->scene->scene;
@@ -179,6 +188,7 @@ static lobe_result apply(const scene_update *update) {
         if (update->materials[i])
             result = passes_device_scene_upload_material(update->device, update->scene, (uint32_t)i,
                                                          update->host);
+    mark_new_texels(update);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
         result = update_mesh(update, changes->meshes[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; i++)

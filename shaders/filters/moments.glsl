@@ -5,11 +5,8 @@
 
 #include "shading/level_0.glsl"
 #include "shading/mask.glsl"
-#include "interface/moment_bins.h"
+#include "filters/moments/bins.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
-#include "lib/lobe/lambert_plane.glsl"
-#include "lib/lobe/plane_gaussian.glsl"
-#include "lib/lobe/plane_lobe.glsl"
 
 #ifdef ENVIRONMENT
 #include "environment/reflection.glsl"
@@ -17,21 +14,9 @@
 
 layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
-layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 
 layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
     moments_knobs filter_knobs;
-};
-
-layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
-layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
-
-// Sums over the bins for one light.
-struct light_sum {
-    float distribution;
-    vec3 normal;     // of the texels that reflect, weighted by their part of the distribution
-    float sharpness; // of their base lobes, weighted in the same way
-    vec3 colour;
 };
 
 struct appearance {
@@ -48,109 +33,6 @@ struct appearance {
     float lobe_count;
     float level;
 };
-
-// A bin under the pixel.
-struct plane_bin {
-    float mass;
-    float sharpness;
-    float variance; // of the base lobes
-    vec2 mean;      // of their places
-    float spread;   // half the trace of their covariance
-    vec3 covariance; // (xx, yy, xy) of the lobe in the plane, base lobes included
-    vec3 axis;      // the same as a direction
-    mat2 gain;      // change of the reflecting lobes' mean place with that of the half vector
-    plane_gaussian narrow, middle, wide;
-    float own;           // [0, 1]: how much of the bin has the base lobe's exact shape
-    float own_parameter; // of the base lobe as broad as the bin
-    float own_share;
-    vec3 colour;
-};
-
-uint distribution_kind() {
-    return BASE_AS_LOBE ? DISTRIBUTION_VMF : DISTRIBUTION;
-}
-
-vec4 fetch_moments(map_area area, uint layer) {
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
-                          max(area.level - 1.0, 0.0));
-    return sum / float(probes_of(area));
-}
-
-mat2 inverse_of(vec3 covariance) {
-    float determinant =
-        max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-14);
-    return mat2(covariance.y, -covariance.z, -covariance.z, covariance.x) / determinant;
-}
-
-// The base lobe's own shape, which no sum of Gaussians matches exactly. While the normals spread
-// little compared to it, the bin has this shape too.
-void keep_shape(inout plane_bin bin) {
-    float variance = bin.variance + bin.spread;
-    float own = bin.variance / variance;
-    float square = own * own;
-    bin.own = square * square * square * square;
-    bin.own_parameter = parameter_of_plane_variance(distribution_kind(), variance);
-    bin.own_share = bin.mass / plane_mass(MODEL, distribution_kind(), bin.own_parameter);
-}
-
-plane_bin read_bin(map_area area, uint index, vec3 curvature) {
-    uint layers = BIN_COLOUR ? 3u : 2u;
-    vec4 place = fetch_moments(area, layers * index);
-    vec3 spread = fetch_moments(area, layers * index + 1u).xyz;
-    float scale = 1.0 / max(place.x, 1e-6);
-    moment_range range = binning.range;
-    plane_bin bin;
-    bin.mass = place.x * range.largest.x;
-    vec2 mean = place.yz * scale;
-    bin.mean = mean * range.place.z + range.place.xy;
-    bin.axis = direction_from_plane(bin.mean);
-    bin.sharpness = max(place.w * scale * range.largest.y, 0.4);
-    bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
-    vec3 covariance =
-        covariance_of(mean, spread * scale) * (range.place.z * range.place.z) + curvature;
-    vec3 base = bin.variance * plane_distortion(bin.mean);
-    bin.covariance = covariance + base;
-    bin.gain = mat2(covariance.x, covariance.z, covariance.z, covariance.y) *
-               inverse_of(covariance + base);
-    if (distribution_kind() == DISTRIBUTION_GGX) {
-        bin.narrow =
-            make_plane_gaussian(covariance + TAIL_SPREAD.x * base, TAIL_WEIGHT.x * bin.mass);
-        bin.middle =
-            make_plane_gaussian(covariance + TAIL_SPREAD.y * base, TAIL_WEIGHT.y * bin.mass);
-        bin.wide =
-            make_plane_gaussian(covariance + TAIL_SPREAD.z * base, TAIL_WEIGHT.z * bin.mass);
-    } else {
-        bin.narrow = make_plane_gaussian(covariance + base, bin.mass);
-    }
-    bin.spread = 0.5 * (covariance.x + covariance.y);
-    keep_shape(bin);
-    if (BIN_COLOUR)
-        bin.colour = fetch_moments(area, layers * index + 2u).rgb * (scale * range.largest.z);
-    return bin;
-}
-
-float evaluate_own_shape(plane_bin bin, vec3 halfway) {
-    return MODEL == MODEL_MICROFACET
-               ? normal_distribution(distribution_kind(), bin.axis, halfway, bin.own_parameter)
-               : half_vector_lobe(distribution_kind(), halfway, bin.axis, bin.own_parameter);
-}
-
-void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place) {
-    vec2 d = place - bin.mean;
-    float value = evaluate_plane_gaussian(bin.narrow, d);
-    if (distribution_kind() == DISTRIBUTION_GGX)
-        value += evaluate_plane_gaussian(bin.middle, d) + evaluate_plane_gaussian(bin.wide, d);
-    value = mix(value, bin.own_share * evaluate_own_shape(bin, halfway), bin.own);
-    sum.distribution += value;
-    sum.sharpness += value * bin.sharpness;
-    // If normals and base lobes are Gaussian, so are the normals for a given half vector.
-    if (MODEL == MODEL_MICROFACET)
-        sum.normal += value * direction_from_plane(bin.mean + bin.gain * d);
-    if (BIN_COLOUR)
-        sum.colour += value * bin.colour;
-}
 
 // Means over all bins of the footprint: mass, direction and sharpness of the lobes.
 struct bin_means {
@@ -212,7 +94,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     bin_means means = bin_means(0.0, vec3(0.0), 0.0);
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(fetched.area, i, surface.curvature);
+        plane_bin bin = read_bin(surface, fetched.area, i);
         // A footprint's lobes together have a mass of at least one.
         if (bin.mass <= filter_knobs.least_share)
             continue;
@@ -236,7 +118,7 @@ base_material footprint_material(surface_point surface, vec3 normal, map_area ar
         return filtered_material(surface, normal, area);
     base_material base;
     base.normal = normal;
-    base.diffuse = fetch_moments(area, 3u * BINS).rgb * binning.range.largest.z;
+    base.diffuse = fetch_moments(area, 3u * BINS).rgb * binning.largest.y;
     if (VERTEX_COLOUR)
         base.diffuse *= surface.colour.rgb;
     base.specular = vec3(0.0); // each bin has its own
@@ -273,6 +155,23 @@ light_sum sum_of_light(appearance fetched, uint light) {
                          : fetched.fourth;
 }
 
+// The diffuse colour of the footprint, or of level 0, times 1 - F0.
+vec3 diffuse_below_bins(appearance fetched) {
+    vec3 diffuse = fetched.filtered.diffuse;
+    if (may_see_level_0(lobe_map()))
+        diffuse = mix(diffuse, fetched.base.diffuse * (1.0 - fetched.base.specular),
+                      fetched.base_share);
+    return diffuse;
+}
+
+// Metal has no diffuse colour, so that the mean of diffuse colours must not be dimmed by what metal
+// reflects: 1 - F = (1 - F0)(1 - (1 - c)^5), and texels' 1 - F0 are part of the mean.
+vec3 evaluate_bin_diffuse(appearance fetched, vec3 halfway, vec3 incoming) {
+    vec3 grazing = fresnel_schlick(vec3(0.0), vec3(1.0), dot(incoming, halfway));
+    return microfacet_diffuse(diffuse_below_bins(fetched), grazing,
+                              dot(fetched.diffuse_normal, incoming));
+}
+
 vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
                               vec3 incoming) {
     base_material frame = fetched.filtered;
@@ -285,10 +184,8 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
         frame.specular = sum.colour * scale;
     float distribution = (1.0 - fetched.base_share) * sum.distribution;
     if (may_see_level_0(lobe_map())) {
-        if (BIN_COLOUR) {
+        if (BIN_COLOUR)
             frame.specular = mix(frame.specular, fetched.base.specular, fetched.base_share);
-            frame.diffuse = mix(frame.diffuse, fetched.base.diffuse, fetched.base_share);
-        }
         float width = widened_width(fetched.base);
         frame.width = mix(frame.width, width, fetched.base_share);
         normal = mix(normal, fetched.base.normal, fetched.base_share);
@@ -296,9 +193,15 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
             fetched.base_share *
             evaluate_normal_distribution(fetched.base.normal, halfway, width);
     }
-    frame.normal = mean_direction(normal, fetched.normal);
+    // Not of unit length: its products with directions are the means of the normals' cosines.
+    frame.normal = dot(normal, normal) > 1e-4 ? normal : fetched.normal;
+    if (!BIN_COLOUR)
+        return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
+                                    incoming);
+    frame.diffuse = vec3(0.0);
     return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
-                                incoming);
+                                incoming) +
+           evaluate_bin_diffuse(fetched, halfway, incoming);
 }
 
 // The colour of all base lobes together.
@@ -369,7 +272,7 @@ vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 
 float part_of_bin(plane_bin bin) {
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return bin.mass;
-    float parameter = parameter_of_plane_variance(distribution_kind(), bin.variance);
+    float parameter = parameter_of_plane_variance(distribution_kind(), bin.mean_variance);
     return bin.mass / plane_mass(MODEL, distribution_kind(), parameter);
 }
 
@@ -378,7 +281,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     bin_means means = bin_means(0.0, vec3(0.0), 0.0);
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(fetched.area, i, surface.curvature);
+        plane_bin bin = read_bin(surface, fetched.area, i);
         if (bin.mass <= filter_knobs.least_share)
             continue;
         add_to_means(means, bin);
@@ -401,7 +304,9 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
     if (may_see_level_0(lobe_map())) {
         base_material base = fetched.base;
         if (BIN_COLOUR)
-            frame.diffuse = mix(frame.diffuse, base.diffuse, fetched.base_share);
+            frame.diffuse = MODEL == MODEL_MICROFACET
+                                ? diffuse_below_bins(fetched)
+                                : mix(frame.diffuse, base.diffuse, fetched.base_share);
         else
             base.specular = frame.specular;
         sum += fetched.base_share * reflect_base_specular(surface, base);

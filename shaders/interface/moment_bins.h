@@ -7,17 +7,20 @@
 // Layers of a map of lobe moments in the Lambert plane, and how lobes are assigned to bins (see
 // shaders/filters/moments/binning.comp).
 //
-// With p the lobe's place in the plane, g its sharpness and m its mass, all scaled to [-1, 1] by
-// the material's own range (moment_range), bin b has
+// With p the lobe's place in the plane, g = 1 / sqrt(v) its sharpness, v its variance and m its
+// mass, all in units in which they are within [-1, 1] (moment_bin), bin b has
 // [b layers + 0]  sums of m, m p_x, m p_y, m g
-// [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y
-// [b layers + 2]  where bins have colours: sum of m times the specular colour
-// [last]          where bins have colours: mean of the diffuse colour
+// [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y, m v
+// [b layers + 2]  where bins have colours: sum of m times the specular colour. Of microfacets the
+//                 colour that the base colour gives to metal, and in alpha m times what is not
+//                 metal, because the mesh's colours tint the base colour alone
+// [last]          where bins have colours: mean of the diffuse colour; of microfacets times 1 - F0
 #define MOMENT_MAXIMUM_BINS 6
 
 #define SPECIALISE_BINS       (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
 #define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 33) // uint, PARTITION_...
 #define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 34) // bool: bins have colours
+#define SPECIALISE_BIN_WIDTHS (SPECIALISE_FILTER + 35) // bool: base lobes differ in width
 
 // Numbers of the filter's knobs (see knobs.h).
 struct moments_knobs {
@@ -32,42 +35,33 @@ INTERFACE_SIZE(moments_knobs, 16)
 #define PARTITION_HATS   1
 #define PARTITION_CAP    2
 
-// One bin of a fitted partition: its membership is exp(offset - quadratic - trace v) over the sum
-// of all bins', for a lobe of variance v at the place q, with d = q - centre and
+// One bin. If the partition is fitted, its membership is exp(offset - quadratic - trace v) over the
+// sum of all bins', for a lobe of variance v at the place q, with d = q - centre and
 // quadratic = xx d_x d_x + yy d_y d_y + 2 xy d_x d_y.
 struct moment_bin {
     float4 centre; // x, y; z: offset; w: trace
-    float4 shape;  // xx, yy, xy
+    float4 shape;  // xx, yy, xy; w: largest variance
+    float4 range;  // x, y: origin of the places; z: their largest distance; w: largest sharpness
 };
-INTERFACE_SIZE(moment_bin, 32)
+INTERFACE_SIZE(moment_bin, 48)
 INTERFACE_OFFSET(moment_bin, shape, 16)
+INTERFACE_OFFSET(moment_bin, range, 32)
 #ifndef VULKAN
 typedef struct moment_bin moment_bin;
 #endif
 
-// The ranges that a map's values are relative to. Not specialisation constants, because each
-// material and each change of one would then need its own pipelines.
-struct moment_range {
-    float4 place;   // x, y: middle of the places; z: half the width of their range
-    float4 largest; // x: mass of a texel's lobes; y: sharpness; z: colour
-};
-INTERFACE_SIZE(moment_range, 32)
-INTERFACE_OFFSET(moment_range, largest, 16)
-#ifndef VULKAN
-typedef struct moment_range moment_range;
-#endif
-
-// Uniform block of moment_binning and of the filter (std140).
+// Uniform block of moment_binning and of the filter (std140). Not specialisation constants, because
+// each material and each change of one would then need its own pipelines.
 struct moment_binning_constants {
     // Partitions by hats: x, y: the middle; z: 1 / width of a hat; w: variance from which a lobe
     // is rough.
     float4 hats;
-    moment_range range;
+    float4 largest; // x: mass of a texel's lobes; y: colour
     moment_bin bins[MOMENT_MAXIMUM_BINS];
 };
-INTERFACE_SIZE(moment_binning_constants, 240)
+INTERFACE_SIZE(moment_binning_constants, 320)
 INTERFACE_OFFSET(moment_binning_constants, hats, 0)
-INTERFACE_OFFSET(moment_binning_constants, range, 16)
-INTERFACE_OFFSET(moment_binning_constants, bins, 48)
+INTERFACE_OFFSET(moment_binning_constants, largest, 16)
+INTERFACE_OFFSET(moment_binning_constants, bins, 32)
 
 #endif

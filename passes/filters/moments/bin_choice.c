@@ -1,8 +1,11 @@
 #include "passes/filters/moments/bin_choice.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "passes/filters/moments/footprint.h"
 #include "passes/maps/material_patch.h"
+#include "shaders/interface/lobe_grid.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
 // bins. Hard borders are better for lobes that differ in width, soft ones for lobes that differ in
@@ -12,117 +15,155 @@
 static const double points[] = {1.5, 3, 10};
 enum { POINT_NUMBERS = sizeof points / sizeof *points };
 
-// A number of bins is good enough if its error is at most `tolerance` times the smallest error, or
-// at most `negligible`.
-static const double tolerance = 1.1, negligible = 0.1;
+// A candidate is good enough if its error is at most `tolerance` times the smallest error, or
+// `negligible` above it.
+static const double tolerance = 1.1, negligible = 0.02;
 
-/// Maximum number of bins chosen automatically: more bins cost more than they improve a pixel.
-enum { MOST = 3 };
+// An error of the mean diffuse colour counts as much as this much relative L2 of the lobes.
+static const double diffuse_weight = 3;
 
-/// The bins of a patch, as a pixel whose footprint it is would see them.
-static uint32_t collect(const material_patch *patch, const plane_mixture *m,
-                        mixture_component bins[MOMENT_MAXIMUM_BINS]) {
-    plane_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
-    for (size_t i = 0; i < patch->count; i++) {
-        const material_lobe *lobe = &patch->lobes[i];
-        plane_sample s = {.variance = passes_plane_variance(lobe->concentration),
-                          .weight = lobe->weight};
-        double members[MOMENT_MAXIMUM_BINS];
-        passes_plane_from_direction(lobe->axis, s.place);
-        passes_mixture_share(m, &s, members);
-        for (uint32_t k = 0; k < m->count; k++)
-            passes_plane_sums_add(&sums[k], &s, s.weight * members[k]);
-    }
-    uint32_t count = 0;
-    for (uint32_t k = 0; k < m->count; k++) {
-        if (sums[k].weight > 1e-6)
-            passes_mixture_component_from(&sums[k], sums[k].weight, 1, &bins[count++]);
-    }
-    return count;
+enum {
+    /// Maximum number of bins chosen automatically: more bins cost more than they improve a pixel.
+    MOST = 3,
+    /// The last footprint is all of the maps.
+    FOOTPRINTS = MATERIAL_PATCHES + 1,
+};
+
+// ---------------------------------------------------------------------------------------------
+// Footprints
+
+typedef struct footprint_set {
+    footprint all[FOOTPRINTS];
+    plane_sample lobes[];
+} footprint_set;
+
+static void read_patch(const lobe_scene *scene, const device_material *material, uint32_t index,
+                       footprint *patch) {
+    const material_patch_place at = passes_material_patch_place(material, index);
+    for (uint32_t i = 0; i < at.columns * at.rows; i++)
+        patch->count += passes_plane_samples_read(
+            scene, material, at.left + i % at.columns + 0.5 + TEXEL_POINT,
+            at.top + i / at.columns + 0.5 + TEXEL_POINT, 1, &patch->lobes[patch->count]);
 }
 
-static double evaluate_bins(const mixture_component *bins, uint32_t count,
-                            const double direction[3]) {
-    double place[2], sum = 0;
-    passes_plane_from_direction(direction, place);
-    for (uint32_t k = 0; k < count; k++) {
-        double x = place[0] - bins[k].mean[0], y = place[1] - bins[k].mean[1];
-        double square = bins[k].inverse[0] * x * x + bins[k].inverse[1] * y * y +
-                        2 * bins[k].inverse[2] * x * y;
-        sum += bins[k].weight * exp(-0.5 * square) / (2 * M_PI * sqrt(bins[k].determinant));
-    }
-    return sum;
-}
-
-/// Adds to the integrals of the squared error and of the squared ground truth. Directions are drawn
-/// with a density proportional to the truth, so each is weighted by its inverse.
-static void add_error(const material_patch *patch, const plane_mixture *m, double integrals[2]) {
-    mixture_component bins[MOMENT_MAXIMUM_BINS];
-    uint32_t count = collect(patch, m, bins);
-    for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; i++) {
-        double direction[3];
-        passes_material_patch_draw(patch, i, direction);
-        double truth = passes_material_patch_evaluate(patch, direction);
-        double error = evaluate_bins(bins, count, direction) - truth;
-        integrals[0] += truth > 0 ? error * error / truth : 0;
-        integrals[1] += truth;
-    }
-}
-
-/// Relative L2 over all patches.
-static double patch_error(const material_patch *patches, const plane_mixture *m) {
-    double integrals[2] = {0};
-    for (uint32_t i = 0; i < MATERIAL_PATCHES; i++)
-        add_error(&patches[i], m, integrals);
-    return sqrt(integrals[0] / fmax(integrals[1], 1e-30));
-}
-
-/// Finds the fit of `bins` components with the smallest error over the patches; returns that error.
-static double fit_best(const material_patch *patches, const lobe_survey *survey, uint32_t bins,
-                       plane_mixture *best) {
-    double least = INFINITY;
-    for (int i = 0; i < (bins > 1 ? POINT_NUMBERS : 1); i++) {
-        plane_mixture trial;
-        passes_mixture_fit(survey->samples, survey->count, bins, points[i], &trial);
-        double error = patch_error(patches, &trial);
-        if (i == 0 || error < least) {
-            *best = trial;
-            least = error;
+/// NULL: out of memory.
+static footprint_set *read_footprints(const lobe_scene *scene, const device_material *material,
+                                      const lobe_survey *survey, const lobe_allocator *allocator) {
+    enum { LOBES = MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT * LOBE_MATERIAL_MAXIMUM_LOBES };
+    const bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
+    footprint_set *set = lobe_allocate(
+        allocator, 1,
+        sizeof *set + ((size_t)MATERIAL_PATCHES * LOBES + survey->count) * sizeof *set->lobes);
+    for (uint32_t i = 0; set && i < FOOTPRINTS; i++) {
+        footprint *patch = &set->all[i];
+        patch->lobes = set->lobes + (size_t)i * LOBES;
+        if (i < MATERIAL_PATCHES) {
+            read_patch(scene, material, i, patch);
+        } else {
+            patch->count = survey->count;
+            memcpy(patch->lobes, survey->samples, survey->count * sizeof *survey->samples);
         }
+        passes_footprint_complete(patch, microfacet);
     }
-    return least;
+    return set;
 }
 
-static void choose(const material_patch *patches, const lobe_survey *survey, uint32_t bins,
-                   plane_mixture *chosen) {
-    if (bins > 0) {
-        fit_best(patches, survey, bins, chosen);
-        return;
+// ---------------------------------------------------------------------------------------------
+// Candidates
+
+/// A mixture whose bins have the footprint's colour or their own, and its error over all
+/// footprints: relative L2.
+typedef struct candidate {
+    bin_choice choice;
+    double error;
+} candidate;
+
+static void compare(const footprint_set *set, const plane_mixture *m, double errors[2]) {
+    footprint_error sum = {0};
+    double diffuse = 0;
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        passes_footprint_compare(&set->all[i], m, &sum);
+        diffuse += set->all[i].diffuse_error / FOOTPRINTS;
     }
-    plane_mixture candidates[MOST];
-    double errors[MOST], least = INFINITY;
-    for (uint32_t k = 0; k < MOST; k++) {
-        errors[k] = fit_best(patches, survey, k + 1, &candidates[k]);
-        least = fmin(least, errors[k]);
+    const double truth = fmax(sum.truth, 1e-30);
+    errors[0] = sqrt(sum.mean_colour / truth) + diffuse_weight * diffuse;
+    errors[1] = sqrt(sum.bin_colours / truth);
+}
+
+/// Finds the fits of `bins` components with the smallest error, without and with own colours.
+static void fit_best(const footprint_set *set, const lobe_survey *survey, uint32_t bins,
+                     candidate best[2]) {
+    best[0].error = best[1].error = INFINITY;
+    for (uint32_t i = 0; i < (bins > 1 ? POINT_NUMBERS * MIXTURE_STARTS : 1); i++) {
+        plane_mixture trial;
+        double errors[2];
+        passes_mixture_fit(survey->samples, survey->count, bins, points[i / MIXTURE_STARTS],
+                           i % MIXTURE_STARTS, &trial);
+        compare(set, &trial, errors);
+        for (int own = 0; own < 2; own++)
+            if (i == 0 || errors[own] < best[own].error)
+                best[own] = (candidate){{trial, own}, errors[own]};
     }
-    uint32_t number = 0;
-    while (errors[number] > fmax(tolerance * least, negligible))
-        ++number;
-    *chosen = candidates[number];
+}
+
+/// Fetches that a pixel needs of bins and colours.
+static uint32_t cost_of(const device_material *material, const bin_choice *choice) {
+    if (choice->own_colours)
+        return 3 * choice->mixture.count + 1;
+    return 2 * choice->mixture.count + (material->maps[MAP_BASE_COLOUR].use != NULL) +
+           (material->maps[MAP_SPECULAR].use != NULL) + material->metallic_varies;
+}
+
+/// The cheapest of those that are good enough.
+static void choose_from(const device_material *material, const candidate *candidates,
+                        uint32_t count, bin_choice *choice) {
+    double least = INFINITY;
+    for (uint32_t i = 0; i < count; i++)
+        least = fmin(least, candidates[i].error);
+    const candidate *chosen = NULL;
+    uint32_t lowest = UINT32_MAX;
+    for (uint32_t i = 0; i < count; i++) {
+        const candidate *c = &candidates[i];
+        const uint32_t cost = cost_of(material, &c->choice);
+        if (c->error > fmax(tolerance * least, least + negligible) || cost > lowest ||
+            (cost == lowest && c->error >= chosen->error))
+            continue;
+        chosen = c;
+        lowest = cost;
+    }
+    // No error is a number if the maps have infinite texels.
+    *choice = (chosen ? chosen : &candidates[0])->choice;
+}
+
+static void choose(const device_material *material, const footprint_set *set,
+                   const lobe_survey *survey, uint32_t bins, bin_colour colour,
+                   bin_choice *choice) {
+    candidate candidates[2 * MOST];
+    uint32_t count = 0;
+    for (uint32_t k = bins ? bins : 1; k <= (bins ? bins : MOST); k++) {
+        candidate best[2];
+        fit_best(set, survey, k, best);
+        if (colour != BIN_COLOUR_OWN)
+            candidates[count++] = best[0];
+        if (colour != BIN_COLOUR_MEAN)
+            candidates[count++] = best[1];
+    }
+    choose_from(material, candidates, count, choice);
 }
 
 bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
-                        const lobe_survey *survey, uint32_t bins, const lobe_allocator *allocator,
-                        plane_mixture *chosen) {
-    *chosen = (plane_mixture){.count = 1, .components = {{.weight = 1, .determinant = 1}}};
+                        const lobe_survey *survey, uint32_t bins, bin_colour colour,
+                        const lobe_allocator *allocator, bin_choice *choice) {
+    *choice =
+        (bin_choice){.mixture = {.count = 1, .components = {{.weight = 1, .determinant = 1}}},
+                     .own_colours = colour == BIN_COLOUR_OWN ||
+                                    (colour == BIN_COLOUR_AUTOMATIC && material->metallic_varies)};
     if (survey->count == 0)
         return true;
-    material_patch *patches = lobe_allocate(allocator, MATERIAL_PATCHES, sizeof *patches);
-    if (!patches)
+    footprint_set *set = read_footprints(scene, material, survey, allocator);
+    if (!set)
         return false;
-    for (uint32_t i = 0; i < MATERIAL_PATCHES; i++)
-        passes_material_patch_read(scene, material, i, &patches[i]);
-    choose(patches, survey, bins, chosen);
-    lobe_release(patches);
+    choose(material, set, survey, bins, colour, choice);
+    lobe_release(set);
     return true;
 }

@@ -3,12 +3,24 @@
 
 #include "passes/filters/moments/mixture_fit.h"
 
-/// Fits the mixture that serves some patches of a material's maps best. `bins`: its number of
-/// components [1, MOMENT_MAXIMUM_BINS]; 0: the smallest number that is about as good for the
-/// patches as the best. A single component for all lobes if the survey has no samples.
-/// False: out of memory.
+/// Where bins get their specular colour from.
+typedef enum bin_colour {
+    BIN_COLOUR_AUTOMATIC, ///< their own, where that serves the material better
+    BIN_COLOUR_MEAN,      ///< the footprint's mean
+    BIN_COLOUR_OWN,
+} bin_colour;
+
+typedef struct bin_choice {
+    plane_mixture mixture;
+    bool own_colours;
+} bin_choice;
+
+/// Fits the mixture that serves some footprints on a material's maps best: patches, and all maps
+/// from afar. `bins`: its number of components [1, MOMENT_MAXIMUM_BINS]; 0: as many as serve about
+/// as well as the best, for the least memory of bins and colours. A single component for all lobes
+/// if the survey has no samples. False: out of memory.
 bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
-                        const lobe_survey *survey, uint32_t bins, const lobe_allocator *allocator,
-                        plane_mixture *chosen);
+                        const lobe_survey *survey, uint32_t bins, bin_colour colour,
+                        const lobe_allocator *allocator, bin_choice *choice);
 
 #endif

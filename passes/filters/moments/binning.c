@@ -30,14 +30,15 @@ static lobe_resource upload_bins(lobe_graph *graph, uint32_t material,
                                  const moment_partition *partition, float largest_colour) {
     char name[64];
     struct moment_binning_constants constants = partition->constants;
-    constants.range.largest[2] = largest_colour;
+    constants.largest[1] = largest_colour;
     snprintf(name, sizeof name, "bins of material %u", material);
     return lobe_graph_upload(graph, name, &constants, sizeof constants);
 }
 
 moment_map passes_moment_binning(const filter_context *context, uint32_t index,
-                                 const moment_partition *partition, lobe_format format, bool colour,
+                                 const moment_partition *partition, lobe_format format,
                                  float largest_colour) {
+    const bool colour = partition->own_colours;
     const device_material *material = &context->scene->materials[index];
     char name[64];
     snprintf(name, sizeof name, "moments of material %u", index);

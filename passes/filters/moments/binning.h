@@ -13,10 +13,9 @@ typedef struct moment_map {
 } moment_map;
 
 /// Adds the pass that distributes a material's lobes over bins, and the reduction of what it
-/// writes. The material has a normal or width map. `colour`: bins also hold their mean specular
-/// colour, at most `largest_colour`.
+/// writes. The material has a normal or width map. `largest_colour`: of the colours that bins have.
 moment_map passes_moment_binning(const filter_context *context, uint32_t material,
-                                 const moment_partition *partition, lobe_format format, bool colour,
+                                 const moment_partition *partition, lobe_format format,
                                  float largest_colour);
 
 #endif

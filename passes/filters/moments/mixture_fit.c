@@ -5,7 +5,7 @@
 #include "passes/context/sample_pattern.h"
 
 // More iterations do not change a picture.
-enum { ROUNDS = 30, STARTS = 4 };
+enum { ROUNDS = 30 };
 
 // ---------------------------------------------------------------------------------------------
 // Components
@@ -102,11 +102,10 @@ static uint32_t choose_far(const plane_sample *samples, uint32_t count, uint32_t
     return found;
 }
 
-/// `index`: of the start; each has its own random numbers.
-static void start(const plane_sample *samples, uint32_t count, double spread, uint32_t index,
-                  plane_mixture *m) {
+/// From samples far from each other. `number`: of the first random number.
+static void start_far_apart(const plane_sample *samples, uint32_t count, double spread,
+                            uint64_t number, plane_mixture *m) {
     double nearest[SURVEY_TEXELS * LOBE_MATERIAL_MAXIMUM_LOBES];
-    uint64_t number = (uint64_t)index * MOMENT_MAXIMUM_BINS;
     for (uint32_t i = 0; i < count; i++)
         nearest[i] = INFINITY;
     uint32_t chosen = (uint32_t)(passes_hashed_number(number) * count);
@@ -120,6 +119,46 @@ static void start(const plane_sample *samples, uint32_t count, double spread, ui
         c->covariance[0] = c->covariance[1] = s->variance + 0.1 * spread;
         invert(c, m->points);
     }
+}
+
+/// What a start distinguishes: how broad lobes are, or how far from the middle.
+static double key_of(const plane_sample *sample, const double middle[2], uint32_t start) {
+    if (start == 0)
+        return log(sample->variance);
+    return hypot(sample->place[0] - middle[0], sample->place[1] - middle[1]);
+}
+
+static void find_middle(const plane_sample *samples, uint32_t count, double middle[2]) {
+    plane_sums sums = {0};
+    for (uint32_t i = 0; i < count; i++)
+        passes_plane_sums_add(&sums, &samples[i], samples[i].weight);
+    for (int i = 0; i < 2; i++)
+        middle[i] = sums.place[i] / sums.weight;
+}
+
+/// From equal steps of the key; false if that is about the same everywhere.
+static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t start,
+                         plane_mixture *m) {
+    plane_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
+    double least = INFINITY, most = -INFINITY, total = 0, middle[2];
+    find_middle(samples, count, middle);
+    for (uint32_t i = 0; i < count; i++) {
+        double key = key_of(&samples[i], middle, start);
+        least = fmin(least, key);
+        most = fmax(most, key);
+        total += samples[i].weight;
+    }
+    if (!(most > least + (start == 0 ? 0.2 : 1e-3)))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        double part = (key_of(&samples[i], middle, start) - least) / (most - least);
+        uint32_t k = (uint32_t)(0.999 * part * m->count);
+        passes_plane_sums_add(&sums[k], &samples[i], samples[i].weight);
+    }
+    for (uint32_t k = 0; k < m->count; k++)
+        passes_mixture_component_from(&sums[k], fmax(sums[k].weight / total, 1e-9), m->points,
+                                      &m->components[k]);
+    return true;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -147,14 +186,16 @@ static void improve(const plane_sample *samples, uint32_t count, plane_mixture *
 }
 
 void passes_mixture_fit(const plane_sample *samples, uint32_t count, uint32_t bins, double points,
-                        plane_mixture *fitted) {
+                        uint32_t start, plane_mixture *fitted) {
     const double spread = passes_plane_spread(samples, count);
-    for (uint32_t i = 0; i < (bins > 1 ? STARTS : 1); i++) {
-        plane_mixture trial = {.count = bins, .points = points};
-        start(samples, count, spread, i, &trial);
-        for (int round = 0; round < (bins > 1 ? ROUNDS : 1); round++)
-            improve(samples, count, &trial);
-        if (i == 0 || trial.likelihood > fitted->likelihood)
-            *fitted = trial;
+    *fitted = (plane_mixture){.count = bins, .points = points};
+    if (start > 1 || !start_by_key(samples, count, start, fitted))
+        start_far_apart(samples, count, spread, (uint64_t)start * MOMENT_MAXIMUM_BINS, fitted);
+    double likelihood = -INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        improve(samples, count, fitted);
+        if (!(fitted->likelihood > likelihood + 1e-4))
+            break;
+        likelihood = fitted->likelihood;
     }
 }

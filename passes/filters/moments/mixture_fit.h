@@ -19,11 +19,15 @@ typedef struct plane_mixture {
     double likelihood;
 } plane_mixture;
 
-/// Fits `bins` components by expectation maximisation: the most likely of several starts. Each lobe
-/// counts as `points` points drawn from it. Vasconcelos, Lippman 1998, Learning Mixture
-/// Hierarchies. `count` is above 0. The result depends on the samples alone.
+/// Different starts may end in different mixtures: start 0 distinguishes widths, start 1 distances
+/// from the middle, the others are random.
+enum { MIXTURE_STARTS = 4 };
+
+/// Fits `bins` components by expectation maximisation. Each lobe counts as `points` points drawn
+/// from it. Vasconcelos, Lippman 1998, Learning Mixture Hierarchies. `count` is above 0. The result
+/// depends on the arguments alone.
 void passes_mixture_fit(const plane_sample *samples, uint32_t count, uint32_t bins, double points,
-                        plane_mixture *fitted);
+                        uint32_t start, plane_mixture *fitted);
 
 /// The share [0, 1] of each component in a lobe; returns the logarithm of the sum of likelihoods.
 double passes_mixture_share(const plane_mixture *mixture, const plane_sample *sample,

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
@@ -35,14 +36,14 @@ static const filter_knob bins_knob = {
          .sweep = "1,2,3,4"},
 };
 static const filter_knob colour_knob = {
-    .description = {.name = "colour",
-                    .summary =
-                        "the specular colour is the footprint's mean, or each bin has its own, for "
-                        "half as much memory again; auto: its own where a map says what is metal",
-                    .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 2,
-                    .choices = colours,
-                    .sweep = "mean,bins"},
+    .description =
+        {.name = "colour",
+         .summary = "the specular colour is the footprint's mean, or each bin has its own, for "
+                    "half as much memory again; auto: its own where that serves the maps better",
+         .kind = LOBE_KNOB_CHOICE,
+         .maximum = 2,
+         .choices = colours,
+         .sweep = "mean,bins"},
 };
 static const filter_knob least_share_knob = {
     .description = {.name = "least_share",
@@ -80,15 +81,13 @@ static bool lies_under_lobes(const device_material *material, uint32_t map) {
                          passes_lobe_grid_shares_coordinates(&grid, own->use));
 }
 
-/// Whether bins have their own specular colour: as the user chose, or else if a map makes parts of
-/// the material metal, so that colour and width vary together.
-static bool has_bin_colour(const filter_context *context, const device_material *material) {
-    enum { AUTOMATIC, MEAN };
-    int wanted = (int)passes_knob_choice(context, &colour_knob);
-    if (wanted == MEAN || (wanted == AUTOMATIC && !material->metallic_varies))
-        return false;
-    return lies_under_lobes(material, MAP_BASE_COLOUR) &&
-           lies_under_lobes(material, MAP_SPECULAR) && lies_under_lobes(material, MAP_WIDTH);
+/// Bins can have their own specular colour only if its maps lie under the lobes'.
+static bin_colour colour_of_bins(const filter_context *context, const device_material *material) {
+    static const bin_colour wanted[] = {BIN_COLOUR_AUTOMATIC, BIN_COLOUR_MEAN, BIN_COLOUR_OWN};
+    bool possible = lies_under_lobes(material, MAP_BASE_COLOUR) &&
+                    lies_under_lobes(material, MAP_SPECULAR) &&
+                    lies_under_lobes(material, MAP_WIDTH);
+    return possible ? wanted[passes_knob_choice(context, &colour_knob)] : BIN_COLOUR_MEAN;
 }
 
 /// Largest value of a colour map; 1 for those of eight bits.
@@ -103,44 +102,48 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
     return largest;
 }
 
+/// Upper bounds of colours.
+typedef struct largest_texels {
+    float base_colour, specular; ///< 0: not measured yet
+} largest_texels;
+
 /// An upper bound of the material's colours: those of the bins and the diffuse one.
-static float largest_colour(const lobe_scene *scene, const device_material *material) {
-    const lobe_material *source = material->material;
+static float largest_colour(const lobe_material *material, const largest_texels *texels) {
     float base = 1, specular = 1;
     for (int i = 0; i < 3; i++) {
-        base = fmaxf(base, source->base_colour[i]);
-        for (uint32_t k = 0; source->model != LOBE_MATERIAL_MICROFACET && k < source->lobe_count;
-             ++k)
-            specular = fmaxf(specular, source->lobes[k].colour[i] /
-                                           fmaxf(passes_material_lobe_share(source, k), 1e-6f));
+        base = fmaxf(base, material->base_colour[i]);
+        for (uint32_t k = 0;
+             material->model != LOBE_MATERIAL_MICROFACET && k < material->lobe_count; ++k)
+            specular = fmaxf(specular, material->lobes[k].colour[i] /
+                                           fmaxf(passes_material_lobe_share(material, k), 1e-6f));
     }
-    return fmaxf(base * largest_texel(scene, &material->maps[MAP_BASE_COLOUR]),
-                 specular * largest_texel(scene, &material->maps[MAP_SPECULAR]));
+    return fmaxf(base * texels->base_colour, specular * texels->specular);
 }
 
 // ---------------------------------------------------------------------------------------------
 // What is kept for a material
 
 typedef struct prepared_moments {
-    uint32_t kind, bins; ///< as requested by the settings
+    partition_request request;
     moment_partition partition;
-    float largest_colour; ///< 0: not measured yet
+    largest_texels largest;
 } prepared_moments;
 
-static lobe_result prepare_partition(const filter_context *context, uint32_t material,
-                                     void **slot) {
-    const uint32_t kind = passes_knob_choice(context, &partition_knob);
-    const uint32_t bins = passes_knob_choice(context, &bins_knob);
+static lobe_result prepare_partition(const filter_context *context, uint32_t index, void **slot) {
+    const partition_request request = {
+        .kind = passes_knob_choice(context, &partition_knob),
+        .bins = passes_knob_choice(context, &bins_knob),
+        .colour = colour_of_bins(context, &context->scene->materials[index])};
     prepared_moments *prepared = *slot;
-    if (prepared && prepared->kind == kind && prepared->bins == bins)
+    if (prepared && memcmp(&prepared->request, &request, sizeof request) == 0)
         return LOBE_OK;
-    prepared_moments made = {.kind = kind, .bins = bins};
-    lobe_result result = passes_moment_partition_make(context->scene, material, kind, bins,
+    prepared_moments made = {.request = request};
+    lobe_result result = passes_moment_partition_make(context->scene, index, &request,
                                                       context->host, &made.partition);
     if (result != LOBE_OK)
         return result;
     if (prepared)
-        made.largest_colour = prepared->largest_colour;
+        made.largest = prepared->largest;
     else
         prepared = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
@@ -157,26 +160,41 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
         return LOBE_OK;
     lobe_result result = prepare_partition(context, index, slot);
     prepared_moments *prepared = *slot;
-    if (result == LOBE_OK && prepared->largest_colour == 0 && has_bin_colour(context, material))
-        prepared->largest_colour = largest_colour(context->scene->scene, material);
+    if (result != LOBE_OK || prepared->largest.specular > 0 || !prepared->partition.own_colours)
+        return result;
+    const lobe_scene *scene = context->scene->scene;
+    prepared->largest =
+        (largest_texels){.base_colour = largest_texel(scene, &material->maps[MAP_BASE_COLOUR]),
+                         .specular = largest_texel(scene, &material->maps[MAP_SPECULAR])};
     return result;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Maps
 
-static void specialise_bins(const moment_partition *partition, bool colour,
+/// Whether base lobes differ in width, in a texel or from texel to texel.
+static bool widths_vary(const device_material *material) {
+    const lobe_material *source = material->material;
+    bool vary = material->maps[MAP_WIDTH].use != NULL;
+    for (uint32_t i = 1; source->model != LOBE_MATERIAL_MICROFACET && i < source->lobe_count; i++)
+        vary |= source->lobes[i].width != source->lobes[0].width;
+    return vary;
+}
+
+static void specialise_bins(const device_material *material, const moment_partition *partition,
                             filtered_appearance *appearance) {
+    passes_appearance_specialise(appearance, SPECIALISE_BIN_WIDTHS, widths_vary(material));
     passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
-    passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, colour);
+    passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, partition->own_colours);
 }
 
 static moment_map build_moments(const filter_context *context, uint32_t material,
                                 const prepared_moments *prepared, filtered_appearance *appearance) {
-    bool colour = has_bin_colour(context, &context->scene->materials[material]);
-    specialise_bins(&prepared->partition, colour, appearance);
-    return passes_moment_binning(context, material, &prepared->partition, format_of(context),
-                                 colour, colour ? prepared->largest_colour : 1);
+    const device_material *uploaded = &context->scene->materials[material];
+    const moment_partition *partition = &prepared->partition;
+    specialise_bins(uploaded, partition, appearance);
+    return passes_moment_binning(context, material, partition, format_of(context),
+                                 largest_colour(uploaded->material, &prepared->largest));
 }
 
 /// `prepared`: NULL if the material's lobes do not vary.

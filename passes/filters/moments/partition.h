@@ -4,12 +4,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "passes/filters/moments/bin_choice.h"
 #include "passes/upload/device_scene.h"
 #include "shaders/interface/moment_bins.h"
 
 /// How a material's lobes are distributed over bins, decided once on the host from its maps, and
-/// the range of its lobes in the Lambert plane (`constants.range`, without that of colours), so
-/// that 16 bits hold the moments precisely.
+/// the ranges of the bins' moments (all but those of colours), so that 16 bits hold them precisely.
 ///
 /// A fitted partition is a mixture of Gaussians for the whole material, from expectation
 /// maximisation over some thousand of its lobes. Each lobe counts as several points; their number
@@ -18,16 +18,23 @@
 typedef struct moment_partition {
     uint32_t kind;          ///< PARTITION_...
     uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
+    bool own_colours;       ///< bins have specular colours of their own
     uint32_t width, height; ///< of the base maps, texels: the larger of normal and width map
     struct moment_binning_constants constants;
 } moment_partition;
 
-/// Partitions the lobes of a material that has a normal or a width map. `kind`: PARTITION_...
-/// `bins`, for a fitted partition: their number [1, MOMENT_MAXIMUM_BINS], or 0 for the smallest
-/// number that is about as good for some patches of the maps as the best. Partitions by hats have a
-/// fixed number. Errors: LOBE_ERROR_OUT_OF_MEMORY, not logged.
+typedef struct partition_request {
+    uint32_t kind; ///< PARTITION_...
+    /// Of a fitted partition: the number of bins [1, MOMENT_MAXIMUM_BINS], or 0 for as few as serve
+    /// the maps about as well as more. Partitions by hats have a fixed number.
+    uint32_t bins;
+    bin_colour colour;
+} partition_request;
+
+/// Partitions the lobes of a material that has a normal or a width map. Errors:
+/// LOBE_ERROR_OUT_OF_MEMORY, not logged.
 lobe_result passes_moment_partition_make(const device_scene *scene, uint32_t material,
-                                         uint32_t kind, uint32_t bins, const lobe_host *host,
+                                         const partition_request *request, const lobe_host *host,
                                          moment_partition *partition);
 
 #endif

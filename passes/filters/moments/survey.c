@@ -7,16 +7,6 @@
 #include "passes/filters/moments/coreset.h"
 #include "passes/upload/material_rows.h"
 
-double passes_plane_variance(double concentration) {
-    return 1 / fmax(concentration, 0.2);
-}
-
-void passes_plane_from_direction(const double direction[3], double place[2]) {
-    double opposite = 1 + direction[2], scale = sqrt(2 / fmax(opposite, 1e-6));
-    place[0] = opposite < 1e-6 ? 2 : direction[0] * scale;
-    place[1] = opposite < 1e-6 ? 0 : direction[1] * scale;
-}
-
 /// What most texels have, to find those that differ.
 typedef struct usual_texel {
     float place[2];
@@ -168,7 +158,7 @@ enum { PILOT = 24 };
 static double variance_of_texel(const surveying *s, float factor) {
     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
     passes_material_lobes_of(s->material, (double[]){0, 0, 1}, (double)factor, lobes);
-    return passes_plane_variance(lobes[0].concentration);
+    return passes_plane_variance(s->material, lobes[0].concentration);
 }
 
 static void find_usual(surveying *s) {
@@ -221,7 +211,7 @@ static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double square = fmin(2 / kappa, 0.9), clamped = fmax(kappa, 1e-6);
     double projected = 0.5 * (1 + passes_mean_resultant_length(clamped / 2)) / (1 + exp(-clamped));
-    double variance = passes_plane_variance(kappa);
+    double variance = 1 / fmax(kappa, 0.2);
     double mass = variance * clamped / -expm1(-2 * clamped) / (microfacet ? projected : 1);
     return microfacet ? fmax(mass, fmax(1 / (1 - square), 1 + variance)) : mass;
 }
@@ -248,13 +238,14 @@ static void measure_widths(const surveying *s, plane_range *range) {
         double least = fmin(lobes[0][k].concentration, lobes[1][k].concentration);
         double most = fmax(lobes[0][k].concentration, lobes[1][k].concentration);
         mass += lobes[0][k].weight * largest_mass_between(s->material, least, most);
-        range->sharpest = fmax(range->sharpest, 1 / sqrt(passes_plane_variance(most)));
+        range->sharpest = fmax(range->sharpest, sqrt(most));
+        range->broadest = fmax(range->broadest, passes_plane_variance(s->material, least));
     }
     range->heaviest = fmax(range->heaviest, mass);
 }
 
 static plane_range range_of(const surveying *s) {
-    plane_range range = {.sharpest = 0.4, .heaviest = 1e-6};
+    plane_range range = {.sharpest = 0.45, .heaviest = 1e-6};
     for (int axis = 0; axis < 2; axis++) {
         range.low[axis] = (double)s->low[axis];
         range.high[axis] = (double)s->high[axis];
@@ -267,17 +258,11 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
                          const device_material *material, lobe_survey *survey) {
     for (uint32_t i = 0; i < s->chosen.count; i++) {
         const coreset_texel *texel = &s->chosen.texels[i];
-        material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
         // The texels themselves, which spread further than what is interpolated between them:
         // borders between bins are softer.
-        uint32_t count =
-            passes_material_lobes_read(scene, material, texel->x + 0.5, texel->y + 0.5, lobes);
-        for (uint32_t k = 0; k < count; k++) {
-            plane_sample *taken = &survey->samples[survey->count++];
-            passes_plane_from_direction(lobes[k].axis, taken->place);
-            taken->variance = passes_plane_variance(lobes[k].concentration);
-            taken->weight = lobes[k].weight * (double)texel->weight;
-        }
+        survey->count +=
+            passes_plane_samples_read(scene, material, texel->x + 0.5, texel->y + 0.5,
+                                      (double)texel->weight, &survey->samples[survey->count]);
     }
 }
 
@@ -306,7 +291,7 @@ static surveying *begin(const lobe_allocator *allocator, const lobe_scene *scene
 }
 
 /// For maps that the host cannot read: the range of any material.
-static const plane_range everything = {{-2, -2}, {2, 2}, 1e3, 10};
+static const plane_range everything = {{-2, -2}, {2, 2}, 1e3, 5, 10};
 
 lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_material *material,
                                      const lobe_allocator *allocator) {

@@ -1,21 +1,16 @@
 #ifndef PASSES_FILTERS_MOMENTS_SURVEY_H
 #define PASSES_FILTERS_MOMENTS_SURVEY_H
 
-#include "passes/upload/material_lobes.h"
+#include "passes/filters/moments/plane_sample.h"
 
 /// What the partition of a material is made from: the extremes of all lobes of its maps, and a
 /// sample of them.
 
-/// A lobe in the Lambert plane.
-typedef struct plane_sample {
-    double place[2], variance;
-    double weight; ///< of all lobes that it stands for; relative to other samples
-} plane_sample;
-
 /// Extremes over all lobes of a material.
 typedef struct plane_range {
     double low[2], high[2]; ///< of their places
-    double sharpest;        ///< 1 / standard deviation
+    double sharpest;        ///< root of the concentration
+    double broadest;        ///< variance
     double heaviest;        ///< mass of a texel's lobes (plane_mass in lib/lobe/plane_lobe.glsl)
 } plane_range;
 
@@ -33,11 +28,5 @@ typedef struct lobe_survey {
 /// with lobe_release.
 lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_material *material,
                                      const lobe_allocator *allocator);
-
-/// The variance in the plane of a lobe of this concentration: at most PLANE_VARIANCE_MAXIMUM of
-/// shaders/lib/lobe/plane_lobe.glsl.
-double passes_plane_variance(double concentration);
-/// The place of a unit direction in the plane, as in shaders/lib/lobe/lambert_plane.glsl.
-void passes_plane_from_direction(const double direction[3], double place[2]);
 
 #endif

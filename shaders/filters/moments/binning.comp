@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The finest level of a map of lobe moments: every base lobe of the texels under a target texel
-// adds its mass, place, second moments of the place and sharpness in the Lambert plane to the bins
-// that it belongs to. All of these are sums, so that filtering the map linearly filters the lobes.
-// The texels' own lobes are level 0; the map starts where texels are averaged.
+// adds its mass, place, second moments of the place, sharpness and variance in the Lambert plane to
+// the bins that it belongs to. All of these are sums, so that filtering the map linearly filters
+// the lobes. The texels' own lobes are level 0; the map starts where texels are averaged.
 
 #include "maps/base_maps.glsl"
 #include "interface/lobe_grid.h"
@@ -22,6 +22,9 @@ layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 
+// glTF 2.0, appendix B.2.
+const float DIELECTRIC_F0 = 0.04;
+
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
@@ -31,8 +34,8 @@ layout(push_constant) uniform constants_block { lobe_grid_constants constants; }
 
 struct bin_sums {
     vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
-    vec3 spread[MOMENT_MAXIMUM_BINS]; // m p p
-    vec3 colour[MOMENT_MAXIMUM_BINS];
+    vec4 spread[MOMENT_MAXIMUM_BINS]; // m p p, m v
+    vec4 colour[MOMENT_MAXIMUM_BINS];
     vec3 diffuse;
 };
 
@@ -41,7 +44,7 @@ struct plane_lobe {
     vec2 place;
     float variance;
     float mass;
-    vec3 colour;
+    vec4 colour; // of microfacets: of metal, and what is not metal
 };
 
 void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
@@ -76,13 +79,13 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
         share_fitted(lobe, members);
     else
         share_hats(lobe, members);
-    moment_range range = binning.range;
-    vec2 p = (lobe.place - range.place.xy) / range.place.z;
-    float sharpness = inversesqrt(lobe.variance) / range.largest.y;
     for (int i = 0; i < BINS; ++i) {
-        float mass = members[i] * weight * lobe.mass / range.largest.x;
-        sums.place[i] += mass * vec4(1.0, p, sharpness);
-        sums.spread[i] += mass * vec3(p * p, p.x * p.y);
+        vec4 range = binning.bins[i].range;
+        vec2 p = (lobe.place - range.xy) / range.z;
+        float mass = members[i] * weight * lobe.mass / binning.largest.x;
+        sums.place[i] += mass * vec4(1.0, p, inversesqrt(lobe.variance) / range.w);
+        sums.spread[i] +=
+            mass * vec4(p * p, p.x * p.y, lobe.variance / binning.bins[i].shape.w);
         if (BIN_COLOUR)
             sums.colour[i] += mass * lobe.colour;
     }
@@ -92,21 +95,23 @@ vec4 value_at(int map, sampler2D image, vec2 point) {
     return has_map(map) ? textureLod(image, point, 0.0) : vec4(1.0);
 }
 
-// Specular: F0 of microfacets, or the factor of the lobes' colours. Diffuse: what is not metal.
-void colours_at(vec2 point, out vec3 specular, out vec3 diffuse) {
+// Specular: of microfacets the part of F0 that is metal's, and the fraction that is not metal; or
+// the factor of the lobes' colours. Diffuse: what is below, times what they let through at normal
+// incidence.
+void colours_at(vec2 point, out vec4 specular, out vec3 diffuse) {
     diffuse = material.base_colour.rgb * value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb;
     if (MODEL == MODEL_MICROFACET) {
         float metallic = material.metallic;
         if (METALLIC_MAP)
             metallic *= value_at(MAP_WIDTH, width_map, point).b;
-        specular = mix(vec3(0.04), diffuse, metallic);
-        diffuse *= 1.0 - metallic;
+        specular = vec4(diffuse * metallic, 1.0 - metallic);
+        diffuse *= (1.0 - metallic) * (1.0 - DIELECTRIC_F0 * specular.a - specular.rgb);
     } else {
-        specular = value_at(MAP_SPECULAR, specular_map, point).rgb;
+        specular = vec4(value_at(MAP_SPECULAR, specular_map, point).rgb, 0.0);
     }
 }
 
-plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
+plane_lobe make_lobe(int i, vec3 normal, float factor, vec4 specular) {
     bool microfacet = MODEL == MODEL_MICROFACET;
     float parameter = base_parameter(i, factor);
     uint distribution = DISTRIBUTION;
@@ -120,16 +125,17 @@ plane_lobe make_lobe(int i, vec3 normal, float factor, vec3 specular) {
         microfacet ? normal : rotate_from_pole(normal, material.lobe_direction[i].xyz));
     lobe.variance = plane_variance(distribution, parameter);
     lobe.mass = share * plane_mass(MODEL, distribution, parameter);
-    lobe.colour = specular / binning.range.largest.z;
+    lobe.colour = vec4(specular.rgb / binning.largest.y, specular.a);
     if (!microfacet)
-        lobe.colour *= material.lobe_colour[i].rgb / max(share, 1e-6);
+        lobe.colour.rgb *= material.lobe_colour[i].rgb / max(share, 1e-6);
     return lobe;
 }
 
 void add_point(inout bin_sums sums, vec2 point, float weight) {
     vec3 normal = normal_at(point);
     float factor = width_at(point);
-    vec3 specular = vec3(0.0), diffuse = vec3(0.0);
+    vec4 specular = vec4(0.0);
+    vec3 diffuse = vec3(0.0);
     if (BIN_COLOUR)
         colours_at(point, specular, diffuse);
     sums.diffuse += weight * diffuse;
@@ -147,8 +153,8 @@ void main() {
     bin_sums sums;
     sums.diffuse = vec3(0.0);
     for (int i = 0; i < BINS; ++i) {
-        sums.place[i] = vec4(0.0);
-        sums.spread[i] = sums.colour[i] = vec3(0.0);
+        sums.place[i] = sums.spread[i] = vec4(0.0);
+        sums.colour[i] = vec4(0.0);
     }
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
@@ -160,11 +166,11 @@ void main() {
     int layers = BIN_COLOUR ? 3 : 2;
     for (int i = 0; i < BINS; ++i) {
         imageStore(moment_map, ivec3(position, layers * i), sums.place[i]);
-        imageStore(moment_map, ivec3(position, layers * i + 1), vec4(sums.spread[i], 0.0));
+        imageStore(moment_map, ivec3(position, layers * i + 1), sums.spread[i]);
         if (BIN_COLOUR)
-            imageStore(moment_map, ivec3(position, layers * i + 2), vec4(sums.colour[i], 0.0));
+            imageStore(moment_map, ivec3(position, layers * i + 2), sums.colour[i]);
     }
     if (BIN_COLOUR)
         imageStore(moment_map, ivec3(position, layers * BINS),
-                   vec4(sums.diffuse / binning.range.largest.z, 0.0));
+                   vec4(sums.diffuse / binning.largest.y, 0.0));
 }

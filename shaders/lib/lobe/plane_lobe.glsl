@@ -52,11 +52,21 @@ float plane_mass(uint model, uint distribution, float parameter) {
     }
 }
 
-// Student's t distribution of two degrees of freedom as a sum of Gaussians of variances s v and
-// weights c, for GGX: the first TAIL_TERMS of each, fitted for the least squared error over
-// x/alpha < 6, weighted by x / D. The mass beyond, 2.5 %, is left out.
-const int TAIL_TERMS = 3;
-const vec3 TAIL_WEIGHT = vec3(0.3115, 0.4593, 0.2037);
-const vec3 TAIL_SPREAD = vec3(0.4592, 1.7128, 8.7987);
+// Student's t distribution of two degrees of freedom as a sum of Gaussians, for GGX. Lobes of
+// several widths, with deviations sqrt(v) that vary log-normally, are such a sum too. Of term i the
+// variance is tail_spread()[i] v, v the median, and the weight tail_weight()[i]; `varies` is the
+// variance of log sqrt(v), at most TAIL_VARIES_MAXIMUM. Fitted for the least squared error over
+// x/alpha < 10 exp(sqrt(varies)), weighted by x / D.
+const float TAIL_VARIES_MAXIMUM = 0.64;
+
+vec4 tail_weight(float varies) {
+    vec3 weight = vec3(0.2565, 0.4539, 0.2276) + vec3(-0.0722, -0.0617, 0.0977) * varies;
+    return vec4(weight, 1.0 - (weight.x + weight.y + weight.z));
+}
+
+vec4 tail_spread(float varies) {
+    vec4 slope = vec4(-2.545, -0.024, 1.123, 2.069) + vec4(0.863, -0.657, -0.885, -1.146) * varies;
+    return vec4(0.4112, 1.4058, 5.6833, 31.7164) * exp(slope * varies);
+}
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -291,6 +292,45 @@ static void mistakes_change_nothing(void **state) {
                    LOBE_ERROR_INVALID_ARGUMENT, "no scene");
 }
 
+/// How much the version of material 1 grows with a change of it or of an image.
+static uint32_t version_grows(fixture *f, device_scene *uploaded, const uint32_t *image) {
+    static const uint32_t second = 1;
+    const lobe_scene_changes changes = {.materials = &second,
+                                        .material_count = image ? 0 : 1,
+                                        .images = image,
+                                        .image_count = image ? 1 : 0};
+    uint32_t before = uploaded->materials[1].version;
+    assert_int_equal(passes_device_scene_update(f->device, uploaded, &changes, &f->host), LOBE_OK);
+    return uploaded->materials[1].version - before;
+}
+
+/// What filters keep of a material is valid for a version of it.
+static void paint_keeps_what_was_prepared(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = changing_scene();
+    lobe_material *material = &scene->materials[1];
+    device_scene *uploaded;
+    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    material->base_colour[1] = 0.25f;
+    material->emissive[0] = 1;
+    material->occlusion_strength = 0.5f;
+    assert_int_equal(version_grows(f, uploaded, NULL), 0);
+    material->roughness = 0.3f;
+    assert_int_equal(version_grows(f, uploaded, NULL), 1);
+    material->metallic = 0.5f;
+    assert_int_equal(version_grows(f, uploaded, NULL), 1);
+    material->distribution = LOBE_DISTRIBUTION_BECKMANN;
+    assert_int_equal(version_grows(f, uploaded, NULL), 1);
+    const uint32_t other = 3, own = (uint32_t)material->normal_map.image;
+    material->normal_map.image = (int32_t)other;
+    assert_int_equal(version_grows(f, uploaded, NULL), 1);
+    assert_int_equal(version_grows(f, uploaded, &other), 1);
+    assert_int_equal(version_grows(f, uploaded, &own), 0);
+    lobe_graph_begin(f->graph);
+    passes_device_scene_destroy(&uploaded);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_moves_or_shines_rebuilds_nothing),
@@ -301,6 +341,7 @@ int main(void) {
         cmocka_unit_test(materials_may_get_and_lose_maps),
         cmocka_unit_test(meshes_and_instances_may_change),
         cmocka_unit_test(mistakes_change_nothing),
+        cmocka_unit_test(paint_keeps_what_was_prepared),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

@@ -11,17 +11,12 @@
 #include "tests/reference/microfacet/microfacet.h"
 #include "tests/reference/vector.h"
 
-reference_moment_bins moment_bins_of(const moment_partition *partition, bool colour,
-                                     double colour_scale) {
-    const moment_range *range = &partition->constants.range;
+reference_moment_bins moment_bins_of(const moment_partition *partition, double colour_scale) {
     return (reference_moment_bins){
         .kind = partition->kind,
         .bins = partition->bins,
-        .colour = colour,
-        .origin = {(double)range->place[0], (double)range->place[1]},
-        .range = (double)range->place[2],
-        .mass_scale = (double)range->largest[0],
-        .sharp_scale = (double)range->largest[1],
+        .colour = partition->own_colours,
+        .mass_scale = (double)partition->constants.largest[0],
         .colour_scale = colour_scale,
         .constants = partition->constants,
     };
@@ -30,30 +25,33 @@ reference_moment_bins moment_bins_of(const moment_partition *partition, bool col
 // ---------------------------------------------------------------------------------------------
 // Moments
 
-/// At one point: F0 of microfacets or the factor of the lobes' colours; and what is not metal.
+/// At one point: what metal reflects and what is not metal, or the factor of the lobes' colours;
+/// and the diffuse colour below them.
 static void read_colours(const lobe_scene *scene, const lobe_material *material, double u, double v,
                          const double width[4], double specular[4], double diffuse[4]) {
     reference_map_value(scene, &material->base_colour_map, u, v, diffuse);
     reference_map_value(scene, &material->specular_map, u, v, specular);
+    specular[3] = 0;
     for (int i = 0; i < 3; i++) {
         double metallic = (double)material->metallic * width[2];
         diffuse[i] *= (double)material->base_colour[i];
         if (material->model == LOBE_MATERIAL_MICROFACET) {
-            specular[i] = 0.04 * (1 - metallic) + diffuse[i] * metallic;
-            diffuse[i] *= 1 - metallic;
+            specular[i] = diffuse[i] * metallic;
+            specular[3] = 1 - metallic;
+            diffuse[i] *= (1 - metallic) * (1 - specular[i] - 0.04 * specular[3]);
         }
     }
 }
 
 static reference_plane_lobe lobe_at_point(const lobe_material *material, uint32_t i,
                                           const double normal[3], const double width[4],
-                                          const double specular[3], bool as_lobe) {
+                                          const double specular[4], bool as_lobe) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     lobe_distribution distribution = as_lobe ? LOBE_DISTRIBUTION_VMF : material->distribution;
     double parameter = as_lobe ? base_lobe_concentration(material, i, width)
                                : base_lobe_parameter(material, i, width);
     double local[3] = {0, 0, 1}, axis[3], share = base_lobe_share(material, i);
-    reference_plane_lobe lobe;
+    reference_plane_lobe lobe = {.colour = {[3] = specular[3]}};
     for (int j = 0; j < 3; j++) {
         if (!microfacet)
             local[j] = (double)material->lobes[i].direction[j];
@@ -99,26 +97,45 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
 /// A bin under the pixel.
 typedef struct bin {
     double mass, mean[2], covariance[3]; ///< of the lobes' places
-    double sharpness, variance;          ///< of the base lobes
+    double sharpness, variance, varies;  ///< of the base lobes: mean, median; of its logarithm
+    bool widths;                         ///< base lobes differ in width
     double base[3];                      ///< their covariance at the mean place
     double colour[3];
 } bin;
 
-static bin read_bin(const reference_moment_bins *partition, const double *moments, uint32_t i) {
+/// Deviations vary log-normally: exp(n m + n^2 varies / 2) is the mean of their power n.
+static void find_widths(bin *b, double mean_variance) {
+    b->variance = 1 / (b->sharpness * b->sharpness);
+    if (!b->widths)
+        return;
+    b->varies = fmin(log(fmax(mean_variance / b->variance, 1)) / 3, 0.64);
+    b->variance *= exp(b->varies);
+}
+
+static bin read_bin(const lobe_material *material, const reference_moment_bins *partition,
+                    const double *moments, uint32_t i) {
     const double *place = moments + 4 * i * (partition->colour ? 3 : 2), *spread = place + 4;
+    const struct moment_bin *range = &partition->constants.bins[i];
     bin result = {.mass = place[0] * partition->mass_scale};
-    double square = partition->range * partition->range;
+    double square = (double)range->range[2] * (double)range->range[2];
     for (int j = 0; j < 3; j++) {
         int a = j == 1, b = j != 0;
         result.covariance[j] =
             square * (spread[j] / place[0] - place[1 + a] * place[1 + b] / (place[0] * place[0]));
-        if (partition->colour)
-            result.colour[j] = place[8 + j] / place[0] * partition->colour_scale;
+        if (!partition->colour)
+            continue;
+        result.colour[j] = place[8 + j] / place[0] * partition->colour_scale;
+        if (material->model == LOBE_MATERIAL_MICROFACET)
+            result.colour[j] += 0.04 * place[11] / place[0];
     }
     for (int j = 0; j < 2; j++)
-        result.mean[j] = place[1 + j] / place[0] * partition->range + partition->origin[j];
-    result.sharpness = place[3] / place[0] * partition->sharp_scale;
-    result.variance = 1 / (result.sharpness * result.sharpness);
+        result.mean[j] =
+            place[1 + j] / place[0] * (double)range->range[2] + (double)range->range[j];
+    result.sharpness = place[3] / place[0] * (double)range->range[3];
+    result.widths = material->metallic_roughness_map.image >= 0 || material->width_map.image >= 0;
+    for (uint32_t j = 1; j < material->lobe_count; j++)
+        result.widths |= material->lobes[j].width != material->lobes[0].width;
+    find_widths(&result, spread[3] / place[0] * (double)range->shape[3]);
     reference_plane_distortion(result.mean, result.base);
     for (int j = 0; j < 3; j++)
         result.base[j] *= result.variance;
@@ -142,13 +159,14 @@ static double bell(const bin *b, double scale, const double d[2]) {
     return b->mass / (2 * M_PI * sqrt(determinant)) * exp(-0.5 * (d[0] * x[0] + d[1] * x[1]));
 }
 
-/// Of GGX, Student's tail by three Gaussians (shaders/lib/lobe/plane_lobe.glsl).
+/// Of GGX, Student's tail by four Gaussians; of other lobes, two for the two halves of their
+/// widths.
 static double bells(const bin *b, lobe_distribution distribution, const double d[2]) {
-    static const double weights[] = {0.3115, 0.4593, 0.2037}, spreads[] = {0.4592, 1.7128, 8.7987};
+    double weights[4], spreads[4], factor = exp(2 * sqrt(b->varies)), sum = 0;
+    reference_plane_tail(b->varies, weights, spreads);
     if (distribution != LOBE_DISTRIBUTION_GGX)
-        return bell(b, 1, d);
-    double sum = 0;
-    for (int i = 0; i < 3; i++)
+        return 0.5 * (bell(b, factor, d) + bell(b, 1 / factor, d));
+    for (int i = 0; i < 4; i++)
         sum += weights[i] * bell(b, spreads[i], d);
     return sum;
 }
@@ -157,19 +175,29 @@ static double half_trace(const bin *b) {
     return 0.5 * (b->covariance[0] + b->covariance[1]);
 }
 
-/// The bin's value at a half vector: that of its Gaussians, or the more its base lobes' own shape,
-/// as broad as both together, the less the places are spread.
-static double evaluate_bin(const lobe_material *material, const bin *b, const double half_vector[3],
-                           const double d[2]) {
+/// The base lobes' own shape, as broad as the bin.
+static double own_shape(const lobe_material *material, const bin *b, double variance,
+                        const double half_vector[3]) {
     lobe_distribution distribution = material->distribution;
-    double variance = b->variance + half_trace(b), own = pow(b->variance / variance, 8);
-    double parameter = reference_parameter_of_plane_variance(distribution, variance), axis[3];
+    double axis[3];
+    double parameter =
+        reference_parameter_of_plane_variance(distribution, variance + half_trace(b));
     reference_direction_from_plane(b->mean, axis);
     double shape = material->model == LOBE_MATERIAL_MICROFACET
                        ? reference_normal_distribution(distribution, axis, half_vector, parameter)
                        : reference_half_vector_lobe(distribution, half_vector, axis, parameter);
-    shape *= b->mass / reference_plane_mass(material->model, distribution, parameter);
-    return own * shape + (1 - own) * bells(b, distribution, d);
+    return shape * b->mass / reference_plane_mass(material->model, distribution, parameter);
+}
+
+/// The bin's value at a half vector: that of its Gaussians, or the more its base lobes' own shape,
+/// the less the places are spread.
+static double evaluate_bin(const lobe_material *material, const bin *b, const double half_vector[3],
+                           const double d[2]) {
+    double own = pow(b->variance / (b->variance + half_trace(b)), 8);
+    double factor = exp(2 * sqrt(b->varies));
+    double shape = 0.5 * (own_shape(material, b, b->variance / factor, half_vector) +
+                          own_shape(material, b, b->variance * factor, half_vector));
+    return own * shape + (1 - own) * bells(b, material->distribution, d);
 }
 
 /// Mean place of the texels that reflect: with places and base lobes both Gaussian,
@@ -251,25 +279,35 @@ static void shade_lobes(const bin_total *total, const double specular[3], const 
                       reference_microfacet_diffuse(diffuse[i], 0, reference_dot(mean, incoming));
 }
 
-static void shade_microfacets(const lobe_material *material, bin_total *total,
-                              const double specular[3], const double diffuse[3],
-                              const double mean[3], const double half_vector[3],
-                              const double outgoing[3], const double incoming[3],
-                              double radiance[3]) {
-    reference_normalise(total->normal);
-    double in = reference_dot(total->normal, incoming);
-    double out = reference_dot(total->normal, outgoing);
+static double masked_distribution(const lobe_material *material, bin_total *total,
+                                  const double outgoing[3], const double incoming[3]) {
+    // Means of the normals' cosines.
+    double in = reference_dot(total->normal, incoming) / total->distribution;
+    double out = reference_dot(total->normal, outgoing) / total->distribution;
     if (in <= 0 || out <= 0)
-        return;
+        return 0;
     double sharpness = total->sharpness / total->distribution;
     double width =
         reference_parameter_of_plane_variance(material->distribution, 1 / (sharpness * sharpness));
     double shadowing = reference_masking_shadowing(material->distribution, in, out, width);
+    return reference_microfacet_specular(1, total->distribution, shadowing, out);
+}
+
+/// `own_colours`: of the bins; then 1 - F0 is part of the diffuse colour.
+static void shade_microfacets(const lobe_material *material, bin_total *total, bool own_colours,
+                              const double specular[3], const double diffuse[3],
+                              const double mean[3], const double half_vector[3],
+                              const double outgoing[3], const double incoming[3],
+                              double radiance[3]) {
+    double reflected = masked_distribution(material, total, outgoing, incoming);
     for (int i = 0; i < 3; i++) {
-        double fresnel = reference_fresnel(specular[i], 1, reference_dot(incoming, half_vector));
-        radiance[i] =
-            reference_microfacet_specular(fresnel, total->distribution, shadowing, out) +
-            reference_microfacet_diffuse(diffuse[i], fresnel, reference_dot(mean, incoming));
+        double cosine = reference_dot(incoming, half_vector);
+        double fresnel = reference_fresnel(specular[i], 1, cosine);
+        double below = own_colours ? reference_fresnel(0, 1, cosine) : fresnel;
+        radiance[i] = fresnel * reflected;
+        if (own_colours || reflected > 0)
+            radiance[i] +=
+                reference_microfacet_diffuse(diffuse[i], below, reference_dot(mean, incoming));
     }
 }
 
@@ -283,7 +321,7 @@ void shade_moments(const lobe_material *material, const reference_moment_bins *p
     half_between(incoming, outgoing, half_vector);
     bin_total total = {0};
     for (uint32_t i = 0; i < partition->bins; i++) {
-        bin b = read_bin(partition, moments, i);
+        bin b = read_bin(material, partition, moments, i);
         // As many as the knob least_share leaves.
         if (b.mass > 1e-3)
             add_bin(material, &b, half_vector, &total);
@@ -296,8 +334,8 @@ void shade_moments(const lobe_material *material, const reference_moment_bins *p
                      partition->colour_scale;
     }
     if (material->model == LOBE_MATERIAL_MICROFACET)
-        shade_microfacets(material, &total, specular, diffuse, mean, half_vector, outgoing,
-                          incoming, radiance);
+        shade_microfacets(material, &total, partition->colour, specular, diffuse, mean, half_vector,
+                          outgoing, incoming, radiance);
     else
         shade_lobes(&total, specular, diffuse, mean, incoming, radiance);
 }

@@ -8,8 +8,7 @@
 
 /// What moment_binning computes and the filter "moments" makes of it, in double precision.
 
-reference_moment_bins moment_bins_of(const moment_partition *partition, bool colour,
-                                     double colour_scale);
+reference_moment_bins moment_bins_of(const moment_partition *partition, double colour_scale);
 
 /// The moments of every texel of a material's maps: the layers of shaders/interface/moment_bins.h.
 /// `as_lobe`: base lobes are turned into von Mises-Fisher lobes. To free by the caller.

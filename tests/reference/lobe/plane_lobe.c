@@ -43,3 +43,15 @@ double reference_parameter_of_plane_variance(lobe_distribution distribution, dou
         return 1 / variance;
     }
 }
+
+void reference_plane_tail(double varies, double weights[4], double spreads[4]) {
+    static const double weight[] = {0.2565, 0.4539, 0.2276, 0.0620};
+    static const double weight_slope[] = {-0.0722, -0.0617, 0.0977, 0.0362};
+    static const double spread[] = {0.4112, 1.4058, 5.6833, 31.7164};
+    static const double slope[] = {-2.545, -0.024, 1.123, 2.069};
+    static const double bend[] = {0.863, -0.657, -0.885, -1.146};
+    for (int i = 0; i < 4; i++) {
+        weights[i] = weight[i] + weight_slope[i] * varies;
+        spreads[i] = spread[i] * exp((slope[i] + bend[i] * varies) * varies);
+    }
+}

@@ -14,4 +14,8 @@ double reference_plane_mass(lobe_material_model model, lobe_distribution distrib
 /// The parameter that a variance belongs to.
 double reference_parameter_of_plane_variance(lobe_distribution distribution, double variance);
 
+/// GGX as a sum of four Gaussians: weights, and variances in those of the lobe. `varies`: variance
+/// of the logarithm of the deviation [0, 0.64], of lobes of several widths.
+void reference_plane_tail(double varies, double weights[4], double spreads[4]);
+
 #endif

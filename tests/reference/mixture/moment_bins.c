@@ -70,22 +70,23 @@ void reference_bin_members(const reference_moment_bins *partition, const referen
 void reference_add_plane_lobe(const reference_moment_bins *partition,
                               const reference_plane_lobe *lobe, const reference_layers *layers,
                               uint32_t x, uint32_t y) {
-    double members[MOMENT_MAXIMUM_BINS], p[2];
+    double members[MOMENT_MAXIMUM_BINS];
     reference_bin_members(partition, lobe, members);
-    for (int i = 0; i < 2; i++)
-        p[i] = (lobe->place[i] - partition->origin[i]) / partition->range;
-    double sharpness = 1 / sqrt(lobe->variance) / partition->sharp_scale;
     for (uint32_t i = 0; i < partition->bins; i++) {
-        double mass = members[i] * lobe->mass / partition->mass_scale;
+        const struct moment_bin *bin = &partition->constants.bins[i];
+        double mass = members[i] * lobe->mass / partition->mass_scale, p[2];
+        for (int j = 0; j < 2; j++)
+            p[j] = (lobe->place[j] - (double)bin->range[j]) / (double)bin->range[2];
+        const double place[4] = {1, p[0], p[1], 1 / sqrt(lobe->variance) / (double)bin->range[3]};
+        const double spread[4] = {p[0] * p[0], p[1] * p[1], p[0] * p[1],
+                                  lobe->variance / (double)bin->shape[3]};
         uint32_t layer = (partition->colour ? 3 : 2) * i;
-        const double place[4] = {1, p[0], p[1], sharpness};
-        const double spread[4] = {p[0] * p[0], p[1] * p[1], p[0] * p[1], 0};
         for (int j = 0; j < 4; j++) {
             reference_texel(layers, x, y, layer)[j] += mass * place[j];
             reference_texel(layers, x, y, layer + 1)[j] += mass * spread[j];
+            if (partition->colour)
+                reference_texel(layers, x, y, layer + 2)[j] +=
+                    mass * lobe->colour[j] / (j < 3 ? partition->colour_scale : 1);
         }
-        for (int j = 0; partition->colour && j < 3; j++)
-            reference_texel(layers, x, y, layer + 2)[j] +=
-                mass * lobe->colour[j] / partition->colour_scale;
     }
 }

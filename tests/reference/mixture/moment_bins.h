@@ -14,14 +14,14 @@ typedef struct reference_moment_bins {
     uint32_t kind; ///< PARTITION_...
     uint32_t bins;
     bool colour; ///< bins have colours
-    double origin[2], range, mass_scale, sharp_scale, colour_scale;
+    double mass_scale, colour_scale;
     struct moment_binning_constants constants;
 } reference_moment_bins;
 
 /// A base lobe in the Lambert plane.
 typedef struct reference_plane_lobe {
     double place[2], variance, mass;
-    double colour[3]; ///< specular
+    double colour[4]; ///< specular; of microfacets that of metal, and what is not metal
 } reference_plane_lobe;
 
 /// Layers of a map.

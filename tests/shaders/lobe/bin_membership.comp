@@ -8,7 +8,7 @@
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     switch (FUNCTION) {
     case 0:
-        return vec4(bin_likelihood(moment_bin(b, c), a.xy, a.z));
+        return vec4(bin_likelihood(moment_bin(b, c, vec4(0.0)), a.xy, a.z));
     case 1:
         return vec4(quarter(0, a.xy, a.z), quarter(1, a.xy, a.z), quarter(2, a.xy, a.z),
                     quarter(3, a.xy, a.z));

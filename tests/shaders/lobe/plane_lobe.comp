@@ -4,7 +4,7 @@
 #include "support/harness.glsl"
 #include "lib/lobe/plane_lobe.glsl"
 
-// a: parameter; b: model, distribution.
+// a: parameter, or how much widths vary; b: model, distribution.
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     uint model = uint(b.x), distribution = uint(b.y);
     float variance = plane_variance(distribution, a.x);
@@ -13,8 +13,8 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         return vec4(variance, plane_mass(model, distribution, a.x),
                     parameter_of_plane_variance(distribution, variance), 0.0);
     case 1:
-        return vec4(TAIL_WEIGHT, 0.0);
+        return tail_weight(a.x);
     default:
-        return vec4(TAIL_SPREAD, 0.0);
+        return tail_spread(a.x);
     }
 }

@@ -64,7 +64,7 @@ static moment_map build_map(fixture *f, const device_scene *scene, const map_req
                               .view = {.camera = &scene->scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
-    moment_map map = passes_moment_binning(&context, 0, partition, request->format, request->colour,
+    moment_map map = passes_moment_binning(&context, 0, partition, request->format,
                                            (float)request->colour_scale);
     lobe_graph_read_back(f->graph, map.map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
@@ -81,10 +81,11 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     moment_partition partition;
-    assert_int_equal(passes_moment_partition_make(uploaded, 0, request->kind, request->bins,
-                                                  &f->host, &partition),
+    const partition_request wanted = {request->kind, request->bins,
+                                      request->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, &wanted, &f->host, &partition),
                      LOBE_OK);
-    reference_moment_bins bins = moment_bins_of(&partition, request->colour, request->colour_scale);
+    reference_moment_bins bins = moment_bins_of(&partition, request->colour_scale);
     moment_map map = build_map(f, uploaded, request, &partition);
     reference_layers exact =
         moments_of_texels(scene, material, &bins, strcmp(request->base, "base=lobe") == 0);
@@ -213,6 +214,23 @@ static void sixteen_bits_are_within_a_step(void **state) {
     }
 }
 
+/// Adds what two texels have of a bin, in the plane's own units.
+static void add_moments(const moment_bin *bin, const float place[4], const float spread[4],
+                        double sum[8]) {
+    const double unit = (double)bin->range[2], mass = (double)place[0];
+    sum[0] += mass;
+    sum[3] += (double)place[3] * (double)bin->range[3];
+    sum[7] += (double)spread[3] * (double)bin->shape[3];
+    for (int i = 0; i < 2; i++)
+        sum[1 + i] += (double)place[1 + i] * unit + mass * (double)bin->range[i];
+    for (int i = 0; i < 3; i++) {
+        int a = i == 1, b = i != 0;
+        double first = (double)bin->range[a], second = (double)bin->range[b];
+        sum[4 + i] += unit * unit * (double)spread[i] + mass * first * second +
+                      unit * ((double)place[1 + a] * second + (double)place[1 + b] * first);
+    }
+}
+
 /// The bins add up to a single bin for all lobes, in every texel of every level.
 static void check_sums(const float *texels, const moment_map *map, const reference_layers *exact,
                        const reference_moment_bins *bins, const map_request *request) {
@@ -225,12 +243,10 @@ static void check_sums(const float *texels, const moment_map *map, const referen
     for (uint32_t i = 0; i < map->map.levels; i++) {
         uint32_t count = width * height;
         for (uint32_t j = 0; j < count; j++, sum += 8) {
-            for (int channel = 0; channel < 8; channel++)
-                sum[channel] = 0;
-            for (uint32_t layer = 0; layer < 2 * bins->bins; layer++)
-                for (uint32_t channel = 0; channel < 4; channel++)
-                    sum[4 * (layer % 2) + channel] +=
-                        (double)level[4 * (layer * count + j) + channel];
+            memset(sum, 0, 8 * sizeof *sum);
+            for (uint32_t bin = 0; bin < bins->bins; bin++)
+                add_moments(&bins->constants.bins[bin], level + 4 * (2 * bin * count + j),
+                            level + 4 * ((2 * bin + 1) * count + j), sum);
         }
         level += (size_t)4 * count * map->map.layers;
         width = passes_half_extent(width);

@@ -124,11 +124,12 @@ static reference_moment_bins bins_of(fixture *f, lobe_scene *scene, const sharin
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     moment_partition partition;
-    assert_int_equal(
-        passes_moment_partition_make(uploaded, 0, how->kind, how->bins, &f->host, &partition),
-        LOBE_OK);
+    const partition_request request = {how->kind, how->bins,
+                                       how->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &partition),
+                     LOBE_OK);
     passes_device_scene_destroy(&uploaded);
-    return moment_bins_of(&partition, how->colour, 1);
+    return moment_bins_of(&partition, 1);
 }
 
 /// The bins of a plane and the means of their moments.

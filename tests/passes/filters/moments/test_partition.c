@@ -24,10 +24,11 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
     scene_end(scene);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    const partition_request request = {kind, bins, BIN_COLOUR_AUTOMATIC};
     moment_partition partition, again;
-    assert_int_equal(passes_moment_partition_make(uploaded, 0, kind, bins, &f->host, &partition),
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &partition),
                      LOBE_OK);
-    assert_int_equal(passes_moment_partition_make(uploaded, 0, kind, bins, &f->host, &again),
+    assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &again),
                      LOBE_OK);
     assert_memory_equal(&partition, &again, sizeof partition);
     passes_device_scene_destroy(&uploaded);
@@ -80,7 +81,7 @@ static moment_partition partition_of_widths(fixture *f, const float *widths, uin
 
 /// The bin that has nearly all of a lobe.
 static uint32_t bin_of(const moment_partition *partition, double tilt, double concentration) {
-    reference_moment_bins bins = moment_bins_of(partition, false, 1);
+    reference_moment_bins bins = moment_bins_of(partition, 1);
     double members[MOMENT_MAXIMUM_BINS];
     reference_plane_lobe lobe = {.place = {2 * sin(tilt * M_PI / 360), 0},
                                  .variance = 1 / concentration};
@@ -120,6 +121,38 @@ static void as_many_bins_as_pay(void **state) {
     assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
 }
 
+/// Whether bins get colours of their own, for metal whose lobes alternate from texel to texel, and
+/// its colours every `pitch` texels.
+static bool colours_are_own(fixture *f, double tilt, const float widths[2], uint32_t pitch) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.metallic = 1;
+    material.metallic_roughness_map = scene_add_map(scene, constant_map(64, 64, 1, 1, 1));
+    material.normal_map =
+        scene_add_map(scene, tilts_in_turn(64, 64, (const double[]){-tilt, tilt}, 2));
+    material.base_colour_map = scene_add_map(scene, constant_map(64, 64, 0.9f, 0.2f, 0.1f));
+    for (uint32_t i = 0; i < 64 * 64; i++) {
+        const uint32_t column = i % 64, row = i / 64;
+        float *width = (float *)scene->images[0].image.texels + (size_t)4 * i;
+        float *colour = (float *)scene->images[2].image.texels + (size_t)4 * i;
+        width[1] = widths[(column + row) % 2];
+        if ((column / pitch + row) % 2)
+            colour[0] = 0.1f, colour[2] = 0.9f;
+    }
+    return partition_of(f, scene, &material, PARTITION_FITTED, AUTOMATIC, false).own_colours;
+}
+
+static void bins_have_colours_that_go_with_lobes(void **state) {
+    static const float one_width[2] = {0.4f, 0.4f}, differing[2] = {0.2f, 0.6f};
+    assert_true(colours_are_own(*state, 25, one_width, 1));
+    assert_true(colours_are_own(*state, 0, differing, 1));
+    // Colours that change every second texel, lobes that change with each.
+    assert_false(colours_are_own(*state, 25, one_width, 2));
+    assert_false(colours_are_own(*state, 0, differing, 2));
+    assert_false(colours_are_own(*state, 0, one_width, 1));
+}
+
 static void what_was_asked_for(void **state) {
     for (uint32_t bins = 1; bins <= MOMENT_MAXIMUM_BINS; bins++)
         assert_int_equal(partition_of_tilts(*state, 300, two_sides, 2, bins).bins, bins);
@@ -132,7 +165,7 @@ static void what_was_asked_for(void **state) {
         assert_int_equal(partition.bins, kind == PARTITION_CAP ? 6 : 5);
         // Between the two widths.
         assert_int_equal(bin_of(&partition, 0, 20), 0);
-        reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+        reference_moment_bins bins = moment_bins_of(&partition, 1);
         double members[MOMENT_MAXIMUM_BINS];
         reference_plane_lobe sharp = {.variance = 1.0 / 2000};
         reference_bin_members(&bins, &sharp, members);
@@ -170,7 +203,7 @@ static void ranges_hold_all_lobes(void **state) {
         lobe_scene *scene = random_scene(seed, 24, 20, &material);
         moment_partition partition =
             partition_of(*state, scene, &material, PARTITION_FITTED, 1, true);
-        reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+        reference_moment_bins bins = moment_bins_of(&partition, 1);
         for (int as_lobe = 0; as_lobe < 2; as_lobe++) {
             reference_layers texels = moments_of_texels(scene, &material, &bins, as_lobe);
             for (uint32_t i = 0; i < texels.width * texels.height * 8; i++)
@@ -219,16 +252,16 @@ static void the_same_every_time(void **state) {
 }
 
 static void assert_sound(const moment_partition *partition) {
-    const moment_range *range = &partition->constants.range;
+    const float mass = partition->constants.largest[0];
     assert_in_range(partition->bins, 1, MOMENT_MAXIMUM_BINS);
-    assert_true(range->place[2] > 0 && isfinite(range->place[2]));
-    assert_true(range->largest[0] > 0 && isfinite(range->largest[0]));
-    assert_true(range->largest[1] > 0 && isfinite(range->largest[1]));
-    for (uint32_t i = 0; i < partition->bins; i++)
+    assert_true(mass > 0 && isfinite(mass));
+    for (uint32_t i = 0; i < partition->bins; i++) {
+        const moment_bin *bin = &partition->constants.bins[i];
+        assert_true(bin->range[2] > 0 && bin->range[3] > 0 && bin->shape[3] > 0);
         for (int j = 0; j < 4; j++)
-            assert_true(isfinite(partition->constants.bins[i].centre[j]) &&
-                        isfinite(partition->constants.bins[i].shape[j]) &&
-                        isfinite(partition->constants.hats[j]));
+            assert_true(isfinite(bin->centre[j]) && isfinite(bin->shape[j]) &&
+                        isfinite(bin->range[j]) && isfinite(partition->constants.hats[j]));
+    }
 }
 
 /// Of any size and width, and with normals that have no direction or point down.
@@ -312,6 +345,7 @@ int main(void) {
         cmocka_unit_test(directions_are_told_apart),
         cmocka_unit_test(widths_are_told_apart),
         cmocka_unit_test(as_many_bins_as_pay),
+        cmocka_unit_test(bins_have_colours_that_go_with_lobes),
         cmocka_unit_test(what_was_asked_for),
         cmocka_unit_test(ranges_hold_all_lobes),
         cmocka_unit_test(ranges_hold_what_lies_between_texels),

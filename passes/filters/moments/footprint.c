@@ -1,0 +1,220 @@
+#include "passes/filters/moments/footprint.h"
+
+#include <math.h>
+
+#include "passes/upload/material_colours.h"
+
+/// A Gaussian: peak exp(-1/2 d^T inverse d).
+typedef struct bell {
+    double place[2], peak, inverse[3];
+} bell;
+
+static double evaluate(const bell *b, const double place[2]) {
+    double x = place[0] - b->place[0], y = place[1] - b->place[1];
+    double square = b->inverse[0] * x * x + b->inverse[1] * y * y + 2 * b->inverse[2] * x * y;
+    return square < 60 ? b->peak * exp(-0.5 * square) : 0;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The truth
+
+static bell bell_of_lobe(const plane_sample *lobe) {
+    double covariance[3];
+    bell result = {.place = {lobe->place[0], lobe->place[1]},
+                   .peak = lobe->weight * lobe->mass / (2 * M_PI * lobe->variance)};
+    passes_plane_distortion(lobe->place, covariance, result.inverse);
+    for (int i = 0; i < 3; i++)
+        result.inverse[i] /= lobe->variance;
+    return result;
+}
+
+/// A place at random from a lobe.
+static void draw_from_lobe(const plane_sample *lobe, const double numbers[2], double place[2]) {
+    double radius = sqrt(-2 * lobe->variance * log(1 - 0.9999 * numbers[0]));
+    double angle = 2 * M_PI * numbers[1], covariance[3], inverse[3];
+    passes_plane_distortion(lobe->place, covariance, inverse);
+    // Any root of the covariance will do: Cholesky's.
+    double first = sqrt(covariance[0]), shared = covariance[2] / first;
+    double second = sqrt(fmax(covariance[1] - shared * shared, 0));
+    double x = radius * cos(angle), y = radius * sin(angle);
+    place[0] = lobe->place[0] + first * x;
+    place[1] = lobe->place[1] + shared * x + second * y;
+}
+
+/// Lobes are chosen by their mass, in equal steps through all of them.
+static void draw_places(footprint *patch) {
+    double total = 0, sum = 0;
+    for (uint32_t i = 0; i < patch->count; i++)
+        total += patch->lobes[i].weight * patch->lobes[i].mass;
+    uint32_t lobe = 0;
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
+        double target = (i + 0.5) / FOOTPRINT_PLACES * total;
+        while (lobe + 1 < patch->count &&
+               sum + patch->lobes[lobe].weight * patch->lobes[lobe].mass < target) {
+            sum += patch->lobes[lobe].weight * patch->lobes[lobe].mass;
+            ++lobe;
+        }
+        // Evenly spread (Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences).
+        const double numbers[2] = {fmod(0.5 + 0.7548776662466927 * i, 1),
+                                   fmod(0.5 + 0.5698402909980532 * i, 1)};
+        draw_from_lobe(&patch->lobes[lobe], numbers, patch->places[i]);
+    }
+}
+
+static void find_truth(footprint *patch) {
+    for (uint32_t k = 0; k < patch->count; k++) {
+        const plane_sample *lobe = &patch->lobes[k];
+        const bell shape = bell_of_lobe(lobe);
+        for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
+            double value = evaluate(&shape, patch->places[i]);
+            patch->densities[i] += value;
+            for (int j = 0; j < 3; j++)
+                patch->truth[i][j] += value * lobe->specular[j];
+        }
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Colours of averaged maps
+
+/// What is not metal, below what it reflects.
+static double diffuse_of(double albedo, double metallic, bool microfacet) {
+    double reflectance = microfacet ? passes_reflectance_of(albedo, metallic) : 0;
+    return albedo * (1 - metallic) * (1 - reflectance);
+}
+
+/// Averaged maps multiply means: the colour of metal by how much is metal.
+static void average_colours(footprint *patch, bool microfacet) {
+    double albedo[3] = {0}, specular[3] = {0}, diffuse[3] = {0}, metallic = 0, total = 0;
+    for (uint32_t k = 0; k < patch->count; k++) {
+        const plane_sample *lobe = &patch->lobes[k];
+        total += lobe->weight;
+        metallic += lobe->weight * lobe->metallic;
+        for (int j = 0; j < 3; j++) {
+            albedo[j] += lobe->weight * lobe->albedo[j];
+            specular[j] += lobe->weight * lobe->specular[j];
+            diffuse[j] += lobe->weight * diffuse_of(lobe->albedo[j], lobe->metallic, microfacet);
+        }
+    }
+    double error = 0, all = 0;
+    for (int j = 0; j < 3; j++) {
+        double mean = diffuse_of(albedo[j] / total, metallic / total, microfacet);
+        patch->colour[j] = microfacet ? passes_reflectance_of(albedo[j] / total, metallic / total)
+                                      : specular[j] / total;
+        error += fabs(mean - diffuse[j] / total);
+        all += (diffuse[j] + specular[j]) / total;
+    }
+    patch->diffuse_error = all > 0 ? error / all : 0;
+}
+
+void passes_footprint_complete(footprint *patch, bool microfacet) {
+    double total = 0;
+    for (uint32_t k = 0; k < patch->count; k++)
+        total += patch->lobes[k].weight;
+    for (uint32_t k = 0; k < patch->count; k++)
+        patch->lobes[k].weight /= total;
+    draw_places(patch);
+    find_truth(patch);
+    average_colours(patch, microfacet);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Bins
+
+/// The sums that a pixel fetches of a bin.
+typedef struct bin_sums {
+    plane_sums places;
+    double sharpness, colour[3];
+} bin_sums;
+
+/// The bin as a pixel sees it: base lobes of two widths, as in shaders/filters/moments.glsl.
+typedef struct footprint_bin {
+    bell terms[2];
+    double colour[3];
+} footprint_bin;
+
+static bell bell_of_bin(const bin_sums *sums, double base) {
+    const plane_sums *places = &sums->places;
+    double covariance[3], inverse[3];
+    bell result;
+    for (int i = 0; i < 2; i++)
+        result.place[i] = places->place[i] / places->weight;
+    passes_plane_distortion(result.place, covariance, inverse);
+    for (int i = 0; i < 3; i++) {
+        int a = i == 1, b = i != 0;
+        double moment = places->moments[i] / places->weight - result.place[a] * result.place[b];
+        covariance[i] = base * covariance[i] + (i == 2 ? moment : fmax(moment, 0));
+    }
+    double determinant = fmax(covariance[0] * covariance[1] - covariance[2] * covariance[2], 1e-16);
+    result.peak = 0.5 * places->weight / (2 * M_PI * sqrt(determinant));
+    result.inverse[0] = covariance[1] / determinant;
+    result.inverse[1] = covariance[0] / determinant;
+    result.inverse[2] = -covariance[2] / determinant;
+    return result;
+}
+
+static footprint_bin make_bin(const bin_sums *sums) {
+    const double weight = sums->places.weight, sharpness = sums->sharpness / weight;
+    double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
+    double median = cbrt(ratio) / (sharpness * sharpness);
+    double factor = exp(2 * sqrt(fmin(log(ratio) / 3, 0.64)));
+    footprint_bin bin = {
+        .terms = {bell_of_bin(sums, median / factor), bell_of_bin(sums, median * factor)}};
+    for (int j = 0; j < 3; j++)
+        bin.colour[j] = sums->colour[j] / weight;
+    return bin;
+}
+
+static uint32_t collect(const footprint *patch, const plane_mixture *m,
+                        footprint_bin bins[MOMENT_MAXIMUM_BINS]) {
+    bin_sums sums[MOMENT_MAXIMUM_BINS] = {0};
+    for (uint32_t i = 0; i < patch->count; i++) {
+        const plane_sample *lobe = &patch->lobes[i];
+        double members[MOMENT_MAXIMUM_BINS];
+        passes_mixture_share(m, lobe, members);
+        for (uint32_t k = 0; k < m->count; k++) {
+            double mass = lobe->weight * lobe->mass * members[k];
+            passes_plane_sums_add(&sums[k].places, lobe, mass);
+            sums[k].sharpness += mass / sqrt(lobe->variance);
+            for (int j = 0; j < 3; j++)
+                sums[k].colour[j] += mass * lobe->specular[j];
+        }
+    }
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < m->count; k++)
+        if (sums[k].places.weight > 1e-6)
+            bins[count++] = make_bin(&sums[k]);
+    return count;
+}
+
+/// How often pixels see a half vector: under a viewer and lights that are spread over the
+/// hemisphere hardly any is steep.
+static double weight_of(const double place[2]) {
+    double cosine = 1 - 0.5 * (place[0] * place[0] + place[1] * place[1]);
+    double square = cosine > 0 ? cosine * cosine : 0;
+    return fmax(square * square, 1e-6);
+}
+
+void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
+                              footprint_error *error) {
+    footprint_bin bins[MOMENT_MAXIMUM_BINS];
+    const uint32_t count = collect(patch, mixture, bins);
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
+        double all = 0, coloured[3] = {0};
+        for (uint32_t k = 0; k < count; k++) {
+            double value = evaluate(&bins[k].terms[0], patch->places[i]) +
+                           evaluate(&bins[k].terms[1], patch->places[i]);
+            all += value;
+            for (int j = 0; j < 3; j++)
+                coloured[j] += value * bins[k].colour[j];
+        }
+        const double density = fmax(patch->densities[i], 1e-30) / weight_of(patch->places[i]);
+        for (int j = 0; j < 3; j++) {
+            double truth = patch->truth[i][j];
+            double mean = all * patch->colour[j] - truth, own = coloured[j] - truth;
+            error->mean_colour += mean * mean / density;
+            error->bin_colours += own * own / density;
+            error->truth += truth * truth / density;
+        }
+    }
+}

@@ -1,0 +1,29 @@
+#ifndef PASSES_FILTERS_MOMENTS_PLANE_SAMPLE_H
+#define PASSES_FILTERS_MOMENTS_PLANE_SAMPLE_H
+
+#include "passes/upload/material_lobes.h"
+
+/// A base lobe in the Lambert plane (shaders/lib/lobe/lambert_plane.glsl, plane_lobe.glsl).
+typedef struct plane_sample {
+    double place[2], variance, mass;
+    double weight;              ///< of all lobes that it stands for; relative to other samples
+    double specular[3];         ///< what it reflects, linear RGB
+    double albedo[3], metallic; ///< of its texel
+} plane_sample;
+
+/// The lobes at a point of a material's lobe_grid (in texels), with this weight in all; returns
+/// their number, 0 if the host cannot read a map of lobes. Colours are those of the texel; where
+/// the host cannot read them, white.
+uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_material *material,
+                                   double x, double y, double weight,
+                                   plane_sample samples[LOBE_MATERIAL_MAXIMUM_LOBES]);
+
+/// The variance of a material's lobe of this concentration.
+double passes_plane_variance(const lobe_material *material, double concentration);
+/// The place of a unit direction.
+void passes_plane_from_direction(const double direction[3], double place[2]);
+
+/// The covariance (xx, yy, xy) at a place of a variance of one about it, and its inverse.
+void passes_plane_distortion(const double place[2], double covariance[3], double inverse[3]);
+
+#endif
