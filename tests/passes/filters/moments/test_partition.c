@@ -230,7 +230,7 @@ static void ranges_hold_what_lies_between_texels(void **state) {
     }
     material.normal_map = scene_add_map(scene, image);
     moment_partition partition = partition_of(*state, scene, &material, PARTITION_FITTED, 1, true);
-    reference_moment_bins bins = moment_bins_of(&partition, false, 1);
+    reference_moment_bins bins = moment_bins_of(&partition, 1);
     reference_layers texels = moments_of_texels(scene, &material, &bins, false);
     for (uint32_t i = 0; i < texels.width * texels.height * 8; i++)
         assert_true(fabs(texels.texels[i]) <= 1);
