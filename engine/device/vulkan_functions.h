@@ -59,8 +59,11 @@
     X(vkCmdCopyImage)                                                                              \
     X(vkCmdCopyImageToBuffer)                                                                      \
     X(vkCmdDispatch)                                                                               \
+    X(vkCmdDispatchIndirect)                                                                       \
     X(vkCmdDraw)                                                                                   \
     X(vkCmdDrawIndexed)                                                                            \
+    X(vkCmdDrawIndexedIndirect)                                                                    \
+    X(vkCmdDrawIndirect)                                                                           \
     X(vkCmdEndRendering)                                                                           \
     X(vkCmdFillBuffer)                                                                             \
     X(vkCmdPipelineBarrier2)                                                                       \

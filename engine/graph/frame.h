@@ -78,6 +78,8 @@ typedef struct engine_graph_command {
     lobe_draw draw;
     engine_graph_binding_list bindings; ///< of this command alone
     uint32_t index_access;              ///< draw: of the index buffer, or NONE
+    uint32_t indirect_access;           ///< of the buffer with the counts, or NONE
+    size_t indirect_offset;             ///< bytes
     uint32_t source_access, target_access;
     float value[4];
     uint64_t read_back_offset, read_back_size; ///< bytes

@@ -103,14 +103,15 @@ void passes_camera_axis(const lobe_camera *camera, vec4 axis) {
     axis[3] = glm_vec3_dot(axis, eye);
 }
 
-/// Distance along the view of the farthest corner of the bounds.
-static float farthest(const lobe_camera *camera, const float minimum[3], const float maximum[3]) {
+/// Distance along the view of a plane just behind the farthest corner of the bounds.
+static float far_plane_of(const lobe_camera *camera, const float minimum[3],
+                          const float maximum[3]) {
     vec4 axis;
     passes_camera_axis(camera, axis);
     float distance = -axis[3];
     for (int i = 0; i < 3; i++)
         distance += axis[i] * (axis[i] > 0 ? maximum[i] : minimum[i]);
-    return distance;
+    return 1.01f * distance;
 }
 
 static void perspective(const lobe_camera *camera, float aspect, mat4 projection) {
@@ -122,11 +123,16 @@ static void perspective(const lobe_camera *camera, float aspect, mat4 projection
     projection[3][2] = camera->near_plane; // depth = near / distance: 1 near, 0 at infinity
 }
 
+/// Of an orthographic camera: the distance between the planes of depth 1 and 0. Where all lies
+/// before the near plane, any will do.
+static float depth_range(const lobe_camera *camera, float far_plane) {
+    return fmaxf(far_plane - camera->near_plane, 1e-3f * camera->near_plane);
+}
+
 static void orthographic(const lobe_camera *camera, float aspect, float far_plane,
                          mat4 projection) {
     float scale = 2 / camera->orthographic_height;
-    // Where all lies before the near plane, any depth will do.
-    float depth = fmaxf(far_plane - camera->near_plane, 1e-3f * camera->near_plane);
+    float depth = depth_range(camera, far_plane);
     glm_mat4_identity(projection);
     projection[0][0] = scale / aspect;
     projection[1][1] = -scale;
@@ -142,7 +148,7 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
     if (camera->vertical_field_of_view > 0)
         perspective(camera, aspect, projection);
     else
-        orthographic(camera, aspect, 1.01f * farthest(camera, minimum, maximum), projection);
+        orthographic(camera, aspect, far_plane_of(camera, minimum, maximum), projection);
     // Rasterisation samples at the pixel's centre: move the picture instead.
     glm_mat4_identity(shift);
     shift[3][0] = (1 - 2 * sample[0]) / (float)width;
@@ -159,4 +165,17 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
     mat4 shifted;
     glm_mat4_mul(shift, projection, shifted);
     glm_mat4_mul(shifted, view, world_to_clip);
+}
+
+void passes_camera_slope_scale(const lobe_camera *camera, uint32_t height, const float minimum[3],
+                               const float maximum[3], float *scale, float *offset) {
+    const bool perspective = camera->vertical_field_of_view > 0;
+    // Depth is near / distance, so that relative changes are those of the distance, which a pixel's
+    // side is proportional to.
+    *scale = perspective ? 2 * tanf(0.5f * camera->vertical_field_of_view) / (float)height : 0;
+    *offset =
+        perspective
+            ? 0
+            : camera->orthographic_height /
+                  ((float)height * depth_range(camera, far_plane_of(camera, minimum, maximum)));
 }

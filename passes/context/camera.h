@@ -22,6 +22,13 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
                               const float sample[2], const float minimum[3], const float maximum[3],
                               mat4 world_to_clip);
 
+/// How depths become slopes. The depth buffer's values are linear across the picture on any plane.
+/// Where they are not, their second difference between neighbouring pixels, divided by the depth
+/// times `scale` plus `offset`, is about the change of the surface's slope against the view, from
+/// pixel to pixel. Bounds as for passes_camera_projection.
+void passes_camera_slope_scale(const lobe_camera *camera, uint32_t height, const float minimum[3],
+                               const float maximum[3], float *scale, float *offset);
+
 /// Unit view direction, and in w its dot product with the eye's position: the distance of a point p
 /// along the view is <axis, p> - w.
 void passes_camera_axis(const lobe_camera *camera, vec4 axis);

@@ -19,6 +19,17 @@ void passes_sample_position(uint32_t index, uint32_t count, float position[2]) {
     position[1] = radical_inverse(index) + 0.5f / (float)strata;
 }
 
+void passes_sample_position_around_centre(uint32_t index, float position[2]) {
+    // 64ths of a pixel. Found by a random search for the least squared error of the part of a pixel
+    // on one side of a straight edge, over edges of all directions and distances, with the first
+    // four and with all eight: 0.0094 and 0.0028. Of one sample it is 0.062, of the best four and
+    // eight rooks 0.0082 and 0.0031.
+    static const uint8_t positions[SAMPLES_AROUND_CENTRE][2] = {
+        {32, 32}, {56, 51}, {30, 6}, {8, 43}, {7, 16}, {43, 40}, {22, 56}, {55, 13}};
+    for (int i = 0; i < 2; i++)
+        position[i] = (float)positions[index][i] / 64;
+}
+
 void passes_sample_position_in_pattern(uint32_t pattern, float position[2]) {
     // Inverse powers of the root of x^3 = x + 1, the plane's golden ratio: they keep patterns
     // apart.

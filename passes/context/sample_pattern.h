@@ -8,6 +8,12 @@
 /// sample is at the centre. (Hammersley 1960; van der Corput 1935.)
 void passes_sample_position(uint32_t index, uint32_t count, float position[2]);
 
+#define SAMPLES_AROUND_CENTRE 8
+
+/// Position of sample `index`, below SAMPLES_AROUND_CENTRE, of a pixel whose first sample is at its
+/// centre, (0, 1) each: the first four and all eight make an edge's coverage most accurate.
+void passes_sample_position_around_centre(uint32_t index, float position[2]);
+
 /// Moves a position to another pattern: all positions are shifted by the same amount, wrapping
 /// around the pixel's edges. Pattern 0 is not shifted. (Cranley, Patterson 1976.)
 void passes_sample_position_in_pattern(uint32_t pattern, float position[2]);

@@ -3,7 +3,8 @@
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/specialisation.h"
 
-static const char *const views[] = {"radiance", "lobes", "level", NULL};
+static const char *const views[] = {"radiance", "lobes", "level", "samples", NULL};
+static const char *const sample_counts[] = {"1", "2", "4", "8", "auto", NULL};
 static const char *const bases[] = {"exact", "lobe", NULL};
 
 static const char *const methods[] = {"exact", "mip", "prefiltered", "sampled", NULL};
@@ -18,11 +19,20 @@ static const char environment_summary[] =
 
 const filter_knob passes_knob_view = {
     .description = {.name = "view",
-                    .summary = "what the picture shows: radiance, lobes evaluated, or MIP level",
+                    .summary = "what the picture shows: radiance, lobes evaluated, MIP level, or "
+                               "samples taken",
                     .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 2,
+                    .maximum = 3,
                     .choices = views},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_VIEW),
+};
+const filter_knob passes_knob_samples = {
+    .description = {.name = "samples",
+                    .summary = "filtered samples of each pixel; auto: 8 where one is not enough, "
+                               "else 1; the reference ignores it",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 4,
+                    .choices = sample_counts},
 };
 const filter_knob passes_knob_base = {
     .description =
@@ -129,6 +139,7 @@ const filter_knob passes_knob_scattering = {
 
 const filter_knob *const passes_shared_knobs[] = {
     &passes_knob_view,
+    &passes_knob_samples,
     &passes_knob_base,
     &passes_knob_environment,
     &passes_knob_environment_size,

@@ -6,7 +6,7 @@
 /// Knobs of every filter, listed after its own; NULL-terminated.
 extern const filter_knob *const passes_shared_knobs[];
 
-extern const filter_knob passes_knob_view, passes_knob_base;
+extern const filter_knob passes_knob_view, passes_knob_samples, passes_knob_base;
 /// Knobs of environment light.
 extern const filter_knob passes_knob_environment, passes_knob_environment_size,
     passes_knob_environment_probes, passes_knob_environment_levels, passes_knob_environment_grid,

@@ -25,6 +25,8 @@ typedef struct environment_work {
 /// The sample of each pixel that a shading pass draws.
 typedef struct shading_sample {
     float position[2];        ///< in the pixel, [0, 1] each
+    float footprint;          ///< side of the square that it stands for, pixels
+    float dither;             ///< [0, 1): added to the thresholds of masks
     uint32_t number, pattern; ///< of the reference: which sample of which pattern
 } shading_sample;
 

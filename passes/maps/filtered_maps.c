@@ -1,8 +1,10 @@
 #include "passes/maps/filtered_maps.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "passes/context/knob_values.h"
+#include "passes/context/sample_count.h"
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
 #include "passes/maps/mask_coverage.h"
@@ -132,7 +134,8 @@ static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
     double probes = passes_knob_value(context, &passes_knob_probes),
-           bias = passes_knob_value(context, &passes_knob_bias);
+           bias = passes_knob_value(context, &passes_knob_bias) +
+                  log2(passes_sample_count(context).footprint);
     uint32_t bits = 0;
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
         if (!material->maps[map].use)

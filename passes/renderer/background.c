@@ -42,31 +42,31 @@ static void move_to_sample(const filter_context *context, const float sample[2],
 }
 
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                       const float sample[2], bool aov) {
+                       const shading_sample *sample, bool aov, const lobe_draw *form) {
     const lobe_environment *environment = context->scene->scene->environment;
     vec3 centre, right, down;
     picture_axes(context, centre, right, down);
-    move_to_sample(context, sample, right, down, centre);
+    move_to_sample(context, sample->position, right, down, centre);
     struct background_constants constants = {0};
     environment_from_world(environment, centre, constants.centre);
     environment_from_world(environment, right, constants.right);
     environment_from_world(environment, down, constants.down);
     constants.centre[3] = environment->intensity;
     if (!context->filter->supersamples)
-        constants.right[3] = 4 * glm_vec3_norm(right) * glm_vec3_norm(down) /
+        constants.right[3] = 4 * glm_vec3_norm(right) * glm_vec3_norm(down) * sample->footprint *
+                             sample->footprint /
                              ((float)context->view.width * (float)context->view.height);
     lobe_binding binding = {
         .name = "environment_cube",
         .resource = cube,
         .sampler = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP, LOBE_WRAP_CLAMP, 0}};
-    lobe_pass_draw(pass, &(lobe_draw){
-                             .vertex_shader = "shading/background.vert",
-                             .fragment_shader =
-                                 aov ? "shading/background_aov.frag" : "shading/background.frag",
-                             .index_count = 3,
-                             .constants = &constants,
-                             .constants_size = sizeof constants,
-                             .bindings = &binding,
-                             .binding_count = 1,
-                         });
+    lobe_draw draw = *form;
+    draw.vertex_shader = "shading/background.vert";
+    draw.fragment_shader = aov ? "shading/background_aov.frag" : "shading/background.frag";
+    draw.index_count = 3;
+    draw.constants = &constants;
+    draw.constants_size = sizeof constants;
+    draw.bindings = &binding;
+    draw.binding_count = 1;
+    lobe_pass_draw(pass, &draw);
 }

@@ -2,12 +2,13 @@
 #define PASSES_RENDERER_BACKGROUND_H
 
 #include "passes/context/filter.h"
+#include "passes/environment/light.h"
 
-/// Adds a draw of the scene's environment to a raster pass; it must be the first draw. `cube`: the
-/// environment's radiance with all its levels. `sample`: position in the pixel, [0, 1] each.
-/// `aov`: with arbitrary output variables. Without supersampling, each pixel shows the mean over
-/// the part of the environment that it covers.
+/// Adds a draw of the scene's environment to a raster pass, before those of the scene. `cube`: the
+/// environment's radiance with all its levels. `aov`: with arbitrary output variables. `form`: its
+/// depth test and indirect counts; the rest is zero. Without supersampling, each sample shows the
+/// mean over the part of the environment that it stands for.
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
-                       const float sample[2], bool aov);
+                       const shading_sample *sample, bool aov, const lobe_draw *form);
 
 #endif

@@ -1,4 +1,5 @@
 #include "passes/renderer/delivery.h"
+#include "passes/renderer/samples/samples.h"
 
 // ---------------------------------------------------------------------------------------------
 // The host's passes
@@ -40,13 +41,16 @@ static void add_passes_before(lobe_graph *graph, const lobe_render_host *host,
 
 static void draw(rendering *r, bool aov, const shading_targets *imported,
                  shading_targets *targets) {
-    static const shading_sample centre = {.position = {0.5f, 0.5f}};
+    static const shading_sample centre = {.position = {0.5f, 0.5f}, .footprint = 1};
     lobe_graph *graph = r->renderer->graph;
     *targets = passes_shading_targets_declare(graph, r->width, r->height, aov);
     passes_delivery_replace(imported, targets);
     add_passes_before(graph, &r->parameters->host, targets);
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
-    passes_shading(&r->context, r->renderer->appearances, &light, &centre, targets);
+    if (passes_samples_several(&r->context))
+        passes_samples(&r->context, r->renderer->appearances, &light, targets);
+    else
+        passes_shading(&r->context, r->renderer->appearances, &light, &centre, NULL, targets);
     add_passes(graph, &r->parameters->host, LOBE_RENDER_AFTER_SHADING, targets);
 }
 

@@ -36,10 +36,10 @@ static lobe_resource declare_samples(rendering *r, const sample_sum *sum, uint32
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     lobe_resource resource = declare_sum(r);
     for (uint32_t i = 0; i < count; i++) {
-        shading_sample sample = {.number = first + i, .pattern = sum->pattern};
+        shading_sample sample = {.footprint = 1, .number = first + i, .pattern = sum->pattern};
         passes_sample_position(sample.number, sum->samples, sample.position);
         passes_sample_position_in_pattern(sum->pattern, sample.position);
-        passes_shading(&r->context, r->renderer->appearances, &light, &sample, &targets);
+        passes_shading(&r->context, r->renderer->appearances, &light, &sample, NULL, &targets);
         resource = passes_accumulation(graph, targets.radiance, resource, r->width, r->height);
     }
     return resource;

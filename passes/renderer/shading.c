@@ -14,6 +14,19 @@
 #include "shaders/interface/light.h"
 #include "shaders/interface/specialisation.h"
 
+/// The draws of a pass, in order; only a selection has a mask, and not every scene a background.
+enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
+
+/// What the draws of one pass share.
+typedef struct drawing {
+    const filter_context *context;
+    const environment_light *light;
+    const shading_selection *selection; ///< NULL: all pixels
+    bool depth_as_coverage;
+    char fragment_shader[64];
+    lobe_pass *pass;
+} drawing;
+
 static const char *const map_names[MAP_COUNT] = {
     [MAP_BASE_COLOUR] = "base_colour_map",
     [MAP_NORMAL] = "normal_map",
@@ -97,17 +110,19 @@ shading_light passes_shading_light_prepare(const filter_context *context,
                            .environment = passes_environment_light_build(context, work)};
 }
 
-static lobe_resource upload_frame(const filter_context *context, const float sample[2],
+static lobe_resource upload_frame(const filter_context *context, const shading_sample *sample,
                                   const shading_targets *targets) {
     const lobe_scene *scene = context->scene->scene;
     struct frame_constants frame = {
         .directional_count = count_lights(scene, LOBE_LIGHT_DIRECTIONAL),
         .point_count = count_lights(scene, LOBE_LIGHT_POINT),
         .spot_count = count_lights(scene, LOBE_LIGHT_SPOT),
+        .footprint = sample->footprint,
+        .dither = sample->dither,
     };
     mat4 matrix;
-    passes_camera_projection(context->view.camera, targets->width, targets->height, sample,
-                             scene->minimum, scene->maximum, matrix);
+    passes_camera_projection(context->view.camera, targets->width, targets->height,
+                             sample->position, scene->minimum, scene->maximum, matrix);
     memcpy(frame.world_to_clip, matrix, sizeof matrix);
     mat3 rotation;
     passes_camera_rotation(context->view.camera, rotation);
@@ -143,11 +158,30 @@ static void attach(lobe_pass *pass, const filter_context *context, shading_targe
     }
 }
 
+/// Where a draw takes its counts from, if it is one of a selection's.
+static void select_draw(const shading_selection *selection, size_t number, lobe_draw *draw) {
+    if (!selection)
+        return;
+    draw->indirect = selection->arguments;
+    draw->indirect_offset = (selection->first_argument + number) * sizeof(lobe_draw_arguments);
+}
+
+size_t passes_shading_draw_count(const filter_context *context) {
+    return FIRST_INSTANCE_DRAW + context->scene->scene->instance_count;
+}
+
+uint32_t passes_shading_index_count(const filter_context *context, size_t draw) {
+    if (draw < FIRST_INSTANCE_DRAW)
+        return 3;
+    const device_instance *drawn = &context->scene->instances[draw - FIRST_INSTANCE_DRAW];
+    return (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count;
+}
+
 /// The constants of a draw: for its material, its mesh, the lights and the settings, then the
 /// filter's own.
-static void specialise_draw(const filter_context *context, const environment_light *light,
-                            size_t instance, const filtered_appearance *appearance,
-                            specialisation_list *list) {
+static void specialise_draw(const drawing *d, size_t instance,
+                            const filtered_appearance *appearance, specialisation_list *list) {
+    const filter_context *context = d->context;
     const lobe_scene *scene = context->scene->scene;
     const device_instance *drawn = &context->scene->instances[instance];
     passes_material_specialise(&context->scene->materials[drawn->material], list);
@@ -159,8 +193,9 @@ static void specialise_draw(const filter_context *context, const environment_lig
     passes_specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
     uint32_t lights = (uint32_t)scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
-                      passes_environment_light_lights_at_once(light, lights));
-    passes_environment_light_specialise(light, list);
+                      passes_environment_light_lights_at_once(d->light, lights));
+    passes_specialise(list, SPECIALISE_DEPTH_AS_COVERAGE, d->depth_as_coverage);
+    passes_environment_light_specialise(d->light, list);
     passes_knobs_specialise(context, list);
     for (size_t i = 0; i < appearance->specialisation_count; i++)
         passes_specialise(list, appearance->specialisation[i].id,
@@ -193,9 +228,9 @@ static size_t bind_draw(const filter_context *context, const environment_light *
     return count;
 }
 
-static void draw_instance(const filter_context *context, const environment_light *light,
-                          size_t instance, const filtered_appearance *appearance,
-                          const char *fragment_shader, lobe_pass *pass) {
+static void draw_instance(const drawing *d, size_t instance,
+                          const filtered_appearance *appearance) {
+    const filter_context *context = d->context;
     const device_instance *drawn = &context->scene->instances[instance];
     const lobe_material *material = context->scene->materials[drawn->material].material;
     const float *transform = context->scene->scene->instances[instance].transform;
@@ -205,47 +240,82 @@ static void draw_instance(const filter_context *context, const environment_light
             constants.rows[row][column] = transform[4 * column + row];
     }
     lobe_binding bindings[4 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
-    size_t binding_count = bind_draw(context, light, instance, appearance, bindings);
+    size_t binding_count = bind_draw(context, d->light, instance, appearance, bindings);
     specialisation_list list = {.graph = context->graph};
-    specialise_draw(context, light, instance, appearance, &list);
+    specialise_draw(d, instance, appearance, &list);
     lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
-    lobe_pass_draw(
-        pass, &(lobe_draw){
-                  .vertex_shader = "shading/shading.vert",
-                  .fragment_shader = fragment_shader,
-                  .indices = lobe_graph_import_buffer(context->graph,
-                                                      context->scene->indices[drawn->mesh]),
-                  .index_count = (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count,
-                  .cull = material->double_sided ? LOBE_CULL_NONE : outside,
-                  .depth_test = true,
-                  .depth_write = true,
-                  .constants = &constants,
-                  .constants_size = sizeof constants,
-                  .specialisation = list.items,
-                  .specialisation_count = list.count,
-                  .bindings = bindings,
-                  .binding_count = binding_count,
-              });
+    lobe_draw draw = {
+        .vertex_shader = "shading/shading.vert",
+        .fragment_shader = d->fragment_shader,
+        .indices = lobe_graph_import_buffer(context->graph, context->scene->indices[drawn->mesh]),
+        .index_count = (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count,
+        .cull = material->double_sided ? LOBE_CULL_NONE : outside,
+        .depth_test = true,
+        .depth_write = true,
+        .constants = &constants,
+        .constants_size = sizeof constants,
+        .specialisation = list.items,
+        .specialisation_count = list.count,
+        .bindings = bindings,
+        .binding_count = binding_count,
+    };
+    select_draw(d->selection, FIRST_INSTANCE_DRAW + instance, &draw);
+    lobe_pass_draw(d->pass, &draw);
+}
+
+/// Lets through the selected pixels alone: all others get the nearest depth.
+static void draw_mask(const drawing *d) {
+    const shading_selection *selection = d->selection;
+    const bool occluded = selection->occluder.version != 0;
+    const lobe_binding bindings[] = {
+        {.name = "counts", .resource = selection->counts},
+        {.name = "occluder", .resource = occluded ? selection->occluder : selection->counts}};
+    const uint32_t constants = occluded;
+    lobe_draw draw = {
+        .vertex_shader = "shading/background.vert",
+        .fragment_shader = "shading/sample_mask.frag",
+        .index_count = 3,
+        .depth_write = true,
+        .constants = &constants,
+        .constants_size = sizeof constants,
+        .bindings = bindings,
+        .binding_count = 2,
+    };
+    select_draw(selection, MASK_DRAW, &draw);
+    lobe_pass_draw(d->pass, &draw);
+}
+
+static void draw_background(const drawing *d, const shading_sample *sample, bool aov) {
+    lobe_draw draw = {.depth_test = d->selection != NULL};
+    select_draw(d->selection, BACKGROUND_DRAW, &draw);
+    passes_background(d->pass, d->context, d->light->cube, sample, aov, &draw);
 }
 
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,
                     const shading_light *light, const shading_sample *sample,
-                    shading_targets *targets) {
-    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "shading");
-    lobe_resource frame = upload_frame(context, sample->position, targets);
+                    const shading_selection *selection, shading_targets *targets) {
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER,
+                                          selection ? "sample_shading" : "shading");
+    lobe_resource frame = upload_frame(context, sample, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     passes_knobs_bind(context, pass);
     passes_environment_light_bind(&light->environment, context, pass, sample);
     bool aov = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
+    drawing d = {.context = context,
+                 .light = &light->environment,
+                 .selection = selection,
+                 .depth_as_coverage = targets->depth_as_coverage,
+                 .pass = pass};
+    if (selection)
+        draw_mask(&d);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
-        passes_background(pass, context, light->environment.cube, sample->position, aov);
-    char fragment_shader[64];
-    snprintf(fragment_shader, sizeof fragment_shader, "shading/shading_%s%s%s.frag",
+        draw_background(&d, sample, aov);
+    snprintf(d.fragment_shader, sizeof d.fragment_shader, "shading/shading_%s%s%s.frag",
              context->filter->shading, light->environment.present ? "_environment" : "",
              aov ? "_aov" : "");
     for (size_t i = 0; i < context->scene->scene->instance_count; i++)
-        draw_instance(context, &light->environment, i, &appearances[i], fragment_shader, pass);
+        draw_instance(&d, i, &appearances[i]);
 }

@@ -16,7 +16,17 @@ typedef struct shading_targets {
     bool keep_radiance, keep_depth;
     /// Leave radiance black where nothing is hit: the picture is later blended over another.
     bool without_background;
+    /// The radiance's alpha is the depth of what is hit (as in `depth`; above 0) instead of 1.
+    bool depth_as_coverage;
 } shading_targets;
+
+/// The pixels that a shading pass draws: those that take more than one sample.
+typedef struct shading_selection {
+    lobe_resource counts;    ///< R32_FLOAT: samples of each pixel
+    lobe_resource occluder;  ///< D32_FLOAT: hides what lies behind it; all zero: nothing is hidden
+    lobe_resource arguments; ///< lobe_draw_arguments of each of the pass's draws, in order
+    size_t first_argument;   ///< index of the first draw's
+} shading_selection;
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
                                                bool aov);
@@ -31,8 +41,14 @@ shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 
 /// Adds a pass that draws all instances with the filter's shader. `appearances`: one per instance.
+/// `selection`: NULL: all pixels.
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,
                     const shading_light *light, const shading_sample *sample,
-                    shading_targets *targets);
+                    const shading_selection *selection, shading_targets *targets);
+
+/// The number of draws of a shading pass with a selection, and for each the number of its indices
+/// (or vertices).
+size_t passes_shading_draw_count(const filter_context *context);
+uint32_t passes_shading_index_count(const filter_context *context, size_t draw);
 
 #endif

@@ -12,14 +12,20 @@ struct frame_constants {
     uint directional_count;   // lights are sorted: directional, point, spot
     uint point_count;
     uint spot_count;
-    uint padding;
+    float footprint; // side of the square that a sample stands for, pixels
+    float dither;    // [0, 1): added to the thresholds of masks, another one for each sample
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
-INTERFACE_SIZE(frame_constants, 176)
+INTERFACE_SIZE(frame_constants, 192)
 INTERFACE_OFFSET(frame_constants, world_to_camera, 64)
 INTERFACE_OFFSET(frame_constants, eye, 128)
 INTERFACE_OFFSET(frame_constants, axis, 144)
 INTERFACE_OFFSET(frame_constants, directional_count, 160)
 INTERFACE_OFFSET(frame_constants, point_count, 164)
 INTERFACE_OFFSET(frame_constants, spot_count, 168)
+INTERFACE_OFFSET(frame_constants, footprint, 172)
+INTERFACE_OFFSET(frame_constants, dither, 176)
 
 #endif

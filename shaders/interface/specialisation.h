@@ -27,8 +27,9 @@
 #define SPECIALISE_SPOT_LIGHTS        18 // bool
 #define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters process together
 // The knobs of all filters.
-#define SPECIALISE_VIEW         24 // uint, VIEW_...
-#define SPECIALISE_BASE_AS_LOBE 25 // bool: base lobes are turned into von Mises-Fisher lobes first
+#define SPECIALISE_VIEW              24 // uint, VIEW_...
+#define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes are turned into von Mises-Fisher lobes first
+#define SPECIALISE_DEPTH_AS_COVERAGE 26 // bool: alpha is the depth, see sample_choice.comp
 // The first of a filter's own, see shaders/filters.
 #define SPECIALISE_FILTER 32
 
@@ -44,5 +45,6 @@
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1
 #define VIEW_LEVEL    2
+#define VIEW_SAMPLES  3 // as VIEW_RADIANCE until the samples are resolved
 
 #endif

@@ -42,7 +42,8 @@ bool keeps_footprint(surface_point surface) {
     uint layer = uint(int(floor(DITHER_LAYERS * log2(max(depth, 1e-30)))));
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     float along = ordered_dither(pixel, 2u * layer);
-    return mask_coverage(surface, along) > ordered_dither(pixel, 2u * layer + 1u);
+    return mask_coverage(surface, along) >
+           fract(ordered_dither(pixel, 2u * layer + 1u) + frame.dither);
 }
 
 #endif

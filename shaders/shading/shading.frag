@@ -84,7 +84,7 @@ void main() {
         value = vec3(fetched.lobe_count);
     if (VIEW == VIEW_LEVEL)
         value = vec3(fetched.level);
-    radiance_out = vec4(value, 1.0);
+    radiance_out = vec4(value, DEPTH_AS_COVERAGE ? max(gl_FragCoord.z, 1e-30) : 1.0);
 
 #ifdef AOV
     vec3 world_normal = normalize(surface.world_from_tangent * fetched.normal);

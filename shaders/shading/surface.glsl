@@ -28,6 +28,7 @@ layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
+layout(constant_id = SPECIALISE_DEPTH_AS_COVERAGE) const bool DEPTH_AS_COVERAGE = false;
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
 layout(set = 0, binding = 10, std140) uniform knob_block { shared_knobs knobs; };
@@ -54,7 +55,7 @@ struct surface_point {
     mat3 world_from_tangent; // orthonormal; mirrored where the texture coordinates are
     vec3 outgoing;           // unit, towards the viewer
     vec4 coordinates;        // two sets of texture coordinates
-    vec4 coordinates_dx;     // their change to the next pixel
+    vec4 coordinates_dx;     // their change over the sample's footprint, along x
     vec4 coordinates_dy;
     vec4 colour;
     vec3 curvature; // covariance (xx, yy, xy) of the interpolated normals under the pixel, in the
@@ -72,11 +73,11 @@ bool front_side() {
 // A larger variance means that the pixel is at a silhouette, where derivatives are meaningless.
 const float CURVATURE_MAXIMUM = 0.1;
 
-// Covariance of the macro-surface's normal over the pixel's box, assuming that it changes linearly
+// Covariance of the macro-surface's normal over the sample's box, assuming that it changes linearly
 // from pixel to pixel: a box of width one has the variance 1/12.
 vec3 normal_covariance(vec3 normal, mat3 world_from_tangent) {
-    vec2 dx = (dFdx(normal) * world_from_tangent).xy;
-    vec2 dy = (dFdy(normal) * world_from_tangent).xy;
+    vec2 dx = frame.footprint * (dFdx(normal) * world_from_tangent).xy;
+    vec2 dy = frame.footprint * (dFdy(normal) * world_from_tangent).xy;
     vec3 covariance = (knobs.curvature / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
     float variance = max(covariance.x, covariance.y);
     return covariance * min(1.0, CURVATURE_MAXIMUM / max(variance, 1e-30));
@@ -91,8 +92,8 @@ surface_point read_surface() {
     vec3 world_outgoing = normalize(frame.eye.xyz - interpolated_position * frame.eye.w);
     surface.outgoing = world_outgoing * surface.world_from_tangent;
     surface.coordinates = interpolated_coordinates;
-    surface.coordinates_dx = dFdx(interpolated_coordinates);
-    surface.coordinates_dy = dFdy(interpolated_coordinates);
+    surface.coordinates_dx = frame.footprint * dFdx(interpolated_coordinates);
+    surface.coordinates_dy = frame.footprint * dFdy(interpolated_coordinates);
     surface.colour = interpolated_colour;
     surface.curvature = vec3(0.0);
     if (knobs.curvature > 0.0)

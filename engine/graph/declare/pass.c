@@ -183,7 +183,7 @@ engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_com
         return NULL;
     }
     command->kind = kind;
-    command->index_access = ENGINE_DEPENDENCY_NONE;
+    command->index_access = command->indirect_access = ENGINE_DEPENDENCY_NONE;
     command->source_access = command->target_access = ENGINE_DEPENDENCY_NONE;
     if (pass->last_command)
         pass->last_command->next = command;
@@ -211,6 +211,30 @@ static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
         engine_graph_add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
 }
 
+/// `size`: of what the command reads at `offset`, bytes.
+static void bind_indirect(lobe_pass *pass, engine_graph_command *command, lobe_resource buffer,
+                          size_t offset, size_t size) {
+    lobe_graph *graph = pass->graph;
+    if (buffer.version == 0)
+        return;
+    engine_graph_resource *arguments = engine_graph_find_resource(pass, buffer);
+    if (!arguments)
+        return;
+    if (arguments->is_image || offset % 4 != 0 || offset > arguments->size ||
+        size > arguments->size - offset) {
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': no indirect arguments at byte %zu of resource '%s'", pass->name,
+                        offset, arguments->name);
+        return;
+    }
+    command->indirect_offset = offset;
+    command->indirect_access = engine_graph_add_access(
+        pass, &buffer, (lobe_range){0}, ENGINE_ACCESS_READ,
+        (engine_access_state){.stages = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                              .access = VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT});
+    arguments->usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+}
+
 static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lobe_dispatch *copy) {
     *copy = *dispatch;
     copy->shader = engine_arena_copy_text(arena, dispatch->shader);
@@ -229,10 +253,13 @@ void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DISPATCH);
     if (!command)
         return;
-    if (!copy_dispatch(&pass->graph->frame.arena, dispatch, &command->dispatch))
+    if (!copy_dispatch(&pass->graph->frame.arena, dispatch, &command->dispatch)) {
         engine_graph_fail_memory(pass->graph);
-    else
-        bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
+        return;
+    }
+    bind_indirect(pass, command, dispatch->indirect, dispatch->indirect_offset,
+                  sizeof(lobe_dispatch_arguments));
+    bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
 }
 
 static bool copy_draw(engine_arena *arena, const lobe_draw *draw, lobe_draw *copy) {
@@ -258,6 +285,8 @@ static void bind_indices(lobe_pass *pass, engine_graph_command *command) {
     if (!indices)
         return;
     uint64_t end = ((uint64_t)draw->first_index + draw->index_count) * sizeof(uint32_t);
+    if (draw->indirect.version != 0)
+        end = 0;
     if (indices->is_image || end > indices->size) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                         "pass '%s' draws indices %u to %llu, which resource '%s' does not hold",
@@ -284,5 +313,7 @@ void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw) {
         return;
     }
     bind_indices(pass, command);
+    bind_indirect(pass, command, draw->indirect, draw->indirect_offset,
+                  sizeof(lobe_draw_arguments));
     bind_to_command(pass, command, draw->bindings, draw->binding_count);
 }

@@ -49,6 +49,8 @@ static engine_stamp sign_command(engine_stamp stamp, const engine_graph_command 
     stamp = engine_stamp_mix(stamp, command->shader_stamp);
     stamp = sign_bindings(stamp, &command->bindings);
     stamp = engine_stamp_bytes(stamp, command->value, sizeof command->value);
+    stamp = engine_stamp_mix(stamp, command->indirect_access != ENGINE_DEPENDENCY_NONE);
+    stamp = engine_stamp_mix(stamp, command->indirect_offset);
     if (command->kind == ENGINE_GRAPH_DISPATCH)
         return sign_dispatch(stamp, &command->dispatch);
     return command->kind == ENGINE_GRAPH_DRAW ? sign_draw(stamp, &command->draw) : stamp;

@@ -38,24 +38,50 @@ static void record_dispatch(lobe_graph *graph, const engine_graph_command *comma
                             const engine_graph_command *before) {
     bind_command(graph, command, before, command->dispatch.constants,
                  command->dispatch.constants_size);
+    if (command->indirect_access != ENGINE_DEPENDENCY_NONE) {
+        const engine_graph_resource *arguments = resource_at(graph, command->indirect_access);
+        graph->device->api.vkCmdDispatchIndirect(graph->frame.commands, arguments->object->buffer,
+                                                 arguments->offset + command->indirect_offset);
+        return;
+    }
     graph->device->api.vkCmdDispatch(graph->frame.commands, command->group_count[0],
                                      command->group_count[1], command->group_count[2]);
 }
 
-static void record_draw(lobe_graph *graph, const engine_graph_command *command,
-                        const engine_graph_command *before) {
+static void draw_with_own_counts(lobe_graph *graph, const engine_graph_command *command) {
     const lobe_draw *draw = &command->draw;
-    bind_command(graph, command, before, draw->constants, draw->constants_size);
-    if (command->index_access == ENGINE_DEPENDENCY_NONE) {
+    if (command->index_access == ENGINE_DEPENDENCY_NONE)
         graph->device->api.vkCmdDraw(graph->frame.commands, draw->index_count, draw->instance_count,
                                      draw->first_index, 0);
-        return;
+    else
+        graph->device->api.vkCmdDrawIndexed(graph->frame.commands, draw->index_count,
+                                            draw->instance_count, draw->first_index, 0, 0);
+}
+
+static void draw_indirectly(lobe_graph *graph, const engine_graph_command *command) {
+    const engine_graph_resource *arguments = resource_at(graph, command->indirect_access);
+    const VkBuffer buffer = arguments->object->buffer;
+    const VkDeviceSize offset = arguments->offset + command->indirect_offset;
+    const uint32_t stride = sizeof(lobe_draw_arguments);
+    if (command->index_access == ENGINE_DEPENDENCY_NONE)
+        graph->device->api.vkCmdDrawIndirect(graph->frame.commands, buffer, offset, 1, stride);
+    else
+        graph->device->api.vkCmdDrawIndexedIndirect(graph->frame.commands, buffer, offset, 1,
+                                                    stride);
+}
+
+static void record_draw(lobe_graph *graph, const engine_graph_command *command,
+                        const engine_graph_command *before) {
+    bind_command(graph, command, before, command->draw.constants, command->draw.constants_size);
+    if (command->index_access != ENGINE_DEPENDENCY_NONE) {
+        const engine_graph_resource *indices = resource_at(graph, command->index_access);
+        graph->device->api.vkCmdBindIndexBuffer(graph->frame.commands, indices->object->buffer,
+                                                indices->offset, VK_INDEX_TYPE_UINT32);
     }
-    const engine_graph_resource *indices = resource_at(graph, command->index_access);
-    graph->device->api.vkCmdBindIndexBuffer(graph->frame.commands, indices->object->buffer,
-                                            indices->offset, VK_INDEX_TYPE_UINT32);
-    graph->device->api.vkCmdDrawIndexed(graph->frame.commands, draw->index_count,
-                                        draw->instance_count, draw->first_index, 0, 0);
+    if (command->indirect_access != ENGINE_DEPENDENCY_NONE)
+        draw_indirectly(graph, command);
+    else
+        draw_with_own_counts(graph, command);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -11,7 +11,8 @@ static lobe_result reserve_uploads(lobe_graph *graph, uint64_t size) {
                                  &graph->frame.flight->upload_memory);
     graph->frame.flight->upload_size = 0;
     VkFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     lobe_result result = engine_buffer_create_placed(
         graph->device, "uploads of the frame", size, usage, ENGINE_MEMORY_UPLOAD,
         &graph->frame.flight->uploads.buffer, &graph->frame.flight->upload_memory);

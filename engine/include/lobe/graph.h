@@ -159,6 +159,11 @@ typedef struct lobe_specialisation {
     uint32_t bits;
 } lobe_specialisation;
 
+/// How many groups an indirect dispatch has; as Vulkan's VkDispatchIndirectCommand.
+typedef struct lobe_dispatch_arguments {
+    uint32_t groups[3]; ///< within the device's limits; 0: nothing is dispatched
+} lobe_dispatch_arguments;
+
 typedef struct lobe_dispatch {
     const char *shader; ///< for example "maps/level_reduction.comp"
     /// Invocations in each dimension, rounded up to whole groups of the shader's local size: the
@@ -170,6 +175,11 @@ typedef struct lobe_dispatch {
     size_t specialisation_count;
     const lobe_binding *bindings; ///< read by this dispatch only, in addition to the pass's
     size_t binding_count;
+    /// A buffer that an earlier pass wrote: the dispatch takes its groups from the
+    /// lobe_dispatch_arguments at `indirect_offset` (bytes, a multiple of 4), and ignores
+    /// `threads`. All zero: none.
+    lobe_resource indirect;
+    size_t indirect_offset;
 } lobe_dispatch;
 
 /// Adds a dispatch. Dispatches of one pass must not depend on each other.
@@ -206,6 +216,15 @@ typedef enum lobe_blend {
     LOBE_BLEND_ADD,
 } lobe_blend;
 
+/// What an indirect draw draws; as Vulkan's VkDrawIndexedIndirectCommand, and the same for a draw
+/// without indices.
+typedef struct lobe_draw_arguments {
+    uint32_t index_count;    ///< or vertices
+    uint32_t instance_count; ///< 0: nothing is drawn
+    uint32_t first_index;    ///< or vertex. The graph cannot check that the buffer holds the range.
+    uint32_t zero[2];
+} lobe_draw_arguments;
+
 typedef struct lobe_draw {
     const char *vertex_shader; ///< "shading/shading.vert". Vertices are read from storage buffers.
     const char *fragment_shader; ///< NULL: depth only
@@ -220,6 +239,10 @@ typedef struct lobe_draw {
     size_t specialisation_count;
     const lobe_binding *bindings; ///< read by this draw only, in addition to the pass's
     size_t binding_count;
+    /// A buffer that an earlier pass wrote: the draw takes its counts from the lobe_draw_arguments
+    /// at `indirect_offset` (bytes, a multiple of 4), and ignores those above. All zero: none.
+    lobe_resource indirect;
+    size_t indirect_offset;
 } lobe_draw;
 
 /// Adds a draw of triangles; draws execute in order. Clip space is Vulkan's own, without a flip: x

@@ -71,8 +71,10 @@ typedef struct lobe_render_target {
     /// reference requires that.
     const lobe_vulkan_image *depth;
     /// Draw over the contents of both images: the host's background stays, and what the host drew
-    /// into `depth` hides what lies behind it. Otherwise both are cleared. The reference is blended
-    /// over `radiance` by its coverage, so the device must be able to blend that format.
+    /// into `depth` hides what lies behind it. Otherwise both are cleared. The reference, and
+    /// several samples of a pixel (knob `samples`), are blended over `radiance` by their coverage,
+    /// so the device must be able to blend that format; several samples also need `depth` to have
+    /// VK_IMAGE_USAGE_TRANSFER_SRC_BIT.
     bool keep;
 } lobe_render_target;
 

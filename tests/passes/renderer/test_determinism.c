@@ -61,7 +61,8 @@ static void print_atlas_scene(fixture *f) {
     static const char *const requests[][2] = {{"lobes", "space=object"},
                                               {"lobes", "space=camera"},
                                               {"lobes", "storage=float16"},
-                                              {"mipmap", "probes=3"}};
+                                              {"mipmap", "probes=3"},
+                                              {"lobes", "samples=auto"}};
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
     material.normal_map = scene_add_map(scene, random_normal_map(171, 57, 0.5, 91));
@@ -69,7 +70,7 @@ static void print_atlas_scene(fixture *f) {
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
     scene_look_from(scene, (double[]){0.4, 1, 0.9}, 3);
     scene_end(scene);
-    print_scene(f, scene, requests, 4);
+    print_scene(f, scene, requests, sizeof requests / sizeof *requests);
     lobe_scene_destroy(&scene);
 }
 
@@ -107,7 +108,7 @@ static void run(const char *threads, char text[TEXT]) {
     size_t lines = 0;
     for (const char *c = text; *c; c++)
         lines += *c == '\n';
-    assert_int_equal(lines, lobe_filter_count() * lobe_builtin_scene_count() + 4);
+    assert_int_equal(lines, lobe_filter_count() * lobe_builtin_scene_count() + 5);
 }
 
 /// Two runs with different numbers of threads: if they agree, neither matters.

@@ -178,6 +178,44 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
     lobe_frame_free(&expected);
 }
 
+/// Further samples (knob samples) are blended by the part of the pixel that they cover, once.
+static void several_samples_are_drawn_over_what_the_host_drew(void **state) {
+    static const float green[4] = {0, 0.5f, 0, 1};
+    static const char *const several[] = {"samples=8", NULL};
+    host_fixture *f = *state;
+    const lobe_settings settings = settings_of(filter_named("lobes"), several);
+    lobe_render_parameters parameters = {.settings = &settings, .width = SIZE, .height = SIZE};
+    lobe_frame expected = render(f, &parameters);
+    for (int nearer = 0; nearer < 2; nearer++) {
+        fill(f, green, nearer ? 1 : 0);
+        lobe_vulkan_image colour =
+            lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        lobe_vulkan_image depth =
+            lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        const lobe_render_target target = {.radiance = &colour, .depth = &depth, .keep = true};
+        parameters.host.target = &target;
+        lobe_frame frame = render(f, &parameters);
+        lobe_image image = host_texels(f, &f->colour);
+        unsigned parts = 0;
+        for (uint32_t n = 0; n < SIZE * SIZE; n++) {
+            const float *own = pixel_at(&expected.radiance, n % SIZE, n / SIZE);
+            const float part = nearer ? 0 : own[3];
+            parts += part > 0 && part < 1;
+            for (int channel = 0; channel < 4; channel++) {
+                // What the delivered picture has behind the square is its background.
+                float background = channel < 3 ? f->scene->background[channel] : 0;
+                float value = (own[channel] - (1 - own[3]) * background) * (part > 0) +
+                              (1 - part) * green[channel];
+                assert_float_equal(pixel_at(&image, n % SIZE, n / SIZE)[channel], value, 1e-5);
+            }
+        }
+        assert_true(nearer ? parts == 0 : parts > 10);
+        lobe_image_free(&image);
+        lobe_frame_free(&frame);
+    }
+    lobe_frame_free(&expected);
+}
+
 /// A visible environment is treated like any background.
 static void the_environment_stays_behind_the_hosts_background(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
@@ -474,6 +512,7 @@ int main(void) {
         cmocka_unit_test(the_hosts_image_gets_the_same_bits),
         cmocka_unit_test(other_outputs_are_still_delivered),
         cmocka_unit_test(lobe_draws_over_what_the_host_drew),
+        cmocka_unit_test(several_samples_are_drawn_over_what_the_host_drew),
         cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
         cmocka_unit_test(formats_of_displays_are_encoded),
         cmocka_unit_test(frames_in_flight_are_those_delivered),

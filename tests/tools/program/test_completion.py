@@ -133,7 +133,8 @@ def test_fish():
                 if word}
     check(offered("lobe re") == {"render", "report"}, offered("lobe re"))
     check(offered("lobe render hall --filter le") == {"lean", "leadr"}, "filters")
-    check(offered("lobe render hall --set view=") == {"view=radiance", "view=lobes", "view=level"},
+    check(offered("lobe render hall --set view=") == {"view=radiance", "view=lobes", "view=level",
+                                                       "view=samples"},
           offered("lobe render hall --set view="))
     check(offered("lobe compare --di") == {"--diff"}, "options")
     check({"hall"} <= offered("lobe render ha"), "scenes")

@@ -1,0 +1,30 @@
+#version 460
+
+// Writes the arguments of the passes that take further samples: groups of 64 for one dispatch, then
+// the counts of each draw. If no pixel takes any, there are no groups and no instances.
+
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform constants_block { uint draws; };
+layout(set = 0, binding = 0, std430) readonly buffer list_block { uint list[]; };
+layout(set = 0, binding = 1, std430) readonly buffer index_count_block { uint index_counts[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer argument_block { uint arguments[]; };
+
+void write(uint record, uint a, uint b, uint c) {
+    arguments[5u * record] = a;
+    arguments[5u * record + 1u] = b;
+    arguments[5u * record + 2u] = c;
+    arguments[5u * record + 3u] = 0u;
+    arguments[5u * record + 4u] = 0u;
+}
+
+void main() {
+    uint record = gl_GlobalInvocationID.x;
+    if (record == 0u) {
+        // Every device allows 65535 groups in a dimension.
+        uint groups = (list[0] + 63u) / 64u;
+        write(0u, min(groups, 65535u), (groups + 65534u) / 65535u, 1u);
+    }
+    else if (record <= draws)
+        write(record, index_counts[record - 1u], min(list[0], 1u), 0u);
+}
