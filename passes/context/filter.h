@@ -65,10 +65,10 @@ struct lobe_filter {
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material. Called in every frame, before `build`, for each
     /// material that is drawn, so it must return at once if the slot is still valid. `*slot` is
-    /// NULL at first, and again after the material's lobes or texels of its maps have changed, but not
-    /// after its base colour, emission or occlusion alone. Memory comes
-    /// from `context->host`. Logs nothing: a failure fails the frame, with one line. The slot must
-    /// then still be valid for `forget` or another attempt. NULL: the filter keeps nothing.
+    /// NULL at first, and again after the material's lobes or texels of its maps have changed, but
+    /// not after its base colour, emission or occlusion alone. Memory comes from `context->host`.
+    /// Logs nothing: a failure fails the frame, with one line. The slot must then still be valid
+    /// for `forget` or another attempt. NULL: the filter keeps nothing.
     lobe_result (*prepare)(const filter_context *context, uint32_t material, void **slot);
     /// Frees what `prepare` put into a slot; never called with NULL. Required if there is a
     /// `prepare`.

@@ -10,8 +10,8 @@ struct mask_constants {
     uint interpolated; // 1: the map is read with linear interpolation, 0: the nearest texel
     uint repeats_u;    // 1: beyond its edge the map begins again, 0: it is mirrored or goes on
     uint repeats_v;
-    float alpha;       // factor of the map's alpha
-    float cutoff;      // what is below is cut away
+    float alpha;  // factor of the map's alpha
+    float cutoff; // what is below is cut away
 };
 INTERFACE_SIZE(mask_constants, 28)
 INTERFACE_OFFSET(mask_constants, height, 4)
