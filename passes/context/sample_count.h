@@ -7,9 +7,8 @@
 typedef struct sample_count {
     uint32_t most;   ///< 1, 2, 4 or 8
     bool everywhere; ///< in all pixels; otherwise in those that need them, and 1 in others
-    /// Side of the square that a sample stands for, pixels; except for the first where not all
-    /// pixels take several: it is taken before it is known whether others follow, and stands for
-    /// the whole pixel.
+    /// Side of the square that a further sample stands for, pixels. The first is taken before it is
+    /// known whether others follow, and stands for the whole pixel.
     float footprint;
 } sample_count;
 

@@ -28,8 +28,9 @@ bool frame_times_are_first(const frame_times *times) {
     return times->later.frame.runs == 0;
 }
 
-static void print_line(const lobe_profile_times *first, const lobe_profile_times *later) {
-    printf("  %-36s %12.3f", first->name, first->median_milliseconds);
+static void print_line(const char *name, const lobe_profile_times *first,
+                       const lobe_profile_times *later) {
+    printf("  %-36s %12.3f", name, first->median_milliseconds);
     if (later && later->runs > 0)
         printf(" %8u %12.3f", later->runs, later->median_milliseconds);
     else if (later)
@@ -53,9 +54,9 @@ void frame_times_print(const frame_times *times) {
     printf("\n");
     for (size_t i = 0; i < times->first.pass_count; i++) {
         const lobe_profile_times later = later_of(times, times->first.passes[i].name);
-        print_line(&times->first.passes[i], alone ? NULL : &later);
+        print_line(times->first.passes[i].name, &times->first.passes[i], alone ? NULL : &later);
     }
-    print_line(&times->first.frame, alone ? NULL : &times->later.frame);
+    print_line("whole frame", &times->first.frame, alone ? NULL : &times->later.frame);
     printf("  The first frame's times include compiling its shaders%s.\n",
            alone ? "; --frames 4 also draws three without" : "");
 }

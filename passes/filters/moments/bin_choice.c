@@ -17,7 +17,7 @@ enum { POINT_NUMBERS = sizeof points / sizeof *points };
 
 // A candidate is good enough if its error is at most `tolerance` times the smallest error, or
 // `negligible` above it.
-static const double tolerance = 1.1, negligible = 0.02;
+static const double tolerance = 1.05, negligible = 0.02;
 
 // An error of the mean diffuse colour counts as much as this much relative L2 of the lobes.
 static const double diffuse_weight = 3;

@@ -24,6 +24,13 @@ static void reach_to(const moment_bin *bin, const double place[2], double member
         reach->place = fmax(reach->place, sqrt(member) * fabs(place[i] - (double)bin->range[i]));
 }
 
+static void reach_widths(const plane_sample *sample, double member, bin_reach *reach) {
+    reach->variance = fmax(reach->variance, member * sample->variance);
+    // The root of the concentration, which is larger than 1 / sqrt(variance) for GGX.
+    double sharpness = sqrt((1 + 2 * sample->variance) / sample->variance);
+    reach->sharpness = fmax(reach->sharpness, member * sharpness);
+}
+
 static void reach_samples(const lobe_survey *survey, const plane_mixture *m,
                           const moment_partition *partition, bin_reach *reaches) {
     for (uint32_t i = 0; i < survey->count; i++) {
@@ -32,10 +39,7 @@ static void reach_samples(const lobe_survey *survey, const plane_mixture *m,
         passes_mixture_share(m, sample, members);
         for (uint32_t k = 0; k < m->count; k++) {
             reach_to(&partition->constants.bins[k], sample->place, members[k], &reaches[k]);
-            reaches[k].variance = fmax(reaches[k].variance, members[k] * sample->variance);
-            // The root of the concentration, which is larger than 1 / sqrt(variance) for GGX.
-            double sharpness = sqrt((1 + 2 * sample->variance) / sample->variance);
-            reaches[k].sharpness = fmax(reaches[k].sharpness, members[k] * sharpness);
+            reach_widths(sample, members[k], &reaches[k]);
         }
     }
 }
@@ -50,8 +54,10 @@ static void reach_corners(const plane_range *range, const plane_mixture *m,
                                                  : 1 / (range->sharpest * range->sharpest)};
         double members[MOMENT_MAXIMUM_BINS];
         passes_mixture_share(m, &corner, members);
-        for (uint32_t k = 0; k < m->count; k++)
+        for (uint32_t k = 0; k < m->count; k++) {
             reach_to(&partition->constants.bins[k], corner.place, members[k], &reaches[k]);
+            reach_widths(&corner, members[k], &reaches[k]);
+        }
     }
 }
 

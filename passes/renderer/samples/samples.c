@@ -38,8 +38,7 @@ static lobe_resource copy_occluder(const filter_context *context, const shading_
 static lobe_resource draw_first(const filter_context *context,
                                 const filtered_appearance *appearances, const shading_light *light,
                                 shading_targets *targets) {
-    const sample_count count = passes_sample_count(context);
-    shading_sample sample = {.footprint = count.everywhere ? count.footprint : 1};
+    shading_sample sample = {.footprint = 1};
     shading_targets first = *targets;
     first.radiance = declare(context, "sum of samples", LOBE_FORMAT_RGBA32_FLOAT);
     first.without_background |= first.keep_radiance;

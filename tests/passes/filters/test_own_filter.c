@@ -238,8 +238,10 @@ static void what_changes_is_forgotten_and_nothing_else(void **state) {
     update(f, &(lobe_scene_changes){.instances = &second, .instance_count = 1});
     update(f, &(lobe_scene_changes){.meshes = &first, .mesh_count = 1});
     update(f, &(lobe_scene_changes){.images = &map_of_third, .image_count = 1});
-    assert_calls(1, 1, 0);
     scene->materials[0].base_colour[0] = 0.5f;
+    update(f, &(lobe_scene_changes){.materials = &first, .material_count = 1});
+    assert_calls(1, 1, 0);
+    scene->materials[0].roughness = 0.75f;
     update(f, &(lobe_scene_changes){.materials = &first, .material_count = 1});
     assert_calls(1, 1, 1);
     draw_frame(f, &own_filter);

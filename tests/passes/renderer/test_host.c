@@ -183,7 +183,7 @@ static void several_samples_are_drawn_over_what_the_host_drew(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
     static const char *const several[] = {"samples=8", NULL};
     host_fixture *f = *state;
-    const lobe_settings settings = settings_of(filter_named("lobes"), several);
+    const lobe_settings settings = settings_of(filter_named("moments"), several);
     lobe_render_parameters parameters = {.settings = &settings, .width = SIZE, .height = SIZE};
     lobe_frame expected = render(f, &parameters);
     for (int nearer = 0; nearer < 2; nearer++) {
@@ -221,7 +221,7 @@ static void the_environment_stays_behind_the_hosts_background(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
     static const char *const quick[] = {"env=mip", "env_size=16", NULL};
     host_fixture *f = *state;
-    const lobe_settings settings = settings_of(filter_named("lobes"), quick);
+    const lobe_settings settings = settings_of(filter_named("moments"), quick);
     scene_set_environment(f->scene, constant_map(8, 4, 0.25f, 0.25f, 0.25f));
     f->scene->environment_visible = true;
     const lobe_scene_changes changes = {.environment = true};

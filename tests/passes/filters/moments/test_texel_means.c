@@ -65,7 +65,9 @@ static lobe_scene *scene_of(const plane *p, const double outgoing[3]) {
     lobe_scene *scene = slope_plane(&material, &images[0], outgoing, &mapped);
     lobe_image_free(&images[0]);
     scene->materials[0].metallic_roughness_map = scene_add_map(scene, images[1]);
+    scene->materials[0].metallic_roughness_map.nearest = true;
     scene->materials[0].base_colour_map = scene_add_map(scene, images[2]);
+    scene->materials[0].base_colour_map.nearest = true;
     lobe_mesh *mesh = &scene->meshes[0];
     mesh->has_colour = true;
     for (size_t i = 0; i < mesh->vertex_count; i++)
