@@ -102,11 +102,11 @@ static reduced_map declare_radiance(lobe_graph *graph, const environment_maps_re
     return cube;
 }
 
-/// This environment's cube if it is finished, otherwise the last environment's, if any.
+/// This environment's cube if all of them are finished, otherwise the last environment's, if any:
+/// they change together.
 static void set_filtered_map(declaration *d, lobe_environment_map map, part_kind kind,
-                             bool finished, const environment_maps_progress *progress,
-                             environment_maps *maps) {
-    if (finished) {
+                             const environment_maps_progress *progress, environment_maps *maps) {
+    if (maps->up_to_date) {
         set_map(maps, map, &d->cubes[kind]);
     } else if (progress->former[map]) {
         reduced_map former = declare_filtered(d->graph, kind, 1 - d->set, d->request->size);
@@ -128,16 +128,14 @@ static void declare_lobes(declaration *d, const environment_maps_progress *progr
                           environment_maps *maps) {
     static const lobe_environment_map made[] = {LOBE_ENVIRONMENT_VON_MISES_FISHER,
                                                 LOBE_ENVIRONMENT_BETWEEN, LOBE_ENVIRONMENT_GGX};
-    uint32_t parts = parts_of_cube(passes_prefiltered_width(d->request->size)),
-             left = maps->parts_done;
+    uint32_t left = maps->parts_done;
     d->sources = passes_environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
                                               d->request->size);
     for (uint32_t kind = 0; kind < kinds_wanted(d->request); kind++) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
         add_parts(d, kind, &left);
         if (d->request->wanted[made[kind]])
-            set_filtered_map(d, made[kind], kind, maps->parts_done >= (kind + 1) * parts, progress,
-                             maps);
+            set_filtered_map(d, made[kind], kind, progress, maps);
     }
 }
 

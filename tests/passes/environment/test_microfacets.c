@@ -121,20 +121,23 @@ static void check_light(fixture *f, const lobe_scene *scene, const char *what, c
 // ---------------------------------------------------------------------------------------------
 // Light
 
+/// To 60 degrees, hardly any of the room's blue light is seen: no mean over many lobes.
 static const struct {
     const char *name;
     environment_radiance radiance;
-} environments[] = {{"landscape", landscape}, {"room", room}};
+    double to_60, to_80;
+} environments[] = {{"landscape", landscape, 0.03, 0.04}, {"room", room, 0.12, 0.07}};
 
 static void rough_metal_reflects_what_it_should(void **state) {
-    static const double roughnesses[] = {0.35, 0.5, 0.7, 0.85, 1};
+    static const double roughnesses[] = {0.35, 0.6, 1};
     for (int e = 0; e < 2; e++) {
         for (size_t i = 0; i < sizeof roughnesses / sizeof *roughnesses; i++) {
             lobe_material material = metal(roughnesses[i]);
             lobe_scene *scene = sphere_in(environments[e].radiance, &material, 0);
             char what[64];
             snprintf(what, sizeof what, "%s, roughness %g", environments[e].name, roughnesses[i]);
-            check_light(*state, scene, what, "direct", "env=prefiltered", 0.03, 0.04);
+            check_light(*state, scene, what, "direct", "env=prefiltered", environments[e].to_60,
+                        environments[e].to_80);
             lobe_scene_destroy(&scene);
         }
     }
@@ -148,7 +151,8 @@ static void black_dielectrics_do_too(void **state) {
         material.base_colour[i] = 0;
     for (int e = 0; e < 2; e++) {
         lobe_scene *scene = sphere_in(environments[e].radiance, &material, 0);
-        check_light(*state, scene, environments[e].name, "direct", "env=prefiltered", 0.04, 0.08);
+        check_light(*state, scene, environments[e].name, "direct", "env=prefiltered",
+                    environments[e].to_60, environments[e].to_80);
         lobe_scene_destroy(&scene);
     }
 }

