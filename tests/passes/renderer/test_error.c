@@ -138,7 +138,7 @@ static void bumps_is_within_bounds(void **state) {
                                         {{"lobes", "mipmap", 0.3},
                                          {"lobes", "direct", 0.3},
                                          {"toksvig", "mipmap", 0.3},
-                                         {"moments", "lobes", 1},
+                                         {"moments", "lobes", 1.1},
                                          {"moments", "lean", 0.7}}};
     check_scene(*state, &bounds);
 }
