@@ -126,7 +126,7 @@ static const struct {
     const char *name;
     environment_radiance radiance;
     double to_60, to_80;
-} environments[] = {{"landscape", landscape, 0.03, 0.04}, {"room", room, 0.12, 0.07}};
+} environments[] = {{"landscape", landscape, 0.03, 0.04}, {"room", room, 0.15, 0.09}};
 
 static void rough_metal_reflects_what_it_should(void **state) {
     static const double roughnesses[] = {0.35, 0.6, 1};

@@ -52,8 +52,10 @@ static void values_make_no_pipelines(void **state) {
     for (size_t n = 0; n < lobe_filter_count(); n++) {
         picture_request request = {
             .filter = lobe_filter_name(lobe_filter_get(n)), .width = 4, .height = 4, .samples = 2};
-        if (strcmp(request.filter, "moments") == 0)
-            request.settings[0] = "bins=2"; // as many as suit the values, otherwise
+        if (strcmp(request.filter, "moments") == 0) { // what suits the values, otherwise
+            request.settings[0] = "bins=2";
+            request.settings[1] = "colour=bins";
+        }
         lobe_scene *scene = changing_scene();
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         lobe_frame first = draw(f, &request);

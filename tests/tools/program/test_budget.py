@@ -256,7 +256,8 @@ def test_a_calibration_measures_what_is_drawn():
 def test_a_calibration_that_nothing_meets():
     folder = fresh_folder("unmet")
     gltf_write(folder / "a.gltf", gltf_triangle())
-    result = fails("render", folder / "a.gltf", "--size", "16x9", "--error", "0.00001", "-o",
+    result = fails("render", folder / "a.gltf", "--size", "16x9", "--light",
+                   "point:0.3,2,3:30,30,30", "--error", "0.00001", "-o",
                    folder / "a.exr", says=["--error 1e-05: none of ", "the most exact is",
                                            "figures: calibrated"])
     check("calibrating: " in result.stderr and result.stdout == "", report(result))

@@ -235,13 +235,13 @@ def test_material_folder():
     png_write(folder / "paint_normal.png", 8, 8, (140, 128, 250))
     pictures = set()
     for carrier in ("plane", "sphere", "cloth"):
-        succeeds("render", "--material", folder, "--carrier", carrier, *SMALL, "-o",
+        succeeds("render", "--material", folder, "--carrier", carrier, *SMALL, *SMALL_SKY, "-o",
                  folder / "out.png")
         check(is_lit(folder / "out.png"), f"a dark {carrier}")
         pictures.add(tuple(png_read(folder / "out.png")[2]))
         (folder / "out.png").unlink()
     check(len(pictures) == 3, "carriers look alike")
-    succeeds("render", folder, *SMALL, "-o", FOLDER / "cloth.png")
+    succeeds("render", folder, *SMALL, *SMALL_SKY, "-o", FOLDER / "cloth.png")
     check(tuple(png_read(FOLDER / "cloth.png")[2]) in pictures, "a folder as SCENE is no cloth")
 
 
