@@ -115,16 +115,24 @@ vec3 prefiltered_radiance(vec3 direction, prefiltered_lobe lobe) {
 
 // An elongated lobe is approximated by a row of round ones with Gaussian weights: n of them at
 // distances of sqrt(12/(n + 1)) have a variance of one (to 7 %), and overlap without ripple as long
-// as each is at least half as broad as their distance. This determines how many are needed, and how
-// broad they must be if fewer are allowed.
+// as each is at least half as broad as their distance: a row is at most sqrt((n + 4)/3) times as
+// long as broad. This determines how many are needed. If fewer are allowed, the row is broader and
+// shorter than the lobe, with the same sum of variances, which is what a smooth environment shows;
+// but no broader than a single round lobe, because it would collect lamps from beside the lobe.
 vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) {
     direction_lobe lobe = principal_lobe(incoming);
     float major = dot(lobe.first, lobe.first);
     float minor = dot(lobe.second, lobe.second);
     float wanted = ceil(3.0 * major / max(minor, 1e-3 * major) - 4.0 - 0.5);
     float count = clamp(wanted, 1.0, float(ENVIRONMENT_PROBES));
-    float variance = count > 1.0 ? max(minor, 3.0 * major / (count + 4.0)) : sqrt(major * minor);
-    float reach = sqrt(max(major - variance, 0.0) / major) * sqrt(12.0 / (count + 1.0));
+    // Of the row's variances, along it and across.
+    float longest = (count + 4.0) / 3.0;
+    float round_variance = sqrt(major * minor);
+    float variance = count > 1.0
+                         ? max(minor, min((major + minor) / (longest + 1.0), round_variance))
+                         : round_variance;
+    float reach = sqrt(max(min(longest * variance, major) - variance, 0.0) / major) *
+                  sqrt(12.0 / (count + 1.0));
     float width = float(textureSize(prefiltered_environment, 0).x);
     float concentration = 1.0 / max(variance, 1e-8);
     prefiltered_lobe levels = levels_of_lobe(kind, width, concentration);

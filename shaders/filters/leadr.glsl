@@ -137,9 +137,19 @@ half_vector_distribution half_vectors_of_slopes(slope_distribution slopes) {
                            second - normal * dot(normal, second));
 }
 
-// Algorithm 1.
+// In the direction in which slopes vary most.
+float largest_variance(slope_distribution slopes) {
+    vec3 root = slopes.root;
+    float x = root.x * root.x, y = root.z * root.z + root.y * root.y, mixed = root.x * root.z;
+    return 0.5 * (x + y) + length(vec2(0.5 * (x - y), mixed));
+}
+
+// Algorithm 1. Each sample reads the mean over as far as neighbours are apart in the direction in
+// which they are furthest apart, so that no light falls between them (section 5.2; the paper takes
+// the larger of the two axes' deviations, which is less where slopes vary most along a diagonal).
 vec3 sampled_slopes(surface_point surface, slope_distribution slopes, vec3 f0) {
     float spacing = grid_spacing();
+    float area = spacing * spacing * largest_variance(slopes);
     float height = height_above_slope(slopes.mean, surface.outgoing);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
@@ -152,8 +162,7 @@ vec3 sampled_slopes(surface_point surface, slope_distribution slopes, vec3 f0) {
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
             float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
                          masking_shadowing_of_slopes(slopes, incoming, surface.outgoing);
-            float solid_angle = spacing * spacing * slopes.root.x * slopes.root.y * normal.z *
-                                normal.z * normal.z;
+            float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
                    fresnel_schlick(f0, vec3(1.0), cosine) *
@@ -173,9 +182,11 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
         return lobes_colour() * frame.specular * reflect_half_vectors(surface, half_vectors);
     if (sampled_by_grid())
         return sampled_slopes(surface, slopes, frame.specular);
-    // Masked as a round distribution of the same breadth.
-    float width = base_lobe_of_concentration(
-        DISTRIBUTION, 1.0 / max(lobe_variance(half_vectors.shape), 1e-6));
+    // Masked as a round distribution as narrow as the slopes are: the rest of their variance
+    // elongates the lobe.
+    vec3 narrowest = principal_lobe(half_vectors.shape).second;
+    float width =
+        base_lobe_of_concentration(DISTRIBUTION, 1.0 / max(dot(narrowest, narrowest), 1e-6));
     return reflect_microfacets(surface, half_vectors, frame.specular, width);
 }
 
