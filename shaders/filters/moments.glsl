@@ -23,8 +23,10 @@ struct appearance {
     base_material base;     // level 0, where it may be seen; colours are the footprint's
     base_material filtered; // averaged over the footprint
     map_area area;
-    float base_share;    // [0, 1]: how much of the appearance is level 0
-    vec3 diffuse_normal; // mean of the texels' normals, at most of unit length
+    float base_share; // [0, 1]: how much of the appearance is level 0
+    // Of the texels' normals those that face the viewer, and their share; of half-vector lobes all.
+    normal_spread facing;
+    float facing_share;
     light_sum first, second, third, fourth;
     // Of the whole pixel.
     vec3 emission;
@@ -34,19 +36,24 @@ struct appearance {
     float level;
 };
 
-// Means over all bins of the footprint: mass, direction and sharpness of the lobes.
+// Sums over all bins of the footprint: mass, direction and places of the lobes.
 struct bin_means {
     float mass;
     vec3 axis;
-    float sharpness;
+    vec2 place;
+    vec3 second_moments;
 };
+
+bin_means no_bins() {
+    return bin_means(0.0, vec3(0.0), vec2(0.0), vec3(0.0));
+}
 
 vec3 bin_half_vector(surface_point surface, vec3 incoming) {
     return half_vector(incoming, surface.outgoing);
 }
 
 light_sum no_light() {
-    return light_sum(0.0, vec3(0.0), 0.0, vec3(0.0));
+    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0));
 }
 
 // The mean normal of the texels, from the mean axis of their lobes: lobes turn with the normals,
@@ -65,19 +72,24 @@ vec3 normal_from_axis(vec3 axis) {
 
 void add_to_means(inout bin_means means, plane_bin bin) {
     means.mass += bin.mass;
-    means.sharpness += bin.mass * bin.sharpness;
+    means.place += bin.mass * bin.mean;
+    means.second_moments += bin.mass * (bin.places + second_moments_of(bin.mean));
     // The mean of 1 - |q|^2 / 2 is exactly the mean of the directions' third coordinate.
     means.axis += bin.mass * vec3(bin.axis.xy, bin.axis.z - bin.spread);
 }
 
-// Sets the footprint's normals from the means of the bins.
-void take_means(inout appearance fetched, bin_means means) {
+// Sets the footprint's normals from the sums over the bins.
+void take_means(inout appearance fetched, surface_point surface, bin_means means) {
     float scale = 1.0 / max(means.mass, 1e-6);
-    fetched.diffuse_normal = normal_from_axis(means.axis * scale);
+    normal_spread normals = normal_spread_of(means.place * scale, means.second_moments * scale);
+    normals.mean = normal_from_axis(means.axis * scale);
     if (may_see_level_0(lobe_map()))
-        fetched.diffuse_normal =
-            mix(fetched.diffuse_normal, fetched.base.normal, fetched.base_share);
-    fetched.normal = mean_direction(fetched.diffuse_normal, vec3(0.0, 0.0, 1.0));
+        normals = mixed_normals(normals, fetched.base.normal, fetched.base_share);
+    fetched.facing = normals;
+    fetched.facing_share = 1.0;
+    if (MODEL == MODEL_MICROFACET && DIFFUSE)
+        fetched.facing = facing_normals(normals, surface.outgoing, fetched.facing_share);
+    fetched.normal = mean_direction(normals.mean, vec3(0.0, 0.0, 1.0));
     fetched.filtered.normal = fetched.normal;
 }
 
@@ -92,7 +104,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     }
     fetched.first = fetched.second = fetched.third = fetched.fourth = no_light();
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
-    bin_means means = bin_means(0.0, vec3(0.0), 0.0);
+    bin_means means = no_bins();
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(surface, fetched.area, i);
         // A footprint's lobes together have a mass of at least one.
@@ -108,7 +120,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
         if (LIGHTS_AT_ONCE > 3u)
             add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
     }
-    take_means(fetched, means);
+    take_means(fetched, surface, means);
 }
 
 // Colours of the footprint. Where bins have their own, these are means of the texels' reflection,
@@ -132,8 +144,7 @@ appearance fetch_appearance(surface_point surface) {
     result.base_share = 1.0;
     result.lobe_count = float(LOBE_COUNT);
     result.level = 0.0;
-    result.diffuse_normal = unfiltered_normal(surface);
-    result.normal = result.diffuse_normal;
+    result.normal = unfiltered_normal(surface);
     result.filtered = footprint_material(surface, result.normal, result.area);
     if (MIXTURE) {
         result.level = result.area.level;
@@ -166,42 +177,48 @@ vec3 diffuse_below_bins(appearance fetched) {
 
 // Metal has no diffuse colour, so that the mean of diffuse colours must not be dimmed by what metal
 // reflects: 1 - F = (1 - F0)(1 - (1 - c)^5), and texels' 1 - F0 are part of the mean.
-vec3 evaluate_bin_diffuse(appearance fetched, vec3 halfway, vec3 incoming) {
-    vec3 grazing = fresnel_schlick(vec3(0.0), vec3(1.0), dot(incoming, halfway));
-    return microfacet_diffuse(diffuse_below_bins(fetched), grazing,
-                              dot(fetched.diffuse_normal, incoming));
+vec3 evaluate_bin_diffuse(appearance fetched, vec3 fresnel, vec3 halfway, vec3 incoming) {
+    if (!DIFFUSE)
+        return vec3(0.0);
+    float cosine = fetched.facing_share * mean_facing_cosine(fetched.facing, incoming);
+    vec3 let_through =
+        BIN_COLOUR ? fresnel_schlick(vec3(0.0), vec3(1.0), dot(incoming, halfway)) : fresnel;
+    return microfacet_diffuse(BIN_COLOUR ? diffuse_below_bins(fetched) : fetched.filtered.diffuse,
+                              let_through, cosine);
+}
+
+// The texels' normals that reflect about the half vector.
+normal_spread reflecting_normals(appearance fetched, light_sum sum, float scale) {
+    normal_spread normals = normal_spread_of(scale * sum.place, scale * sum.second_moments);
+    return may_see_level_0(lobe_map())
+               ? mixed_normals(normals, fetched.base.normal, fetched.base_share)
+               : normals;
 }
 
 vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
                               vec3 incoming) {
-    base_material frame = fetched.filtered;
     float scale = 1.0 / max(sum.distribution, 1e-20);
-    vec3 normal = sum.normal * scale;
     float sharpness = max(sum.sharpness * scale, 0.4);
-    frame.width =
-        parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
-    if (BIN_COLOUR)
-        frame.specular = sum.colour * scale;
+    float width = parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
+    vec3 f0 = BIN_COLOUR ? sum.colour * scale : fetched.filtered.specular;
     float distribution = (1.0 - fetched.base_share) * sum.distribution;
     if (may_see_level_0(lobe_map())) {
         if (BIN_COLOUR)
-            frame.specular = mix(frame.specular, fetched.base.specular, fetched.base_share);
-        float width = widened_width(fetched.base);
-        frame.width = mix(frame.width, width, fetched.base_share);
-        normal = mix(normal, fetched.base.normal, fetched.base_share);
+            f0 = mix(f0, fetched.base.specular, fetched.base_share);
+        float base_width = widened_width(fetched.base);
+        width = mix(width, base_width, fetched.base_share);
         distribution +=
             fetched.base_share *
-            evaluate_normal_distribution(fetched.base.normal, halfway, width);
+            evaluate_normal_distribution(fetched.base.normal, halfway, base_width);
     }
-    // Not of unit length: its products with directions are the means of the normals' cosines.
-    frame.normal = dot(normal, normal) > 1e-4 ? normal : fetched.normal;
-    if (!BIN_COLOUR)
-        return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
-                                    incoming);
-    frame.diffuse = vec3(0.0);
-    return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
-                                incoming) +
-           evaluate_bin_diffuse(fetched, halfway, incoming);
+    facing_cosines cosines =
+        facing_cosines_of(reflecting_normals(fetched, sum, scale), incoming, outgoing);
+    float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, width);
+    vec3 fresnel = fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway));
+    return microfacet_specular(fresnel, cosines.share * distribution, visible,
+                               cosines.outgoing) *
+               scattering_scale(f0, cosines.outgoing, width) +
+           evaluate_bin_diffuse(fetched, fresnel, halfway, incoming);
 }
 
 // The colour of all base lobes together.
@@ -224,7 +241,7 @@ vec3 evaluate_bin_lobes(appearance fetched, light_sum sum, vec3 halfway, vec3 in
         diffuse = mix(diffuse, fetched.base.diffuse, fetched.base_share);
     }
     if (DIFFUSE)
-        value += microfacet_diffuse(diffuse, vec3(0.0), dot(fetched.diffuse_normal, incoming));
+        value += microfacet_diffuse(diffuse, vec3(0.0), dot(fetched.facing.mean, incoming));
     return value;
 }
 
@@ -278,7 +295,7 @@ float part_of_bin(plane_bin bin) {
 
 vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     vec3 sum = vec3(0.0);
-    bin_means means = bin_means(0.0, vec3(0.0), 0.0);
+    bin_means means = no_bins();
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(surface, fetched.area, i);
@@ -292,7 +309,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
             reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * mixture_colour();
         sum += reflected;
     }
-    take_means(fetched, means);
+    take_means(fetched, surface, means);
     return (1.0 - fetched.base_share) * sum;
 }
 
@@ -312,7 +329,7 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
         sum += fetched.base_share * reflect_base_specular(surface, base);
     }
     if (DIFFUSE)
-        sum += reflect_lambert(surface, frame, fetched.diffuse_normal);
+        sum += fetched.facing_share * reflect_lambert(surface, frame, fetched.facing.mean);
     return sum;
 }
 #endif

@@ -8,6 +8,7 @@
 #include "interface/moment_bins.h"
 #include "lib/lobe/lambert_plane.glsl"
 #include "lib/lobe/plane_gaussian.glsl"
+#include "lib/microfacet/facing_normals.glsl"
 #include "lib/lobe/plane_lobe.glsl"
 
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
@@ -19,8 +20,10 @@ layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_con
 // Sums over the bins for one light.
 struct light_sum {
     float distribution;
-    vec3 normal;     // of the texels that reflect, weighted by their part of the distribution
-    float sharpness; // of their base lobes, weighted in the same way
+    // Of the texels that reflect, weighted by their part of the distribution:
+    vec2 place;          // of the normals
+    vec3 second_moments; // (xx, yy, xy) of their places
+    float sharpness;     // of their base lobes
     vec3 colour;
 };
 
@@ -36,7 +39,7 @@ struct plane_bin {
     float spread;        // half the trace of their covariance
     vec3 covariance;     // (xx, yy, xy) of the lobe in the plane, base lobes included
     vec3 axis;           // the same as a direction
-    mat2 gain;           // change of the reflecting lobes' mean place with that of the half vector
+    vec3 places;         // the same without base lobes: of the normals' places
     plane_gaussian terms[MAXIMUM_TERMS]; // the first term_count()
     float own;           // [0, 1]: how much of the bin has the base lobe's exact shape
     vec2 own_parameter;  // of base lobes as broad as the bin: of the sharper and the broader half
@@ -54,12 +57,6 @@ vec4 fetch_moments(map_area area, uint layer) {
         sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
                           max(area.level - 1.0, 0.0));
     return sum / float(probes_of(area));
-}
-
-mat2 inverse_of(vec3 covariance) {
-    float determinant =
-        max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-14);
-    return mat2(covariance.y, -covariance.z, -covariance.z, covariance.x) / determinant;
 }
 
 // Gaussians that a bin consists of.
@@ -121,6 +118,10 @@ vec3 colour_of_bin(surface_point surface, vec4 fetched) {
     return 0.04 * fetched.a + (VERTEX_COLOUR ? fetched.rgb * surface.colour.rgb : fetched.rgb);
 }
 
+vec3 second_moments_of(vec2 place) {
+    return vec3(place * place, place.x * place.y);
+}
+
 plane_bin read_bin(surface_point surface, map_area area, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
     vec4 place = fetch_moments(area, layers * index);
@@ -139,8 +140,7 @@ plane_bin read_bin(surface_point surface, map_area area, uint index) {
         covariance_of(mean, spread.xyz * scale) * (range.z * range.z) + surface.curvature;
     vec3 base = bin.variance * plane_distortion(bin.mean);
     bin.covariance = covariance + base;
-    bin.gain = mat2(covariance.x, covariance.z, covariance.z, covariance.y) *
-               inverse_of(covariance + base);
+    bin.places = covariance;
     make_terms(bin, covariance, base, varies);
     bin.spread = 0.5 * (covariance.x + covariance.y);
     keep_shape(bin, varies);
@@ -156,20 +156,66 @@ float evaluate_own_shape(vec3 axis, vec3 halfway, float parameter) {
                : half_vector_lobe(distribution_kind(), halfway, axis, parameter);
 }
 
+// Of GGX as Student's t distribution in the plane, |q|^2 stands for the sine squared,
+// |q|^2 (1 - |q|^2 / 4): far from its axis a base lobe is brighter than that.
+float ggx_beyond_plane(float variance, float square) {
+    float e = 2.0 * variance;
+    float ratio = (e + square) / (e + square * (1.0 - 0.25 * min(square, 2.0)));
+    return ratio * ratio;
+}
+
+// The normals that reflect about a half vector. If normals and base lobes are Gaussian, so are
+// these: with covariances C and B they are at mean + C (C + B)^-1 d, and C - C (C + B)^-1 C is
+// their covariance. (C + B)^-1 is the mean over the terms.
+struct reflecting_places {
+    vec2 mean;
+    vec3 covariance;
+};
+
+reflecting_places reflecting_places_of(plane_bin bin, vec3 inverse, vec2 d) {
+    mat2 places = mat2(bin.places.x, bin.places.z, bin.places.z, bin.places.y);
+    mat2 gain = places * mat2(inverse.x, inverse.z, inverse.z, inverse.y);
+    mat2 left = places - gain * places;
+    return reflecting_places(bin.mean + gain * d, vec3(left[0][0], left[1][1], left[0][1]));
+}
+
+// The sum of the terms; `inverse`: the mean of their inverse covariances.
+float evaluate_terms(plane_bin bin, vec2 d, out vec3 inverse) {
+    float value = 0.0;
+    vec3 exponent = vec3(0.0);
+    for (int i = 0; i < term_count(); ++i) {
+        float term = evaluate_plane_gaussian(bin.terms[i], d);
+        value += term;
+        exponent += term * bin.terms[i].exponent;
+    }
+    inverse = vec3(-2.0, -2.0, -1.0) / max(value, 1e-30) * exponent;
+    return value;
+}
+
+float evaluate_own_shapes(plane_bin bin, vec3 halfway) {
+    float value = bin.own_share.x * evaluate_own_shape(bin.axis, halfway, bin.own_parameter.x);
+    if (BIN_WIDTHS)
+        value += bin.own_share.y * evaluate_own_shape(bin.axis, halfway, bin.own_parameter.y);
+    return value;
+}
+
 void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place) {
     vec2 d = place - bin.mean;
-    float value = 0.0;
-    for (int i = 0; i < term_count(); ++i)
-        value += evaluate_plane_gaussian(bin.terms[i], d);
-    float own = bin.own_share.x * evaluate_own_shape(bin.axis, halfway, bin.own_parameter.x);
-    if (BIN_WIDTHS)
-        own += bin.own_share.y * evaluate_own_shape(bin.axis, halfway, bin.own_parameter.y);
-    value = mix(value, own, bin.own);
+    vec3 inverse;
+    float value = evaluate_terms(bin, d, inverse);
+    reflecting_places reflecting = reflecting_places_of(bin, inverse, d);
+    if (distribution_kind() == DISTRIBUTION_GGX)
+        value *= ggx_beyond_plane(
+            bin.variance, difference_squared(direction_from_plane(reflecting.mean), halfway) +
+                              reflecting.covariance.x + reflecting.covariance.y);
+    value = mix(value, evaluate_own_shapes(bin, halfway), bin.own);
     sum.distribution += value;
     sum.sharpness += value * bin.sharpness;
-    // If normals and base lobes are Gaussian, so are the normals for a given half vector.
-    if (MODEL == MODEL_MICROFACET)
-        sum.normal += value * direction_from_plane(bin.mean + bin.gain * d);
+    if (MODEL == MODEL_MICROFACET) {
+        sum.place += value * reflecting.mean;
+        sum.second_moments +=
+            value * (reflecting.covariance + second_moments_of(reflecting.mean));
+    }
     if (BIN_COLOUR)
         sum.colour += value * bin.colour;
 }

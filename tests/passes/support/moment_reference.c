@@ -1,6 +1,7 @@
 #include "tests/passes/support/moment_reference.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/shading_reference.h"
@@ -8,6 +9,7 @@
 #include "tests/reference/lobe/half_vector_lobe.h"
 #include "tests/reference/lobe/lambert_plane.h"
 #include "tests/reference/lobe/plane_lobe.h"
+#include "tests/reference/microfacet/facing_normals.h"
 #include "tests/reference/microfacet/microfacet.h"
 #include "tests/reference/vector.h"
 
@@ -150,24 +152,39 @@ static double solve(const double c[3], const double d[2], double x[2]) {
     return determinant;
 }
 
-/// A Gaussian of the places' covariance and `scale` times the base lobes'.
-static double bell(const bin *b, double scale, const double d[2]) {
+/// The sum of Gaussians, and of their inverse covariances with the Gaussians as weights.
+typedef struct bell_sum {
+    double value, inverse[3];
+} bell_sum;
+
+/// Of a Gaussian of the places' covariance and `scale` times the base lobes'.
+static void add_bell(const bin *b, double weight, double scale, const double d[2], bell_sum *sum) {
     double covariance[3], x[2];
     for (int i = 0; i < 3; i++)
         covariance[i] = b->covariance[i] + scale * b->base[i];
     double determinant = solve(covariance, d, x);
-    return b->mass / (2 * M_PI * sqrt(determinant)) * exp(-0.5 * (d[0] * x[0] + d[1] * x[1]));
+    double value =
+        weight * b->mass / (2 * M_PI * sqrt(determinant)) * exp(-0.5 * (d[0] * x[0] + d[1] * x[1]));
+    sum->value += value;
+    sum->inverse[0] += value * covariance[1] / determinant;
+    sum->inverse[1] += value * covariance[0] / determinant;
+    sum->inverse[2] -= value * covariance[2] / determinant;
 }
 
 /// Of GGX, Student's tail by four Gaussians; of other lobes, two for the two halves of their
 /// widths.
-static double bells(const bin *b, lobe_distribution distribution, const double d[2]) {
-    double weights[4], spreads[4], factor = exp(2 * sqrt(b->varies)), sum = 0;
+static bell_sum bells(const bin *b, lobe_distribution distribution, const double d[2]) {
+    double weights[4], spreads[4], factor = exp(2 * sqrt(b->varies));
+    bell_sum sum = {0};
     reference_plane_tail(b->varies, weights, spreads);
-    if (distribution != LOBE_DISTRIBUTION_GGX)
-        return 0.5 * (bell(b, factor, d) + bell(b, 1 / factor, d));
-    for (int i = 0; i < 4; i++)
-        sum += weights[i] * bell(b, spreads[i], d);
+    for (int i = 0; i < 4 && distribution == LOBE_DISTRIBUTION_GGX; i++)
+        add_bell(b, weights[i], spreads[i], d, &sum);
+    if (distribution != LOBE_DISTRIBUTION_GGX) {
+        add_bell(b, 0.5, factor, d, &sum);
+        add_bell(b, 0.5, 1 / factor, d, &sum);
+    }
+    for (int i = 0; i < 3 && sum.value > 0; i++)
+        sum.inverse[i] /= sum.value;
     return sum;
 }
 
@@ -189,51 +206,74 @@ static double own_shape(const lobe_material *material, const bin *b, double vari
     return shape * b->mass / reference_plane_mass(material->model, distribution, parameter);
 }
 
-/// The bin's value at a half vector: that of its Gaussians, or the more its base lobes' own shape,
-/// the less the places are spread.
-static double evaluate_bin(const lobe_material *material, const bin *b, const double half_vector[3],
-                           const double d[2]) {
+/// Places of the texels that reflect: with places and base lobes both Gaussian,
+/// mean + C (C + B)^-1 d, and the covariance C - C (C + B)^-1 C.
+static void reflecting_places(const bin *b, const double inverse[3], const double d[2],
+                              double place[2], double covariance[3]) {
+    const double *c = b->covariance, *m = inverse;
+    const double gain[2][2] = {{c[0] * m[0] + c[2] * m[2], c[0] * m[2] + c[2] * m[1]},
+                               {c[2] * m[0] + c[1] * m[2], c[2] * m[2] + c[1] * m[1]}};
+    for (int i = 0; i < 2; i++)
+        place[i] = b->mean[i] + gain[i][0] * d[0] + gain[i][1] * d[1];
+    covariance[0] = c[0] - gain[0][0] * c[0] - gain[0][1] * c[2];
+    covariance[1] = c[1] - gain[1][0] * c[2] - gain[1][1] * c[1];
+    covariance[2] = c[2] - gain[1][0] * c[0] - gain[1][1] * c[2];
+}
+
+/// GGX by |q|^2 sin^2/|q|^2, sin^2 = |q|^2 (1 - |q|^2 / 4).
+static double ggx_beyond_plane(const bin *b, const double place[2], const double covariance[3],
+                               const double half_vector[3]) {
+    double axis[3], square = covariance[0] + covariance[1], e = 2 * b->variance;
+    reference_direction_from_plane(place, axis);
+    for (int i = 0; i < 3; i++)
+        square += pow(axis[i] - half_vector[i], 2);
+    return pow((e + square) / (e + square * (1 - 0.25 * fmin(square, 2))), 2);
+}
+
+/// The base lobes' own shape, the more the less the places are spread.
+static double with_own_shape(const lobe_material *material, const bin *b, double value,
+                             const double half_vector[3]) {
     double own = pow(b->variance / (b->variance + half_trace(b)), 8);
     double factor = exp(2 * sqrt(b->varies));
     double shape = 0.5 * (own_shape(material, b, b->variance / factor, half_vector) +
                           own_shape(material, b, b->variance * factor, half_vector));
-    return own * shape + (1 - own) * bells(b, material->distribution, d);
-}
-
-/// Mean place of the texels that reflect: with places and base lobes both Gaussian,
-/// mean + C (C + B)^-1 d.
-static void reflecting_normal(const bin *b, const double d[2], double normal[3]) {
-    double both[3], x[2];
-    for (int i = 0; i < 3; i++)
-        both[i] = b->covariance[i] + b->base[i];
-    solve(both, d, x);
-    const double *c = b->covariance;
-    const double place[2] = {b->mean[0] + c[0] * x[0] + c[2] * x[1],
-                             b->mean[1] + c[2] * x[0] + c[1] * x[1]};
-    reference_direction_from_plane(place, normal);
+    return own * shape + (1 - own) * value;
 }
 
 /// The sum over all bins.
 typedef struct bin_total {
     double distribution;
-    double normal[3], sharpness, colour[3]; ///< weighted by what each bin reflects
-    double mass, axis[3];                   ///< sum of the lobes' directions
+    double place[2], second[3], sharpness, colour[3]; ///< weighted by what each bin reflects
+    double mass, axis[3], places[2], seconds[3];      ///< of all
 } bin_total;
+
+/// Adds a place, of covariance (xx, yy, xy), and its second moments.
+static void add_place(double weight, const double place[2], const double covariance[3],
+                      double places[2], double seconds[3]) {
+    for (int i = 0; i < 2; i++)
+        places[i] += weight * place[i];
+    for (int i = 0; i < 3; i++)
+        seconds[i] += weight * (covariance[i] + place[i == 1] * place[i != 0]);
+}
 
 static void add_bin(const lobe_material *material, const bin *b, const double half_vector[3],
                     bin_total *total) {
-    double place[2], normal[3], axis[3];
+    double place[2], axis[3], reflecting[2], covariance[3];
     reference_plane_from_direction(half_vector, place);
     const double d[2] = {place[0] - b->mean[0], place[1] - b->mean[1]};
-    double value = evaluate_bin(material, b, half_vector, d);
-    reflecting_normal(b, d, normal);
+    bell_sum sum = bells(b, material->distribution, d);
+    reflecting_places(b, sum.inverse, d, reflecting, covariance);
+    if (material->distribution == LOBE_DISTRIBUTION_GGX)
+        sum.value *= ggx_beyond_plane(b, reflecting, covariance, half_vector);
+    double value = with_own_shape(material, b, sum.value, half_vector);
     reference_direction_from_plane(b->mean, axis);
     axis[2] -= half_trace(b);
     total->distribution += value;
     total->sharpness += value * b->sharpness;
     total->mass += b->mass;
+    add_place(value, reflecting, covariance, total->place, total->second);
+    add_place(b->mass, b->mean, b->covariance, total->places, total->seconds);
     for (int i = 0; i < 3; i++) {
-        total->normal[i] += value * normal[i];
         total->colour[i] += value * b->colour[i];
         total->axis[i] += b->mass * axis[i];
     }
@@ -279,35 +319,37 @@ static void shade_lobes(const bin_total *total, const double specular[3], const 
                       reference_microfacet_diffuse(diffuse[i], 0, reference_dot(mean, incoming));
 }
 
-static double masked_distribution(const lobe_material *material, bin_total *total,
+static double masked_distribution(const lobe_material *material, const bin_total *total,
                                   const double outgoing[3], const double incoming[3]) {
-    // Means of the normals' cosines.
-    double in = reference_dot(total->normal, incoming) / total->distribution;
-    double out = reference_dot(total->normal, outgoing) / total->distribution;
-    if (in <= 0 || out <= 0)
-        return 0;
+    reference_normals normals =
+        reference_normals_of(total->place, total->second, total->distribution);
+    double share = reference_face(&normals, outgoing);
+    share *= reference_face(&normals, incoming);
+    double in = fmax(reference_dot(normals.mean, incoming), 0);
+    double out = fmax(reference_dot(normals.mean, outgoing), 0);
     double sharpness = total->sharpness / total->distribution;
     double width =
         reference_parameter_of_plane_variance(material->distribution, 1 / (sharpness * sharpness));
     double shadowing = reference_masking_shadowing(material->distribution, in, out, width);
-    return reference_microfacet_specular(1, total->distribution, shadowing, out);
+    return reference_microfacet_specular(1, share * total->distribution, shadowing, out);
 }
 
 /// `own_colours`: of the bins; then 1 - F0 is part of the diffuse colour.
-static void shade_microfacets(const lobe_material *material, bin_total *total, bool own_colours,
-                              const double specular[3], const double diffuse[3],
+static void shade_microfacets(const lobe_material *material, const bin_total *total,
+                              bool own_colours, const double specular[3], const double diffuse[3],
                               const double mean[3], const double half_vector[3],
                               const double outgoing[3], const double incoming[3],
                               double radiance[3]) {
     double reflected = masked_distribution(material, total, outgoing, incoming);
+    reference_normals normals = reference_normals_of(total->places, total->seconds, total->mass);
+    memcpy(normals.mean, mean, sizeof normals.mean);
+    double seen = reference_face(&normals, outgoing);
+    double lit = seen * reference_mean_facing_cosine(&normals, incoming);
     for (int i = 0; i < 3; i++) {
         double cosine = reference_dot(incoming, half_vector);
         double fresnel = reference_fresnel(specular[i], 1, cosine);
         double below = own_colours ? reference_fresnel(0, 1, cosine) : fresnel;
-        radiance[i] = fresnel * reflected;
-        if (own_colours || reflected > 0)
-            radiance[i] +=
-                reference_microfacet_diffuse(diffuse[i], below, reference_dot(mean, incoming));
+        radiance[i] = fresnel * reflected + reference_microfacet_diffuse(diffuse[i], below, lit);
     }
 }
 

@@ -1,0 +1,96 @@
+// The filter "moments" on bumpy surfaces that are seen or lit at grazing angles, where many texels
+// face away from the viewer or the light, against the mean of what the texels reflect.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+
+#include "passes/context/sample_pattern.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/passes/support/shading_reference.h"
+#include "tests/passes/support/slope_plane.h"
+#include "tests/reference/vector.h"
+
+enum { EXTENT = 64, TEXELS = EXTENT * EXTENT };
+
+/// Unit normal of a texel: slopes are Gaussian with this standard deviation, by Box and Muller.
+static void normal_of_texel(uint32_t texel, double slope, double normal[3]) {
+    double u = passes_hashed_number(2 * texel + 1), v = passes_hashed_number(2 * texel + 2);
+    double radius = slope * sqrt(-2 * log(1 - u));
+    normal[0] = radius * cos(2 * M_PI * v);
+    normal[1] = radius * sin(2 * M_PI * v);
+    normal[2] = 1;
+    reference_normalise(normal);
+}
+
+static lobe_image bumpy_map(double slope) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    for (uint32_t i = 0; i < TEXELS; i++) {
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        double normal[3];
+        normal_of_texel(i, slope, normal);
+        for (int j = 0; j < 3; j++)
+            texel[j] = (float)(0.5 + 0.5 * normal[j]);
+        texel[3] = 1;
+    }
+    return image;
+}
+
+static double mean_of_texels(const lobe_material *material, double slope, const double outgoing[3],
+                             const double incoming[3]) {
+    double sum = 0;
+    for (uint32_t i = 0; i < TEXELS; i++) {
+        double normal[3], radiance[3];
+        normal_of_texel(i, slope, normal);
+        shade_base_material(material, normal, outgoing, incoming, radiance);
+        sum += radiance[1] / TEXELS;
+    }
+    return sum;
+}
+
+/// The azimuths and heights of the lights: above, opposite the viewer, behind it, and at its side.
+static void check_material(fixture *f, const lobe_material *material, double slope,
+                           double tolerance) {
+    static const double lights[][2] = {{0, 0}, {80, M_PI}, {80, 0}, {45, 0.5 * M_PI}};
+    static const double views[] = {60, 75};
+    lobe_image normals = bumpy_map(slope);
+    for (int i = 0; i < 8; i++) {
+        const double *light = lights[i % 4];
+        double outgoing[3], incoming[3];
+        float found[3];
+        slope_plane_direction(views[i / 4], 0, outgoing);
+        slope_plane_direction(light[0], light[1], incoming);
+        lobe_material mapped;
+        lobe_scene *scene = slope_plane(material, &normals, outgoing, &mapped);
+        slope_plane_add_sun(scene, incoming, 1);
+        slope_plane_draw(f, scene, "moments", NULL, found);
+        lobe_scene_destroy(&scene);
+        double expected = mean_of_texels(material, slope, outgoing, incoming);
+        if (!(fabs((double)found[1] / expected - 1) < tolerance))
+            fail_msg("metallic %g, slopes of %g, seen at %g degrees, lit at %g: %g instead of %g",
+                     (double)material->metallic, slope, views[i / 4], light[0], (double)found[1],
+                     expected);
+    }
+    lobe_image_free(&normals);
+}
+
+static void dielectrics_reflect_what_their_texels_do(void **state) {
+    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.8, 0);
+    check_material(*state, &material, 0.5, 0.1);
+    check_material(*state, &material, 0.25, 0.1);
+}
+
+static void metals_reflect_what_their_texels_do(void **state) {
+    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.6, 1);
+    // Widest where the light is behind the viewer: only the tails of GGX are seen.
+    check_material(*state, &material, 0.4, 0.3);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dielectrics_reflect_what_their_texels_do),
+        cmocka_unit_test(metals_reflect_what_their_texels_do),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
