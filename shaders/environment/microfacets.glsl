@@ -180,12 +180,6 @@ vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, ve
     return reflected * lobe_radiance(surface, lobe, incoming);
 }
 
-// The light that a Lambert surface gathers, under the surface's horizon too.
-vec3 gathered_light(surface_point surface, vec3 mean_normal) {
-    float seen = HORIZON == HORIZON_IGNORED ? 1.0 : 0.5 + 0.5 * clamp(mean_normal.z, -1.0, 1.0);
-    return seen * mean_irradiance(surface, mean_normal);
-}
-
 // The lobe that is fitted to what microfacets reflect, and light as a Lambert surface gathers it.
 vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
                     float parameter, bool spread_out) {
@@ -210,7 +204,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     incoming = lobe_above_surface(incoming, own, normals.axis, share);
     vec3 sum = share * reflected *
                    lobe_radiance(surface, half_vector_distribution(normals, kind), incoming) +
-               gathered * gathered_light(surface, resultant * normals.axis);
+               gathered * irradiance_above(surface, resultant * normals.axis);
     return scattering_scale(albedo, f0) * sum;
 }
 
