@@ -10,6 +10,7 @@ from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
 from program import FOLDER, PROGRAM, SMALL, check, fresh_folder, leaves, report, succeeds
 
 DIRECT = ["--filter", "direct", *SMALL]
+SMALL_SKY = ["--set", "env_size=16"]  # prepared faster
 
 
 def compare(test, reference):
