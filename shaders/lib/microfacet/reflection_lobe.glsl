@@ -26,49 +26,48 @@ struct reflection_lobe {
     float diffuse_share; // d, [0, 1]
 };
 
-// By powers of 1 - cosine (four rows) and of roughness:
+vec4 cubic(vec4 a, vec4 b, vec4 c, vec4 d, float x) {
+    return ((d * x + c) * x + b) * x + a;
+}
+
+// By powers of u = 1 - cosine (outer) and of roughness:
 //   x: (angle/theta - 1)/alpha, theta the mirror's angle
 //   y: log(along/(sqrt(2) alpha)): 0 for a narrow lobe, seen along the normal
 //   z: q, with across/along = sqrt(cos^2 + q^2 sin^2): the plain mirror has cos
 //   w: d/roughness^3
-const vec4 REFLECTION_LOBE_OF_GGX[16] = vec4[16](
-    vec4(0.295, -0.049, 0.056, -0.703), vec4(-2.496, 0.854, -0.966, 12.454),
-    vec4(7.542, -2.68, 4.022, -17.933), vec4(-5.742, 1.364, -2.196, 6.998),
-    vec4(-1.846, -1.114, 2.667, 0.071), vec4(7.565, 8.483, -4.188, -7.374),
-    vec4(-18.218, -17.428, 4.429, 4.122), vec4(9.418, 8.872, -2.167, 2.973),
-    vec4(3.017, 1.787, -1.044, -0.563), vec4(5.191, -18.542, -3.883, 13.222),
-    vec4(-32.483, 29.65, 2.72, -7.256), vec4(32.007, -9.022, 0.521, -4.335),
-    vec4(-0.188, -2.483, -1.759, -0.204), vec4(-28.532, 20.275, 5.814, 10.685),
-    vec4(79.614, -32.857, 1.935, -31.511), vec4(-56.875, 13.171, -5.438, 20.013));
+vec4 reflection_lobe_of_ggx(float u, float roughness) {
+    return cubic(
+        cubic(vec4(0.295, -0.049, 0.056, -0.703), vec4(-2.496, 0.854, -0.966, 12.454),
+              vec4(7.542, -2.68, 4.022, -17.933), vec4(-5.742, 1.364, -2.196, 6.998), roughness),
+        cubic(vec4(-1.846, -1.114, 2.667, 0.071), vec4(7.565, 8.483, -4.188, -7.374),
+              vec4(-18.218, -17.428, 4.429, 4.122), vec4(9.418, 8.872, -2.167, 2.973), roughness),
+        cubic(vec4(3.017, 1.787, -1.044, -0.563), vec4(5.191, -18.542, -3.883, 13.222),
+              vec4(-32.483, 29.65, 2.72, -7.256), vec4(32.007, -9.022, 0.521, -4.335), roughness),
+        cubic(vec4(-0.188, -2.483, -1.759, -0.204), vec4(-28.532, 20.275, 5.814, 10.685),
+              vec4(79.614, -32.857, 1.935, -31.511), vec4(-56.875, 13.171, -5.438, 20.013), roughness),
+        u);
+}
 
 // For Beckmann's distribution, and those about as broad.
-const vec4 REFLECTION_LOBE_OF_BECKMANN[16] = vec4[16](
-    vec4(-0.125, -0.06, 0.049, -0.089), vec4(1.419, 0.775, -0.243, 1.704),
-    vec4(-0.504, -2.313, 0.062, 1.092), vec4(-1.859, 1.355, 0.568, -2.006),
-    vec4(0.451, -0.068, 0.921, -0.934), vec4(-4.308, 1.311, 0.593, -2.168),
-    vec4(-0.847, -3.094, 0.279, -2.812), vec4(4.629, 0.589, 0.389, 6.149),
-    vec4(0.91, -0.212, -0.54, 2.168), vec4(-2.682, 0.394, -0.084, 1.88),
-    vec4(1.404, 1.139, -0.776, -5.698), vec4(2.156, -1.255, -0.868, 0.09),
-    vec4(-1.162, -0.68, -0.723, -1.179), vec4(1.513, -2.482, 1.465, 3.571),
-    vec4(4.221, 6.276, 0.163, -4.602), vec4(-6.024, -2.531, -0.621, 2.939));
-
-vec4 reflection_polynomials(vec4 coefficients[16], float u, float roughness) {
-    vec4 sum = vec4(0.0);
-    for (int i = 3; i >= 0; --i) {
-        vec4 row = coefficients[4 * i + 3];
-        for (int j = 2; j >= 0; --j)
-            row = row * roughness + coefficients[4 * i + j];
-        sum = sum * u + row;
-    }
-    return sum;
+vec4 reflection_lobe_of_beckmann(float u, float roughness) {
+    return cubic(
+        cubic(vec4(-0.125, -0.06, 0.049, -0.089), vec4(1.419, 0.775, -0.243, 1.704),
+              vec4(-0.504, -2.313, 0.062, 1.092), vec4(-1.859, 1.355, 0.568, -2.006), roughness),
+        cubic(vec4(0.451, -0.068, 0.921, -0.934), vec4(-4.308, 1.311, 0.593, -2.168),
+              vec4(-0.847, -3.094, 0.279, -2.812), vec4(4.629, 0.589, 0.389, 6.149), roughness),
+        cubic(vec4(0.91, -0.212, -0.54, 2.168), vec4(-2.682, 0.394, -0.084, 1.88),
+              vec4(1.404, 1.139, -0.776, -5.698), vec4(2.156, -1.255, -0.868, 0.09), roughness),
+        cubic(vec4(-1.162, -0.68, -0.723, -1.179), vec4(1.513, -2.482, 1.465, 3.571),
+              vec4(4.221, 6.276, 0.163, -4.602), vec4(-6.024, -2.531, -0.621, 2.939), roughness),
+        u);
 }
 
 // What F_0 reflects. `ggx`: of GGX, else of Beckmann's distribution or one without long tails.
 reflection_lobe lobe_of_reflection(bool ggx, float outgoing_cosine, float roughness) {
     float cosine = clamp(outgoing_cosine, 0.0, 1.0);
     float alpha = max(roughness * roughness, ALPHA_MINIMUM);
-    vec4 p = ggx ? reflection_polynomials(REFLECTION_LOBE_OF_GGX, 1.0 - cosine, roughness)
-                 : reflection_polynomials(REFLECTION_LOBE_OF_BECKMANN, 1.0 - cosine, roughness);
+    vec4 p = ggx ? reflection_lobe_of_ggx(1.0 - cosine, roughness)
+                 : reflection_lobe_of_beckmann(1.0 - cosine, roughness);
     float q = clamp(p.z, 0.0, 1.0);
     reflection_lobe result;
     result.angle = acos(cosine) * (1.0 + alpha * p.x);
