@@ -22,8 +22,8 @@ vec3 mean_irradiance(surface_point surface, vec3 mean_normal) {
            harmonic_irradiance_of_mean_normal(irradiance.coefficients, normal);
 }
 
-// The same without the light from below the surface, of which normals of cosine n_z see the fraction
-// (1 - n_z)/2 if it comes evenly: exact for a uniform sky over a uniform ground.
+// The same without the light from below the surface, of which normals of cosine n_z see the
+// fraction (1 - n_z)/2 if it comes evenly: exact for a uniform sky over a uniform ground.
 vec3 irradiance_above(surface_point surface, vec3 mean_normal) {
     vec3 all = mean_irradiance(surface, mean_normal);
     if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL))

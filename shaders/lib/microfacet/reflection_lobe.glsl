@@ -8,8 +8,8 @@
 // up. It is no Gaussian about the mirror direction: the mask and the horizon cut it off on the far
 // side, and for alpha near 1 nothing of a mirror is left.
 //
-// With the albedo's parts F_0 x + F_90 y (lib/microfacet/directional_albedo.glsl) it is approximated
-// by
+// With the albedo's parts F_0 x + F_90 y (lib/microfacet/directional_albedo.glsl) it is
+// approximated by
 //   F_0 x ((1 - d) lobe + d <n, i>/pi) + F_90 y lobe_90,
 // lobes in the plane of reflection and a share d of light as a Lambert surface gathers it.
 //
@@ -44,7 +44,8 @@ vec4 reflection_lobe_of_ggx(float u, float roughness) {
         cubic(vec4(3.017, 1.787, -1.044, -0.563), vec4(5.191, -18.542, -3.883, 13.222),
               vec4(-32.483, 29.65, 2.72, -7.256), vec4(32.007, -9.022, 0.521, -4.335), roughness),
         cubic(vec4(-0.188, -2.483, -1.759, -0.204), vec4(-28.532, 20.275, 5.814, 10.685),
-              vec4(79.614, -32.857, 1.935, -31.511), vec4(-56.875, 13.171, -5.438, 20.013), roughness),
+              vec4(79.614, -32.857, 1.935, -31.511), vec4(-56.875, 13.171, -5.438, 20.013),
+              roughness),
         u);
 }
 
