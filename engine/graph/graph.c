@@ -5,6 +5,7 @@
 #include "engine/graph/record/record.h"
 #include "engine/graph/report.h"
 #include "engine/graph/store/store.h"
+#include "engine/pipeline/pipelines.h"
 
 // ---------------------------------------------------------------------------------------------
 // Creation and destruction
@@ -102,6 +103,12 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
     engine_graph_report_compiled,   // report.c
 };
 
+/// Fails the frame, which then needs its pipelines no longer.
+static lobe_result give_up(lobe_graph *graph, lobe_result result) {
+    engine_pipelines_end_use(graph->device, &graph->frame.flight->pipelines);
+    return engine_graph_propagate(graph, result);
+}
+
 lobe_result lobe_graph_compile(lobe_graph *graph) {
     if (!graph)
         return LOBE_ERROR_INVALID_ARGUMENT;
@@ -111,7 +118,7 @@ lobe_result lobe_graph_compile(lobe_graph *graph) {
     for (size_t i = 0; i < sizeof compile_steps / sizeof *compile_steps; i++) {
         lobe_result result = compile_steps[i](graph);
         if (result != LOBE_OK)
-            return engine_graph_propagate(graph, result);
+            return give_up(graph, result);
     }
     graph->frame.report.host_milliseconds = engine_host_milliseconds() - start;
     graph->frame.phase = ENGINE_GRAPH_COMPILED;
@@ -123,7 +130,10 @@ static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submissi
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                                "render graph: a frame cannot be executed twice; begin a new one");
     lobe_result result = lobe_graph_compile(graph);
-    return result == LOBE_OK ? engine_graph_run(graph, submission) : result;
+    if (result != LOBE_OK)
+        return result;
+    result = engine_graph_run(graph, submission);
+    return result == LOBE_OK ? result : give_up(graph, result);
 }
 
 lobe_result lobe_graph_execute(lobe_graph *graph) {

@@ -340,6 +340,7 @@ static lobe_result find_pipeline(lobe_pass *pass, engine_graph_command *command)
 }
 
 lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
+    engine_pipelines_begin_use(graph->device, &graph->frame.flight->pipelines);
     for (uint32_t i = 0; i < graph->frame.dependencies.running_count; i++) {
         lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[i]];
         for (engine_graph_command *command = pass->first_command; command;

@@ -61,7 +61,8 @@ lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     if (result != LOBE_OK)
         return result;
     engine_graph_retire_flight(graph, graph->frame.flight);
-    engine_pipelines_begin_use(graph->device, &graph->frame.flight->pipelines);
+    // Of a frame that was compiled, but not executed.
+    engine_pipelines_end_use(graph->device, &graph->frame.flight->pipelines);
     return create_commands(graph, graph->frame.flight);
 }
 

@@ -168,6 +168,25 @@ static void a_finished_frame_keeps_none(void **state) {
     lobe_graph_destroy(&graph);
 }
 
+/// A frame that could not be recorded needs no pipeline, even if its graph never begins another.
+static void a_failed_frame_keeps_none(void **state) {
+    (void)state;
+    lobe_graph *graph = create_graph(), *other = create_graph();
+    lobe_graph_begin(graph);
+    (void)declare_many(graph, 0);
+    assert_int_equal(lobe_graph_compile(graph), LOBE_OK);
+    faults.calls = 0;
+    faults.failing = 1;
+    faults.fault = VK_ERROR_OUT_OF_HOST_MEMORY;
+    assert_int_equal(lobe_graph_execute(graph), LOBE_ERROR_OUT_OF_MEMORY);
+    faults.failing = 0;
+    recorder.errors = 0;
+    assert_int_equal(made_by(other, MANY), 1);
+    assert_int_equal(faults.pipelines_alive, ENGINE_MAXIMUM_PIPELINES);
+    lobe_graph_destroy(&other);
+    lobe_graph_destroy(&graph);
+}
+
 /// A frame that is declared and given up holds nothing for ever.
 static void a_destroyed_graph_keeps_none(void **state) {
     (void)state;
@@ -222,6 +241,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(a_frame_keeps_all_that_it_needs, open_device, close_device),
         cmocka_unit_test_setup_teardown(frames_in_flight_keep_theirs, open_device, close_device),
         cmocka_unit_test_setup_teardown(a_finished_frame_keeps_none, open_device, close_device),
+        cmocka_unit_test_setup_teardown(a_failed_frame_keeps_none, open_device, close_device),
         cmocka_unit_test_setup_teardown(a_destroyed_graph_keeps_none, open_device, close_device),
         cmocka_unit_test_setup_teardown(threads_share_the_bound, open_device, close_device),
     };
