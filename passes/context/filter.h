@@ -63,7 +63,8 @@ struct lobe_filter {
     bool supersamples;
     filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
-    /// filter's own slot for that material. Called in every frame, before `build`, for each
+    /// filter's own slot for that material and the current values of the knobs that decide slots;
+    /// no other knob may decide what is kept. Called in every frame, before `build`, for each
     /// material that is drawn, so it must return at once if the slot is still valid. `*slot` is
     /// NULL at first, and again after the material's lobes or texels of its maps have changed, but
     /// not after its base colour, emission or occlusion alone. Memory comes from `context->host`.

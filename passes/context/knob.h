@@ -1,6 +1,7 @@
 #ifndef PASSES_CONTEXT_KNOB_H
 #define PASSES_CONTEXT_KNOB_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -22,8 +23,8 @@ typedef struct knob_feed {
 /// Initialisers of a knob's feed. Choices, and integers that bound loops, are constants: unused
 /// code is compiled out, and lavapipe recompiles a shader at every draw if a uniform bounds its
 /// loops. Numbers, which users drag, are uniforms: a new value compiles nothing, unless it decides
-/// whether code is needed at all (`bias`: does any pixel see level 0? `epsilon0`: can one lobe
-/// ever suffice?), where each answer has its own pipeline.
+/// whether code is needed at all (`curvature`: is it 0? `bias`: does any pixel see level 0?
+/// `epsilon0`: can one lobe ever suffice?), where each answer has its own pipeline.
 #define KNOB_FEEDS_CONSTANT(id)                                                                    \
     { KNOB_CONSTANT, (id) }
 #define KNOB_FEEDS_SHARED(member)                                                                  \
@@ -41,6 +42,12 @@ typedef struct knob_feed {
 typedef struct filter_knob {
     lobe_knob description;
     knob_feed feeds; ///< all zero: KNOB_HOST
+    /// Of a number: boolean constant that is false at 0, where the code for it is left out; 0:
+    /// none.
+    uint32_t compiles;
+    /// A choice that decides what the filter's `prepare` keeps: each has slots of its own, so that
+    /// two views with different choices prepare a material once each.
+    bool decides_slots;
 } filter_knob;
 
 #endif

@@ -81,9 +81,13 @@ void passes_knob_specialise(const filter_context *context, const filter_knob *kn
 
 void passes_knobs_specialise(const filter_context *context, specialisation_list *list) {
     const filter_knob *knob;
-    for (size_t i = 0; (knob = passes_filter_knob(context->filter, i)); i++)
+    for (size_t i = 0; (knob = passes_filter_knob(context->filter, i)); i++) {
+        const double value = context->settings->values[i];
         if (knob->feeds.route == KNOB_CONSTANT)
-            passes_specialise(list, knob->feeds.place, (uint32_t)context->settings->values[i]);
+            passes_specialise(list, knob->feeds.place, (uint32_t)value);
+        if (knob->compiles)
+            passes_specialise(list, knob->compiles, value != 0);
+    }
 }
 
 /// A block of floats as large as the shader's, whose size is a multiple of 16 bytes.

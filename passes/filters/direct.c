@@ -1,5 +1,6 @@
 #include "passes/context/filter.h"
 #include "shaders/interface/knobs.h"
+#include "shaders/interface/specialisation.h"
 
 /// Off by default: this filter shows what a single sample gives.
 static const filter_knob curvature_knob = {
@@ -9,6 +10,7 @@ static const filter_knob curvature_knob = {
              "how much of the surface's own curvature under a pixel widens its lobes; 0: none",
          .maximum = 4},
     .feeds = KNOB_FEEDS_SHARED(curvature),
+    .compiles = SPECIALISE_CURVATURE,
 };
 static const filter_knob *const knobs[] = {&curvature_knob, NULL};
 

@@ -8,7 +8,8 @@ typedef struct filter_slot {
 struct filter_slots {
     filter_slots *next;
     const lobe_filter *filter;
-    size_t count; ///< one for each material of the scene
+    lobe_settings settings; ///< for which they are: only knobs that decide slots count
+    size_t count;           ///< one for each material of the scene
     filter_slot slots[];
 };
 
@@ -18,10 +19,18 @@ static void forget(const lobe_filter *filter, filter_slot *slot) {
     *slot = (filter_slot){0};
 }
 
-/// The slots of the context's filter, added if missing. NULL: out of memory.
+static bool are_for(const filter_slots *slots, const filter_context *context) {
+    bool same = slots->filter == context->filter;
+    for (size_t i = 0; same && slots->filter->knobs && slots->filter->knobs[i]; i++)
+        same = !slots->filter->knobs[i]->decides_slots ||
+               slots->settings.values[i] == context->settings->values[i];
+    return same;
+}
+
+/// The slots of the context's filter and settings, added if missing. NULL: out of memory.
 static filter_slots *slots_of(filter_slots **first, const filter_context *context) {
     for (filter_slots *slots = *first; slots; slots = slots->next)
-        if (slots->filter == context->filter)
+        if (are_for(slots, context))
             return slots;
     const size_t count = context->scene->scene->material_count;
     filter_slots *added = lobe_allocate(lobe_host_allocator(context->host), 1,
@@ -30,6 +39,7 @@ static filter_slots *slots_of(filter_slots **first, const filter_context *contex
         return NULL;
     added->next = *first;
     added->filter = context->filter;
+    added->settings = *context->settings;
     added->count = count;
     *first = added;
     return added;

@@ -3,9 +3,9 @@
 
 #include "passes/context/filter.h"
 
-/// What filters prepared for a scene's materials: a slot for each filter and material, so that two
-/// alternating filters (a split view, a benchmark) prepare each material once. A list with an entry
-/// for each filter that drew the scene and prepares anything; NULL: none did.
+/// What filters prepared for a scene's materials: a slot for each filter, each value of the knobs
+/// that decide its slots, and each material. Two views that alternate (side by side, a benchmark)
+/// prepare each material once, whether they differ in the filter or in its knobs. NULL: none yet.
 typedef struct filter_slots filter_slots;
 
 /// Lets the context's filter prepare a material, and returns what it keeps for it; NULL: nothing.

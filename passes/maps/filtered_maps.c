@@ -42,6 +42,7 @@ const filter_knob passes_knob_curvature = {
          .maximum = 4,
          .initial = 1},
     .feeds = KNOB_FEEDS_SHARED(curvature),
+    .compiles = SPECIALISE_CURVATURE,
 };
 const filter_knob passes_knob_storage = {
     .description = {.name = "storage",

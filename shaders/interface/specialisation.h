@@ -30,6 +30,7 @@
 #define SPECIALISE_VIEW              24 // uint, VIEW_...
 #define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes are turned into von Mises-Fisher lobes first
 #define SPECIALISE_DEPTH_AS_COVERAGE 26 // bool: alpha is the depth, see sample_choice.comp
+#define SPECIALISE_CURVATURE         29 // bool: the knob `curvature` is not 0
 // The first of a filter's own, see shaders/filters.
 #define SPECIALISE_FILTER 32
 

@@ -28,6 +28,7 @@ layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
+layout(constant_id = SPECIALISE_CURVATURE) const bool CURVATURE = false;
 layout(constant_id = SPECIALISE_DEPTH_AS_COVERAGE) const bool DEPTH_AS_COVERAGE = false;
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
@@ -96,7 +97,7 @@ surface_point read_surface() {
     surface.coordinates_dy = frame.footprint * dFdy(interpolated_coordinates);
     surface.colour = interpolated_colour;
     surface.curvature = vec3(0.0);
-    if (knobs.curvature > 0.0)
+    if (CURVATURE)
         surface.curvature =
             normal_covariance(surface.world_from_tangent[2], surface.world_from_tangent);
     return surface;

@@ -41,6 +41,7 @@ static const filter_knob clusters_knob = {
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = clusters},
+    .decides_slots = true,
 };
 static const filter_knob threshold_knob = {
     .description = {.name = "threshold",
@@ -104,7 +105,6 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
 /// What is kept for a material between frames.
 typedef struct prepared_lobes {
     uint32_t subdivision; ///< in tangent space
-    uint32_t clusters;    ///< for which it was chosen
 } prepared_lobes;
 
 /// Whether, in tangent space, all lobes point along the normal because no map tilts it: one cluster
@@ -133,17 +133,15 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
 }
 
 static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
-    const uint32_t kind = passes_knob_choice(context, &clusters_knob);
-    prepared_lobes *prepared = *slot;
-    if ((prepared && prepared->clusters == kind) || !needs_choice(context, material))
+    if (*slot || !needs_choice(context, material))
         return LOBE_OK;
-    if (!prepared)
-        prepared = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    prepared_lobes *prepared =
+        lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->clusters = kind;
-    prepared->subdivision = passes_subdivision_choose(context->scene->scene,
-                                                      &context->scene->materials[material], kind);
+    prepared->subdivision =
+        passes_subdivision_choose(context->scene->scene, &context->scene->materials[material],
+                                  passes_knob_choice(context, &clusters_knob));
     *slot = prepared;
     return LOBE_OK;
 }

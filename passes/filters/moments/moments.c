@@ -1,5 +1,4 @@
 #include <math.h>
-#include <string.h>
 
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
@@ -25,6 +24,7 @@ static const filter_knob partition_knob = {
                     .maximum = 2,
                     .choices = partitions,
                     .sweep = "hats,cap"},
+    .decides_slots = true,
 };
 static const filter_knob bins_knob = {
     .description =
@@ -34,6 +34,7 @@ static const filter_knob bins_knob = {
          .maximum = 6,
          .choices = bin_numbers,
          .sweep = "1,2,3,4"},
+    .decides_slots = true,
 };
 static const filter_knob colour_knob = {
     .description =
@@ -44,6 +45,7 @@ static const filter_knob colour_knob = {
          .maximum = 2,
          .choices = colours,
          .sweep = "mean,bins"},
+    .decides_slots = true,
 };
 static const filter_knob least_share_knob = {
     .description = {.name = "least_share",
@@ -104,7 +106,7 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
 
 /// Upper bounds of colours.
 typedef struct largest_texels {
-    float base_colour, specular; ///< 0: not measured yet
+    float base_colour, specular; ///< 0: not measured, because bins have no colours
 } largest_texels;
 
 /// An upper bound of the material's colours: those of the bins and the diffuse one.
@@ -124,7 +126,6 @@ static float largest_colour(const lobe_material *material, const largest_texels 
 // What is kept for a material
 
 typedef struct prepared_moments {
-    partition_request request;
     moment_partition partition;
     largest_texels largest;
 } prepared_moments;
@@ -134,23 +135,17 @@ static lobe_result prepare_partition(const filter_context *context, uint32_t ind
         .kind = passes_knob_choice(context, &partition_knob),
         .bins = passes_knob_choice(context, &bins_knob),
         .colour = colour_of_bins(context, &context->scene->materials[index])};
-    prepared_moments *prepared = *slot;
-    if (prepared && memcmp(&prepared->request, &request, sizeof request) == 0)
-        return LOBE_OK;
-    prepared_moments made = {.request = request};
-    lobe_result result = passes_moment_partition_make(context->scene, index, &request,
-                                                      context->host, &made.partition);
-    if (result != LOBE_OK)
-        return result;
-    if (prepared)
-        made.largest = prepared->largest;
-    else
-        prepared = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    prepared_moments *prepared =
+        lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    *prepared = made;
-    *slot = prepared;
-    return LOBE_OK;
+    lobe_result result = passes_moment_partition_make(context->scene, index, &request,
+                                                      context->host, &prepared->partition);
+    if (result == LOBE_OK)
+        *slot = prepared;
+    else
+        lobe_release(prepared);
+    return result;
 }
 
 static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
@@ -158,9 +153,11 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
     const lobe_grid grid = passes_lobe_grid(material);
     if (!passes_lobe_grid_varies(&grid))
         return LOBE_OK;
+    if (*slot)
+        return LOBE_OK;
     lobe_result result = prepare_partition(context, index, slot);
     prepared_moments *prepared = *slot;
-    if (result != LOBE_OK || prepared->largest.specular > 0 || !prepared->partition.own_colours)
+    if (result != LOBE_OK || !prepared->partition.own_colours)
         return result;
     const lobe_scene *scene = context->scene->scene;
     prepared->largest =

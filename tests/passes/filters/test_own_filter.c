@@ -96,6 +96,7 @@ static const filter_knob order_knob = {
                     .maximum = 1,
                     .choices = orders},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_REVERSED),
+    .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {&gain_knob, &order_knob, NULL};
 
@@ -259,6 +260,27 @@ static void what_changes_is_forgotten_and_nothing_else(void **state) {
     assert_calls(2, 2, 4);
 }
 
+/// Two views that draw one scene with different knobs prepare each material once each.
+static void knobs_that_decide_slots_have_their_own(void **state) {
+    static const char *const assignments[] = {"order=rgb", "order=bgr", "gain=2"};
+    static const uint32_t first = 0;
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    for (int i = 0; i < 9; i++) {
+        lobe_frame frame;
+        assert_int_equal(draw_with(f, &own_filter, assignments[i % 3], &frame), LOBE_OK);
+        lobe_frame_free(&frame);
+    }
+    assert_calls(2, 2, 0);
+    scene->materials[0].roughness = 0.75f;
+    update(f, &(lobe_scene_changes){.materials = &first, .material_count = 1});
+    assert_calls(2, 2, 2);
+    draw_frame(f, &own_filter);
+    assert_calls(3, 2, 2);
+    stop(f, &scene);
+    assert_calls(3, 2, 5);
+}
+
 static void a_renderer_that_goes_frees_its_slots(void **state) {
     fixture *f = *state;
     lobe_scene *scene = start(f);
@@ -371,6 +393,7 @@ int main(void) {
         cmocka_unit_test(it_draws_with_its_own_knobs_maps_and_shader),
         cmocka_unit_test(each_material_drawn_is_prepared_once),
         cmocka_unit_test(what_changes_is_forgotten_and_nothing_else),
+        cmocka_unit_test(knobs_that_decide_slots_have_their_own),
         cmocka_unit_test(a_renderer_that_goes_frees_its_slots),
         cmocka_unit_test(a_failure_to_prepare_is_the_frames),
         cmocka_unit_test(too_much_is_an_error),

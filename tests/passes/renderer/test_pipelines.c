@@ -123,33 +123,42 @@ static const char *fixed_choice(const char *filter) {
                                           : NULL;
 }
 
+/// Draws with the knob at this value, and returns the picture's hash.
+static uint64_t draw_at(fixture *f, const char *filter, const lobe_knob *knob, double value) {
+    char assignment[64];
+    snprintf(assignment, sizeof assignment, "%s=%.9g", knob->name, value);
+    picture_request request = {.filter = filter,
+                               .settings = {assignment, fixed_choice(filter)},
+                               .width = 12,
+                               .height = 8,
+                               .samples = 1};
+    lobe_frame frame = draw(f, &request);
+    const uint64_t hash = image_hash(&frame.radiance);
+    lobe_frame_free(&frame);
+    return hash;
+}
+
 /// Draws with a hundred values of a number over its range; returns how many pictures differ from
 /// the previous one.
 static int drag(fixture *f, const char *filter, const lobe_knob *knob) {
-    char assignment[64];
-    picture_request request = {.filter = filter, .width = 12, .height = 8, .samples = 1};
-    request.settings[0] = assignment;
-    request.settings[1] = fixed_choice(filter);
     int different = 0;
     uint64_t last = 0;
     for (int i = 0; i < 100; i++) {
-        snprintf(assignment, sizeof assignment, "%s=%.9g", knob->name,
-                 knob->minimum + (knob->maximum - knob->minimum) * i / 99);
-        lobe_frame frame = draw(f, &request);
-        const uint64_t hash = image_hash(&frame.radiance);
+        const uint64_t hash =
+            draw_at(f, filter, knob, knob->minimum + (knob->maximum - knob->minimum) * i / 99);
         different += i > 0 && hash != last;
         last = hash;
-        lobe_frame_free(&frame);
     }
     return different;
 }
 
 static void check_number(fixture *f, const lobe_filter *filter, const filter_knob *knob) {
     const char *name = lobe_filter_name(filter);
-    picture_request request = {.filter = name, .width = 12, .height = 8, .samples = 1};
-    request.settings[0] = fixed_choice(name);
-    lobe_frame frame = draw(f, &request);
-    lobe_frame_free(&frame);
+    draw_at(f, name, &knob->description, knob->description.initial);
+    if (knob->compiles) { // its code is left out at 0: one pipeline without it, one with it
+        draw_at(f, name, &knob->description, 0);
+        draw_at(f, name, &knob->description, knob->description.maximum);
+    }
     faults.pipelines = 0;
     const int different = drag(f, name, &knob->description);
     if (faults.pipelines)
