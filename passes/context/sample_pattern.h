@@ -8,6 +8,10 @@
 /// sample is at the centre. (Hammersley 1960; van der Corput 1935.)
 void passes_sample_position(uint32_t index, uint32_t count, float position[2]);
 
+/// Number `index` of a sequence in [0, 1) of which the first 2, 4, 8, ... are spread evenly (van
+/// der Corput 1935).
+float passes_radical_inverse(uint32_t index);
+
 #define SAMPLES_AROUND_CENTRE 8
 
 /// Position of sample `index`, below SAMPLES_AROUND_CENTRE, of a pixel whose first sample is at its

@@ -41,20 +41,24 @@ material_patch_place passes_material_patch_place(const device_material *material
     return at;
 }
 
+void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]) {
+    // One point in every texel is enough: see shaders/lib/map/texel_point.glsl.
+    point[0] = place->left + i % place->columns + 0.5 + TEXEL_POINT;
+    point[1] = place->top + i / place->columns + 0.5 + TEXEL_POINT;
+}
+
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
                                 uint32_t index, material_patch *patch) {
     const material_patch_place at = passes_material_patch_place(material, index);
     patch->count = 0;
-    for (uint32_t y = 0; y < at.rows; y++) {
-        for (uint32_t x = 0; x < at.columns; x++) {
-            // One point in every texel is enough: see shaders/lib/map/texel_point.glsl.
-            uint32_t count = passes_material_lobes_read(
-                scene, material, at.left + x + 0.5 + TEXEL_POINT, at.top + y + 0.5 + TEXEL_POINT,
-                &patch->lobes[patch->count]);
-            if (count == 0)
-                return false;
-            patch->count += count;
-        }
+    for (uint32_t i = 0; i < at.columns * at.rows; i++) {
+        double point[2];
+        passes_material_patch_point(&at, i, point);
+        uint32_t count = passes_material_lobes_read(scene, material, point[0], point[1],
+                                                    &patch->lobes[patch->count]);
+        if (count == 0)
+            return false;
+        patch->count += count;
     }
     for (size_t i = 0; i < patch->count; i++)
         patch->lobes[i].weight /= (double)at.columns * at.rows;

@@ -20,6 +20,8 @@ typedef struct material_patch_place {
 } material_patch_place;
 
 material_patch_place passes_material_patch_place(const device_material *material, uint32_t index);
+/// Where texel `i` of the patch's columns * rows is read, in texels of the lobe_grid.
+void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]);
 
 /// Patch `index` of MATERIAL_PATCHES. False if a map has a format that the host does not read.
 bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,

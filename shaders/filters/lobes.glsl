@@ -100,14 +100,6 @@ mat3 mixture_frame(surface_point surface) {
     return mat3(1.0);
 }
 
-vec4 fetch_layer(map_area area, int layer) {
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(mixture_map, vec3(probe_position(area, i), layer),
-                          max(area.level - 1.0, 0.0));
-    return sum / float(probes_of(area));
-}
-
 // 1 - |r| of the base lobes where all have one width.
 float uniform_complement() {
     float parameter = MODEL == MODEL_MICROFACET
@@ -122,11 +114,11 @@ vec4 fetch_mean(map_area area, out float coverage) {
     coverage = 1.0;
     vec4 one = vec4(0.0);
     if (SPACE != SPACE_TANGENT || MEAN_LAYER == 0u) {
-        one = fetch_layer(area, MIXTURE_LAYER_ONE);
+        one = filtered_layer(mixture_map, area, MIXTURE_LAYER_ONE);
         coverage = max(one.w, LEAST_WEIGHT);
     }
     if (MEAN_LAYER != 0u)
-        return fetch_layer(area, int(MEAN_LAYER)) / coverage;
+        return filtered_layer(mixture_map, area, MEAN_LAYER) / coverage;
     // There is no such layer if all base lobes are equal and along their normals.
     float complement = uniform_complement();
     return vec4(one.xyz / max(coverage * (1.0 - complement), LEAST_WEIGHT), complement);
@@ -178,7 +170,7 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     int layer = one         ? MIXTURE_LAYER_ONE
                 : is_sector ? MIXTURE_LAYER_SECTORS + at.sector
                             : MIXTURE_LAYER_HALVES + 2 * at.sector + at.part - 1;
-    vec4 moment = fetch_layer(fetched.area, layer);
+    vec4 moment = filtered_layer(mixture_map, fetched.area, layer);
 
     float complement = resultant_complement(moment.xyz, moment.w);
     float refine = 0.0;

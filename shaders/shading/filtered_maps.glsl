@@ -82,6 +82,14 @@ vec2 probe_position(map_area area, uint probe) {
     return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
 }
 
+// The mean of one layer of a filtered map over the area.
+vec4 filtered_layer(sampler2DArray map, map_area area, uint layer) {
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i)
+        sum += textureLod(map, vec3(probe_position(area, i), layer), max(area.level - 1.0, 0.0));
+    return sum / float(probes_of(area));
+}
+
 bool is_masked(int map) {
     return ALPHA_MASK && map == MAP_BASE_COLOUR;
 }

@@ -36,22 +36,14 @@ vec3 scaled_normal(vec3 normal) {
     return height == 1.0 ? normal : normalize(vec3(height * normal.xy, normal.z));
 }
 
-vec4 fetch_moment_layer(map_area area, int layer) {
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
-                          max(area.level - 1.0, 0.0));
-    return sum / float(probes_of(area));
-}
-
 // Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor,
 // second ones by its square.
 //
 // The covariance of the surface's own curvature is added: slopes about the normal are differences
 // of normals.
 slope_moments fetch_moments(map_area area, surface_point surface) {
-    vec4 first = fetch_moment_layer(area, SLOPE_LAYER_FIRST);
-    vec4 second = fetch_moment_layer(area, SLOPE_LAYER_SECOND);
+    vec4 first = filtered_layer(moment_map, area, SLOPE_LAYER_FIRST);
+    vec4 second = filtered_layer(moment_map, area, SLOPE_LAYER_SECOND);
     float height = height_scale();
     slope_moments result;
     result.mean = height * first.xy;

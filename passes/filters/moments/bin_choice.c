@@ -5,7 +5,6 @@
 
 #include "passes/filters/moments/footprint.h"
 #include "passes/maps/material_patch.h"
-#include "shaders/interface/lobe_grid.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
 // bins. Hard borders are better for lobes that differ in width, soft ones for lobes that differ in
@@ -40,10 +39,12 @@ typedef struct footprint_set {
 static void read_patch(const lobe_scene *scene, const device_material *material, uint32_t index,
                        footprint *patch) {
     const material_patch_place at = passes_material_patch_place(material, index);
-    for (uint32_t i = 0; i < at.columns * at.rows; i++)
-        patch->count += passes_plane_samples_read(
-            scene, material, at.left + i % at.columns + 0.5 + TEXEL_POINT,
-            at.top + i / at.columns + 0.5 + TEXEL_POINT, 1, &patch->lobes[patch->count]);
+    for (uint32_t i = 0; i < at.columns * at.rows; i++) {
+        double point[2];
+        passes_material_patch_point(&at, i, point);
+        patch->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
+                                                  &patch->lobes[patch->count]);
+    }
 }
 
 /// NULL: out of memory.

@@ -127,7 +127,8 @@ typedef struct bin_sums {
     double sharpness, colour[3];
 } bin_sums;
 
-/// The bin as a pixel sees it: base lobes of two widths, as in shaders/filters/moments.glsl.
+/// The bin about as a pixel sees it (shaders/filters/moments/bins.glsl): base lobes of two widths;
+/// the tails of GGX are left out.
 typedef struct footprint_bin {
     bell terms[2];
     double colour[3];

@@ -54,8 +54,9 @@ void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weigh
     sums->variance += weight * s->variance;
 }
 
-void passes_mixture_component_from(const plane_sums *sums, double weight, double points,
-                                   mixture_component *c) {
+/// The Gaussian of the sums, of which it has `weight`; `points` as for a fit.
+static void component_from(const plane_sums *sums, double weight, double points,
+                           mixture_component *c) {
     double total = fmax(sums->weight, 1e-12);
     c->weight = weight;
     for (int i = 0; i < 2; i++)
@@ -156,8 +157,7 @@ static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t s
         passes_plane_sums_add(&sums[k], &samples[i], samples[i].weight);
     }
     for (uint32_t k = 0; k < m->count; k++)
-        passes_mixture_component_from(&sums[k], fmax(sums[k].weight / total, 1e-9), m->points,
-                                      &m->components[k]);
+        component_from(&sums[k], fmax(sums[k].weight / total, 1e-9), m->points, &m->components[k]);
     return true;
 }
 
@@ -179,7 +179,7 @@ static void improve(const plane_sample *samples, uint32_t count, plane_mixture *
     for (uint32_t k = 0; k < m->count; k++) {
         mixture_component *c = &m->components[k];
         if (sums[k].weight >= 1e-9 * total)
-            passes_mixture_component_from(&sums[k], sums[k].weight / total, m->points, c);
+            component_from(&sums[k], sums[k].weight / total, m->points, c);
         else
             c->weight = 1e-9;
     }

@@ -39,9 +39,6 @@ typedef struct plane_sums {
 } plane_sums;
 
 void passes_plane_sums_add(plane_sums *sums, const plane_sample *sample, double weight);
-/// The Gaussian of the sums, of which it has `weight`; `points` as for a fit.
-void passes_mixture_component_from(const plane_sums *sums, double weight, double points,
-                                   mixture_component *component);
 /// Half the trace of the places' covariance.
 double passes_plane_spread(const plane_sample *samples, uint32_t count);
 

@@ -11,7 +11,8 @@ double passes_plane_variance(const lobe_material *material, double concentration
     return 0.5 * square / (1 - square);
 }
 
-void passes_plane_from_direction(const double direction[3], double place[2]) {
+/// The place of a unit direction.
+static void place_of(const double direction[3], double place[2]) {
     double opposite = 1 + direction[2], scale = sqrt(2 / fmax(opposite, 1e-6));
     place[0] = opposite < 1e-6 ? 2 : direction[0] * scale;
     place[1] = opposite < 1e-6 ? 0 : direction[1] * scale;
@@ -40,7 +41,7 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
     passes_material_colours_read(scene, material, (uint32_t)x, (uint32_t)y, &colours);
     for (uint32_t k = 0; k < count; k++) {
         plane_sample *sample = &samples[k];
-        passes_plane_from_direction(lobes[k].axis, sample->place);
+        place_of(lobes[k].axis, sample->place);
         sample->variance = passes_plane_variance(source, lobes[k].concentration);
         bool ggx = source->distribution == LOBE_DISTRIBUTION_GGX;
         sample->mass = ggx ? 1 + 2 * sample->variance : 1;

@@ -20,8 +20,6 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
 
 /// The variance of a material's lobe of this concentration.
 double passes_plane_variance(const lobe_material *material, double concentration);
-/// The place of a unit direction.
-void passes_plane_from_direction(const double direction[3], double place[2]);
 
 /// The covariance (xx, yy, xy) at a place of a variance of one about it, and its inverse.
 void passes_plane_distortion(const double place[2], double covariance[3], double inverse[3]);

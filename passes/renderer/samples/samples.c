@@ -52,13 +52,6 @@ static lobe_resource draw_first(const filter_context *context,
     return first.radiance;
 }
 
-/// Spreads the first 2, 4 and 8 samples evenly (van der Corput), so that a mask's coverage is met
-/// as closely as their number allows.
-static float dither_of(uint32_t sample) {
-    return 0.5f * (float)(sample & 1) + 0.25f * (float)(sample >> 1 & 1) +
-           0.125f * (float)(sample >> 2 & 1);
-}
-
 static lobe_resource add_sample(const filter_context *context, const sample_choice *choice,
                                 uint32_t index, lobe_resource radiance, lobe_resource sum) {
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "sample_addition");
@@ -91,7 +84,8 @@ static lobe_resource draw_others(const filter_context *context,
         .depth_as_coverage = true,
     };
     for (uint32_t i = 1; i < count.most; i++) {
-        shading_sample sample = {.footprint = count.footprint, .dither = dither_of(i)};
+        // Evenly spread thresholds meet a mask's coverage as closely as the samples' number allows.
+        shading_sample sample = {.footprint = count.footprint, .dither = passes_radical_inverse(i)};
         passes_sample_position_around_centre(i, sample.position);
         passes_shading(context, appearances, light, &sample, &selection, &one);
         sum = add_sample(context, choice, i, one.radiance, sum);

@@ -51,14 +51,6 @@ uint distribution_kind() {
     return BASE_AS_LOBE ? DISTRIBUTION_VMF : DISTRIBUTION;
 }
 
-vec4 fetch_moments(map_area area, uint layer) {
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(moment_map, vec3(probe_position(area, i), layer),
-                          max(area.level - 1.0, 0.0));
-    return sum / float(probes_of(area));
-}
-
 // Gaussians that a bin consists of.
 int term_count() {
     return distribution_kind() == DISTRIBUTION_GGX ? MAXIMUM_TERMS : BIN_WIDTHS ? 2 : 1;
@@ -124,8 +116,8 @@ vec3 second_moments_of(vec2 place) {
 
 plane_bin read_bin(surface_point surface, map_area area, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
-    vec4 place = fetch_moments(area, layers * index);
-    vec4 spread = fetch_moments(area, layers * index + 1u);
+    vec4 place = filtered_layer(moment_map, area, layers * index);
+    vec4 spread = filtered_layer(moment_map, area, layers * index + 1u);
     float scale = 1.0 / max(place.x, 1e-6);
     vec4 range = binning.bins[index].range;
     plane_bin bin;
@@ -145,7 +137,7 @@ plane_bin read_bin(surface_point surface, map_area area, uint index) {
     bin.spread = 0.5 * (covariance.x + covariance.y);
     keep_shape(bin, varies);
     if (BIN_COLOUR)
-        bin.colour = colour_of_bin(surface, fetch_moments(area, layers * index + 2u) *
+        bin.colour = colour_of_bin(surface, filtered_layer(moment_map, area, layers * index + 2u) *
                                                 vec4(vec3(scale * binning.largest.y), scale));
     return bin;
 }
