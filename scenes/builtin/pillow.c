@@ -206,7 +206,7 @@ static lobe_result finish_mesh(lobe_scene *scene, lobe_mesh *mesh, const lobe_ho
     static const float placed[16] = {0.88699f, 0, -0.46178f, 0, 0, 1,           0, 0,
                                      0.46178f, 0, 0.88699f,  0, 0, seam_height, 0, 1};
     uint32_t index;
-    lobe_result status = scenes_mesh_compute_tangents(mesh, NULL, host);
+    lobe_result status = scenes_mesh_smooth_tangents(mesh, host);
     if (!status)
         status = scenes_add_mesh(scene, mesh, host, &index);
     if (!status)

@@ -127,7 +127,7 @@ static lobe_result add_cloth(lobe_scene *scene, const lobe_host *host) {
     scenes_shape_grid_indices(GRID, GRID, mesh.indices);
     status = scenes_mesh_compute_normals(&mesh, host);
     if (!status)
-        status = scenes_mesh_compute_tangents(&mesh, NULL, host);
+        status = scenes_mesh_smooth_tangents(&mesh, host);
     if (!status)
         status = scenes_place_mesh(scene, &mesh, 0, host);
     scenes_mesh_free(&mesh);

@@ -165,11 +165,12 @@ static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primiti
     lobe_release(indices);
     if (result != LOBE_OK)
         return result;
+    result = complete_frames(import, &attributes, material, mesh);
+    // Not earlier: even a triangle without area joins the tangents of its neighbours.
     import->notes.degenerate_triangles += scenes_mesh_drop_degenerate(mesh);
-    if (mesh->index_count == 0)
-        return LOBE_OK;
-    note_missing_coordinates(import, material, mesh);
-    return complete_frames(import, &attributes, material, mesh);
+    if (mesh->index_count > 0)
+        note_missing_coordinates(import, material, mesh);
+    return result;
 }
 
 static bool is_drawable(gltf_import *import, const gltf_primitive *primitive) {

@@ -37,7 +37,7 @@ lobe_result scenes_grid_mesh_make(const grid_mesh *grid, const lobe_host *host, 
     if (!status && grid->closed)
         close_normals(grid, mesh);
     if (!status)
-        status = scenes_mesh_compute_tangents(mesh, NULL, host);
+        status = scenes_mesh_smooth_tangents(mesh, host);
     if (status)
         scenes_mesh_free(mesh);
     return status;

@@ -26,14 +26,20 @@ lobe_result scenes_mesh_compute_normals(lobe_mesh *mesh, const lobe_host *host);
 /// finite, and normalises the others. `*repaired` counts the recomputed ones.
 lobe_result scenes_mesh_repair_normals(lobe_mesh *mesh, const lobe_host *host, size_t *repaired);
 
-/// Tangents along increasing u, orthonormal to the (unit) normals; w is such that the bitangent w *
-/// cross(normal, tangent) runs up the image, against v, as +Y normal maps require. `use` states the
-/// set of coordinates and their transform before the fetch, so that the x axis of a normal map is
-/// the tangent; NULL: the first set, not transformed. Where coordinates are missing or degenerate:
-/// any direction orthogonal to the normal, w = 1. A vertex whose triangles disagree about w is
-/// split in two, so vertices may be appended.
+/// Mikkelsen's tangents (MikkTSpace), as glTF 2.0 asks for: along increasing u, orthonormal to the
+/// (unit) normals; w is such that the bitangent w * cross(normal, tangent) runs up the image,
+/// against v, as +Y normal maps require. `use` states the set of coordinates and their transform
+/// before the fetch, so that the x axis of a normal map is the tangent; NULL: the first set, not
+/// transformed. Where coordinates are missing or degenerate: any direction orthogonal to the
+/// normal, w = 1. A vertex whose triangles need several tangents is split, so vertices may be
+/// appended. On failure the mesh is unchanged.
 lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                          const lobe_host *host);
+
+/// Smooth tangents of a mesh of our own, with one tangent and w = 1 at every vertex: the mean of
+/// its triangles' tangents along increasing u of the first set, weighted by area. Vertices are
+/// neither welded nor split. Not for maps that another program has baked.
+lobe_result scenes_mesh_smooth_tangents(lobe_mesh *mesh, const lobe_host *host);
 
 /// Any unit vector orthogonal to the unit vector `normal`.
 void scenes_mesh_orthogonal(const float normal[3], float tangent[3]);

@@ -1,168 +1,242 @@
+// Mikkelsen's tangent space, which glTF 2.0 asks for (section 3.7.2.1) and which most programs that
+// bake normal maps use. Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", chapter 3, and
+// mikktspace.com: corners are grouped (tangent_groups.h); each group's tangent is the mean of its
+// triangles' tangents, each laid into the plane of the vertex's normal and weighted by the angle of
+// the corner in that plane.
+
+#include <float.h>
 #include <stdint.h>
+#include <string.h>
 
+#include "scenes/mesh/adjacency.h"
 #include "scenes/mesh/mesh.h"
+#include "scenes/mesh/tangent_groups.h"
 #include "scenes/mesh/vector.h"
+#include "scenes/mesh/weld.h"
 
-// The handednesses that the triangles of a vertex require.
-enum { RIGHT_HANDED = 1, LEFT_HANDED = 2, BOTH_HANDED = 3 };
+typedef struct tangent_work {
+    lobe_mesh *mesh;
+    const lobe_texture_use *use;
+    tangent_triangle *triangles;
+    uint32_t *vertices, *across, *groups; // of each corner
+    vector3 *sums;                        // of each group
+    uint32_t copy_count;
+    uint32_t *vertex_groups; // of each vertex, then of each copy; 0: none
+    uint32_t *origins;       // of each copy
+    uint32_t *latest;        // of each group, its last copy plus one
+} tangent_work;
 
-// One triangle's contribution to the tangents of its corners.
-typedef struct triangle_frame {
-    vector3 tangent; // length: the area
-    vector3 normal;
-    bool mirrored; // coordinates run clockwise as seen on the front, image rows downwards
-} triangle_frame;
+static vector3 position_at(const tangent_work *work, uint32_t corner) {
+    return vector3_load(work->mesh->vertices[work->mesh->indices[corner]].position);
+}
 
-static void transformed_coordinates(const lobe_scene_vertex *vertex, const lobe_texture_use *use,
-                                    double uv[2]) {
-    const float *set = vertex->texture_coordinates[use->texture_coordinates];
+// ---------------------------------------------------------------------------------------------
+// Triangles
+
+static void load_coordinates(const tangent_work *work, uint32_t corner, float uv[2]) {
+    const lobe_scene_vertex *vertex = &work->mesh->vertices[work->mesh->indices[corner]];
+    const float *set = vertex->texture_coordinates[work->use->texture_coordinates];
     for (int row = 0; row < 2; row++) {
-        const float *m = use->transform[row];
-        uv[row] = (double)m[0] * set[0] + (double)m[1] * set[1] + m[2];
+        const float *m = work->use->transform[row];
+        uv[row] = (float)((double)m[0] * set[0] + (double)m[1] * set[1] + m[2]);
     }
 }
 
 // Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": solves
-// edge_k = du_k T + dv_k B for T. False where the coordinates span no area.
-static bool measure_triangle(const lobe_mesh *mesh, const uint32_t corner[3],
-                             const lobe_texture_use *use, triangle_frame *frame) {
-    double uv[3][2];
-    vector3 p[3];
-    for (int k = 0; k < 3; k++) {
-        transformed_coordinates(&mesh->vertices[corner[k]], use, uv[k]);
-        p[k] = vector3_load(mesh->vertices[corner[k]].position);
+// edge_k = du_k T + dv_k B. Whether coordinates have an area is decided in single precision, as
+// Mikkelsen's implementation does.
+static void measure_triangle(const tangent_work *work, uint32_t first, tangent_triangle *triangle) {
+    float uv[3][2];
+    for (uint32_t k = 0; k < 3; k++)
+        load_coordinates(work, first + k, uv[k]);
+    float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
+    float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
+    float area = du1 * dv2 - dv1 * du2;
+    vector3 origin = position_at(work, first);
+    vector3 edge1 = vector3_subtract(position_at(work, first + 1), origin);
+    vector3 edge2 = vector3_subtract(position_at(work, first + 2), origin);
+    vector3 along = vector3_subtract(vector3_scale(edge1, dv2), vector3_scale(edge2, dv1));
+    vector3 down = vector3_subtract(vector3_scale(edge2, du1), vector3_scale(edge1, du2));
+    triangle->mirrored = area > 0;
+    triangle->undirected =
+        !(fabsf(area) > FLT_MIN && vector3_normalise(&along, 0) && vector3_length(down) > 0);
+    triangle->tangent = area > 0 ? along : vector3_scale(along, -1);
+}
+
+static bool same_position(vector3 a, vector3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static bool is_collapsed(const tangent_work *work, uint32_t first) {
+    vector3 a = position_at(work, first), b = position_at(work, first + 1),
+            c = position_at(work, first + 2);
+    return same_position(a, b) || same_position(b, c) || same_position(c, a);
+}
+
+// Replaces the welded vertices, one for each vertex, by those of the corners.
+static void measure_triangles(tangent_work *work, const uint32_t *welded) {
+    for (uint32_t first = 0; first + 2 < work->mesh->index_count; first += 3) {
+        bool collapsed = is_collapsed(work, first);
+        for (uint32_t k = first; k < first + 3; k++)
+            work->vertices[k] = collapsed ? NO_CORNER : welded[work->mesh->indices[k]];
+        measure_triangle(work, first, &work->triangles[first / 3]);
     }
-    double du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
-    double du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
-    double determinant = du1 * dv2 - du2 * dv1;
-    double extent = du1 * du1 + dv1 * dv1 + du2 * du2 + dv2 * dv2;
-    // Below this, the direction is rounding noise of single-precision coordinates.
-    if (!(fabs(determinant) > 1e-10 * extent))
-        return false;
-    vector3 edge1 = vector3_subtract(p[1], p[0]), edge2 = vector3_subtract(p[2], p[0]);
-    frame->normal = vector3_cross(edge1, edge2);
-    frame->mirrored = determinant > 0;
-    frame->tangent = vector3_subtract(vector3_scale(edge1, dv2), vector3_scale(edge2, dv1));
-    if (!vector3_normalise(&frame->tangent, 0))
-        return false;
-    double area = 0.5 * vector3_length(frame->normal);
-    frame->tangent = vector3_scale(frame->tangent, determinant > 0 ? area : -area);
-    return true;
 }
 
-// The bitangent runs up the image, against v: for an image that is not mirrored it is cross(normal,
-// tangent). A normal that points away from the front reverses this.
-static unsigned corner_handedness(const lobe_scene_vertex *vertex, const triangle_frame *frame) {
-    bool away = vector3_dot(frame->normal, vector3_load(vertex->normal)) < 0;
-    return frame->mirrored != away ? LEFT_HANDED : RIGHT_HANDED;
+// ---------------------------------------------------------------------------------------------
+// Sums over groups
+
+// The unit vector along the part of `v` in the plane of the unit vector `normal`; zero if that part
+// is rounding.
+static vector3 lay_flat(vector3 v, vector3 normal) {
+    vector3 flat = vector3_subtract(v, vector3_scale(normal, vector3_dot(normal, v)));
+    return vector3_normalise(&flat, 1e-7 * vector3_length(v)) ? flat : (vector3){0, 0, 0};
 }
 
-static void collect_handedness(const lobe_mesh *mesh, const lobe_texture_use *use,
-                               unsigned char *handedness) {
-    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
-        const uint32_t *corner = mesh->indices + i;
-        triangle_frame frame;
-        if (!measure_triangle(mesh, corner, use, &frame))
+static double corner_angle(const tangent_work *work, uint32_t corner, vector3 normal) {
+    vector3 here = position_at(work, corner);
+    vector3 next = vector3_subtract(position_at(work, next_corner(corner)), here);
+    vector3 previous = vector3_subtract(position_at(work, previous_corner(corner)), here);
+    double cosine = vector3_dot(lay_flat(next, normal), lay_flat(previous, normal));
+    return acos(fmin(fmax(cosine, -1), 1));
+}
+
+static void sum_tangents(tangent_work *work) {
+    for (uint32_t k = 0; k < work->mesh->index_count; k++) {
+        const tangent_triangle *triangle = &work->triangles[k / 3];
+        if (work->groups[k] == 0 || triangle->undirected)
             continue;
-        for (int k = 0; k < 3; k++)
-            handedness[corner[k]] |= corner_handedness(&mesh->vertices[corner[k]], &frame);
+        vector3 normal = vector3_load(work->mesh->vertices[work->mesh->indices[k]].normal);
+        vector3 tangent =
+            vector3_scale(lay_flat(triangle->tangent, normal), corner_angle(work, k, normal));
+        vector3 *sum = &work->sums[work->groups[k]];
+        *sum = vector3_add(*sum, tangent);
     }
 }
 
-// Copies each vertex that needs both handednesses; `copies` receives the indices of the copies.
-static bool append_copies(lobe_mesh *mesh, const unsigned char *handedness, uint32_t *copies) {
-    size_t count = mesh->vertex_count;
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        copies[i] = handedness[i] == BOTH_HANDED ? (uint32_t)count++ : (uint32_t)i;
+// ---------------------------------------------------------------------------------------------
+// Vertices
+
+// A vertex belongs to the first group that uses it; other groups get copies of it. A group whose
+// corners alternate between equal vertices may get several copies of one.
+static uint32_t copy_for(tangent_work *work, uint32_t group, uint32_t origin) {
+    uint32_t latest = work->latest[group];
+    if (latest == 0 || work->origins[latest - 1] != origin) {
+        work->origins[work->copy_count] = origin;
+        work->vertex_groups[work->mesh->vertex_count + work->copy_count] = group;
+        latest = work->latest[group] = ++work->copy_count;
+    }
+    return (uint32_t)work->mesh->vertex_count + latest - 1;
+}
+
+// Replaces the corners' welded vertices by those that the mesh will have.
+static void choose_vertices(tangent_work *work) {
+    for (size_t k = 0; k < work->mesh->index_count; k++) {
+        uint32_t vertex = work->mesh->indices[k], group = work->groups[k];
+        if (work->vertex_groups[vertex] == 0)
+            work->vertex_groups[vertex] = group;
+        bool other = group != 0 && work->vertex_groups[vertex] != group;
+        work->vertices[k] = other ? copy_for(work, group, vertex) : vertex;
+    }
+}
+
+static bool append_copies(tangent_work *work) {
+    lobe_mesh *mesh = work->mesh;
+    size_t count = mesh->vertex_count + work->copy_count;
+    if (work->copy_count == 0)
+        return true;
     if (count > UINT32_MAX)
         return false;
     lobe_scene_vertex *vertices = lobe_reallocate(NULL, mesh->vertices, count, sizeof *vertices);
     if (!vertices)
         return false;
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        vertices[copies[i]] = vertices[i];
+    for (uint32_t i = 0; i < work->copy_count; i++)
+        vertices[mesh->vertex_count + i] = vertices[work->origins[i]];
+    memcpy(mesh->indices, work->vertices, mesh->index_count * sizeof *mesh->indices);
     mesh->vertices = vertices;
     mesh->vertex_count = count;
     return true;
 }
 
-static void redirect_left_handed(lobe_mesh *mesh, const lobe_texture_use *use,
-                                 const unsigned char *handedness, const uint32_t *copies) {
-    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
-        uint32_t *corner = mesh->indices + i;
-        triangle_frame frame;
-        if (!measure_triangle(mesh, corner, use, &frame))
-            continue;
-        for (int k = 0; k < 3; k++) {
-            uint32_t v = corner[k];
-            if (handedness[v] == BOTH_HANDED &&
-                corner_handedness(&mesh->vertices[v], &frame) == LEFT_HANDED)
-                corner[k] = copies[v];
-        }
-    }
-}
-
-static bool split_by_handedness(const lobe_allocator *allocator, lobe_mesh *mesh,
-                                const lobe_texture_use *use) {
-    unsigned char *handedness = lobe_allocate(allocator, mesh->vertex_count, 1);
-    uint32_t *copies = lobe_allocate(allocator, mesh->vertex_count, sizeof *copies);
-    bool done = handedness && copies;
-    if (done)
-        collect_handedness(mesh, use, handedness);
-    done = done && append_copies(mesh, handedness, copies);
-    if (done)
-        redirect_left_handed(mesh, use, handedness, copies);
-    lobe_release(handedness);
-    lobe_release(copies);
-    return done;
-}
-
-static void sum_tangents(lobe_mesh *mesh, const lobe_texture_use *use, vector3 *sums) {
-    for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
-        const uint32_t *corner = mesh->indices + i;
-        triangle_frame frame;
-        if (!measure_triangle(mesh, corner, use, &frame))
-            continue;
-        for (int k = 0; k < 3; k++) {
-            lobe_scene_vertex *vertex = &mesh->vertices[corner[k]];
-            sums[corner[k]] = vector3_add(sums[corner[k]], frame.tangent);
-            vertex->tangent[3] = corner_handedness(vertex, &frame) == LEFT_HANDED ? -1 : 1;
-        }
-    }
-}
-
 static void store_tangent(lobe_scene_vertex *vertex, vector3 sum) {
-    vector3 normal = vector3_load(vertex->normal);
-    vector3 along = vector3_scale(normal, vector3_dot(normal, sum));
-    vector3 tangent = vector3_subtract(sum, along);
-    if (vector3_normalise(&tangent, 1e-6 * vector3_length(sum)))
-        vector3_store(tangent, vertex->tangent);
+    vertex->tangent[3] = 1;
+    if (vector3_normalise(&sum, 0))
+        vector3_store(sum, vertex->tangent);
     else
         scenes_mesh_orthogonal(vertex->normal, vertex->tangent);
 }
 
+// The bitangent runs up the image, against v: for an image that is not mirrored it is cross(normal,
+// tangent).
+static void store_tangents(const tangent_work *work) {
+    lobe_mesh *mesh = work->mesh;
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        store_tangent(&mesh->vertices[i], work->sums[work->vertex_groups[i]]);
+    for (size_t k = 0; k < mesh->index_count; k++)
+        if (work->groups[k] != 0 && work->triangles[k / 3].mirrored)
+            mesh->vertices[mesh->indices[k]].tangent[3] = -1;
+}
+
+// ---------------------------------------------------------------------------------------------
+
+static bool allocate(const lobe_allocator *allocator, tangent_work *work) {
+    size_t corners = work->mesh->index_count, vertices = work->mesh->vertex_count;
+    work->triangles = lobe_allocate(allocator, corners / 3, sizeof *work->triangles);
+    work->vertices = lobe_allocate(allocator, corners, sizeof *work->vertices);
+    work->across = lobe_allocate(allocator, corners, sizeof *work->across);
+    work->groups = lobe_allocate(allocator, corners, sizeof *work->groups);
+    work->sums = lobe_allocate(allocator, corners + 1, sizeof *work->sums);
+    work->vertex_groups = lobe_allocate(allocator, vertices + corners, sizeof *work->vertex_groups);
+    work->origins = lobe_allocate(allocator, corners, sizeof *work->origins);
+    work->latest = lobe_allocate(allocator, corners + 1, sizeof *work->latest);
+    return work->triangles && work->vertices && work->across && work->groups && work->sums &&
+           work->vertex_groups && work->origins && work->latest;
+}
+
+static void release(tangent_work *work) {
+    void *const all[] = {work->triangles, work->vertices, work->across, work->groups,
+                         work->sums,      work->origins,  work->latest, work->vertex_groups};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        lobe_release(all[i]);
+}
+
+static bool weld_corners(const lobe_allocator *allocator, tangent_work *work) {
+    uint32_t *welded = lobe_allocate(allocator, work->mesh->vertex_count, sizeof *welded);
+    bool done =
+        welded && scenes_mesh_weld(allocator, work->mesh, work->use->texture_coordinates, welded);
+    if (done)
+        measure_triangles(work, welded);
+    lobe_release(welded);
+    return done;
+}
+
+static bool compute_mapped(const lobe_allocator *allocator, tangent_work *work) {
+    size_t corners = work->mesh->index_count;
+    if (!allocate(allocator, work) || !weld_corners(allocator, work) ||
+        !scenes_mesh_pair_edges(allocator, work->vertices, corners, work->across))
+        return false;
+    scenes_mesh_group_corners(work->vertices, work->across, corners, work->triangles, work->groups);
+    sum_tangents(work);
+    choose_vertices(work);
+    if (!append_copies(work))
+        return false;
+    store_tangents(work);
+    return true;
+}
+
 lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                          const lobe_host *host) {
-    const lobe_allocator *allocator = lobe_host_allocator(host);
     const lobe_texture_use none = LOBE_TEXTURE_NONE;
-    use = use ? use : &none;
-    bool mapped =
-        use->texture_coordinates < 2 && mesh->has_texture_coordinates[use->texture_coordinates];
-    vector3 *sums = NULL;
-    bool allocated = !mapped || split_by_handedness(allocator, mesh, use);
-    if (allocated)
-        sums = lobe_allocate(allocator, mesh->vertex_count, sizeof *sums);
-    if (!sums)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "mesh '%s': out of memory for tangents", mesh->name);
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        mesh->vertices[i].tangent[3] = 1;
-    if (mapped)
-        sum_tangents(mesh, use, sums);
-    for (size_t i = 0; i < mesh->vertex_count; i++)
-        store_tangent(&mesh->vertices[i], sums[i]);
-    lobe_release(sums);
-    return LOBE_OK;
+    tangent_work work = {.mesh = mesh, .use = use ? use : &none};
+    uint32_t set = work.use->texture_coordinates;
+    bool mapped = set < 2 && mesh->has_texture_coordinates[set];
+    for (size_t i = 0; !mapped && i < mesh->vertex_count; i++)
+        store_tangent(&mesh->vertices[i], (vector3){0, 0, 0});
+    bool done = !mapped || compute_mapped(lobe_host_allocator(host), &work);
+    release(&work);
+    return done ? LOBE_OK
+                : lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
+                                 "mesh '%s': out of memory for tangents", mesh->name);
 }
 
 void scenes_mesh_orthogonal(const float normal[3], float tangent[3]) {

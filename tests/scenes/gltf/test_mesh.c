@@ -301,6 +301,29 @@ static void tangents_without_direction_are_recomputed(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+// As in "a flat triangle" of tests/scenes/mesh/mikktspace.txt: the second triangle is not drawn,
+// but joins the third and fourth to the first.
+static void flat_triangles_join_the_tangents_around_them(void **state) {
+    static const float positions[] = {0, 0, 0, 2, 0, 0, 1, 0, 0, 0, 0, -2, 1, 0, 2};
+    static const float normals[] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    static const float coordinates[] = {0, 0, 1, 0, 0.5f, 0.1f, 0, 1, 0.4f, -1};
+    static const uint8_t indices[] = {0, 1, 3, 0, 2, 1, 0, 4, 2, 2, 4, 1};
+    const gltf_fixture_accessor accessors[] = {
+        {"POSITION", GLTF_FLOAT, "VEC3", false, 5, positions, sizeof positions},
+        {"NORMAL", GLTF_FLOAT, "VEC3", false, 5, normals, sizeof normals},
+        {"TEXCOORD_0", GLTF_FLOAT, "VEC2", false, 5, coordinates, sizeof coordinates},
+        {NULL, GLTF_UNSIGNED_BYTE, "SCALAR", false, 12, indices, sizeof indices}};
+    const gltf_fixture_mesh mesh = {.accessors = accessors, .accessor_count = 4};
+    lobe_scene *scene = open_mesh(*state, &mesh);
+    assert_int_equal(scene->meshes[0].vertex_count, 5);
+    assert_indices(&scene->meshes[0], (const uint32_t[]){0, 1, 3, 0, 4, 2, 2, 4, 1}, 9);
+    gltf_fixture_assert_near(scene->meshes[0].vertices[0].tangent,
+                             (const float[]){0.99724f, 0, 0.07425f, -1}, 4, 1e-4f);
+    gltf_fixture_assert_near(scene->meshes[0].vertices[1].tangent,
+                             (const float[]){0.99447f, 0, -0.10506f, -1}, 4, 1e-4f);
+    lobe_scene_destroy(&scene);
+}
+
 static void parts_that_cannot_be_drawn_are_named_once(void **state) {
     const char *json =
         "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_clearcoat\"],"
@@ -340,6 +363,7 @@ int main(void) {
         cmocka_unit_test(zero_normals_and_flat_triangles_are_mended_and_counted),
         cmocka_unit_test(tangents_of_the_file_are_made_orthonormal),
         cmocka_unit_test(tangents_without_direction_are_recomputed),
+        cmocka_unit_test(flat_triangles_join_the_tangents_around_them),
         cmocka_unit_test(parts_that_cannot_be_drawn_are_named_once),
     };
     return cmocka_run_group_tests_name("glTF meshes", tests, gltf_fixture_setup,

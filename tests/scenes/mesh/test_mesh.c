@@ -157,6 +157,28 @@ static void tangents_run_along_u(void **state) {
     scenes_mesh_free(&mesh);
 }
 
+static void smooth_tangents_are_weighted_by_area(void **state) {
+    (void)state;
+    // Areas 1 with u along x and 2 with u along x - y meet at the vertices 0 and 1.
+    static const float positions[4][2] = {{0, 0}, {0, 2}, {1, 0}, {-2, 0}};
+    static const float coordinates[4][2] = {{0, 0}, {0, 1}, {1, 0}, {-2, -1}};
+    lobe_mesh mesh;
+    assert_int_equal(scenes_mesh_allocate(&mesh, "pair", 4, 6, NULL), LOBE_OK);
+    for (int i = 0; i < 4; i++) {
+        memcpy(mesh.vertices[i].position, positions[i], sizeof positions[i]);
+        memcpy(mesh.vertices[i].texture_coordinates[0], coordinates[i], sizeof coordinates[i]);
+        mesh.vertices[i].normal[2] = 1;
+    }
+    memcpy(mesh.indices, ((const uint32_t[]){0, 2, 1, 0, 1, 3}), 6 * sizeof(uint32_t));
+    assert_int_equal(scenes_mesh_smooth_tangents(&mesh, NULL), LOBE_OK);
+    assert_int_equal(mesh.vertex_count, 4);
+    const float half = sqrtf(0.5f), x = 1 + 2 * half, y = -2 * half, length = sqrtf(x * x + y * y);
+    assert_vector(mesh.vertices[0].tangent, x / length, y / length, 0);
+    assert_vector(mesh.vertices[2].tangent, 1, 0, 0);
+    assert_vector(mesh.vertices[3].tangent, half, -half, 0);
+    scenes_mesh_free(&mesh);
+}
+
 static void tangents_follow_set_and_transform(void **state) {
     (void)state;
     lobe_mesh mesh;
@@ -271,6 +293,7 @@ int main(void) {
         cmocka_unit_test(only_bad_normals_are_repaired),
         cmocka_unit_test(positions_at_the_limit_of_float_have_normals),
         cmocka_unit_test(tangents_run_along_u),
+        cmocka_unit_test(smooth_tangents_are_weighted_by_area),
         cmocka_unit_test(tangents_follow_set_and_transform),
         cmocka_unit_test(vertices_of_both_hands_are_split),
         cmocka_unit_test(degenerate_coordinates_give_any_frame),
