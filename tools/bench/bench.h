@@ -33,14 +33,17 @@ typedef struct bench_job {
     uint32_t samples; ///< per pixel of the references
 } bench_job;
 
+enum { BENCH_REBUILT, BENCH_RETAINED, BENCH_CHANGED, BENCH_CHANGED_COST, BENCH_PROFILES };
+
 /// One filter in one scene.
 typedef struct bench_result {
     const char *scene;
     const bench_filter *filter;
-    /// Frames in which every map is rebuilt, and frames in which none is. The profiles own what the
+    /// Frames in which every map is rebuilt, frames in which none is, frames after the texels of
+    /// all maps changed, and what those cost in all (changed_frame.h). The profiles own what the
     /// summaries point to.
-    lobe_profile *profiles[2];
-    lobe_profile_summary rebuilt, retained;
+    lobe_profile *profiles[BENCH_PROFILES];
+    lobe_profile_summary rebuilt, retained, changed, changed_cost;
     uint64_t memory_bytes;  ///< peak device memory in use for the scene, its maps and the frame
     double bytes_per_texel; ///< of filtered maps, per texel of base maps; 0: no maps
     error_metrics error, error_lobe_base;
@@ -48,8 +51,8 @@ typedef struct bench_result {
 
 /// Measures all filters of the job in a scene, one result each (zeroed before; free each with
 /// bench_result_free, also after a failure). Frames of the filters alternate, so that anything that
-/// slows the machine down temporarily affects them all.
-lobe_result bench_measure(const bench_job *job, const lobe_scene *scene, const char *name,
+/// slows the machine down temporarily affects them all. Moves the scene's texels.
+lobe_result bench_measure(const bench_job *job, lobe_scene *scene, const char *name,
                           bench_result *results);
 void bench_result_free(bench_result *result);
 

@@ -410,7 +410,9 @@ static int run(int argc, char **argv) {
         .summary =
             "Measures filters in scenes: milliseconds of each pass, of frames in which every map\n"
             "is rebuilt and of frames in which the maps are retained; CPU time of the host to\n"
-            "compile and record a frame; memory; and the error against a reference with many\n"
+            "compile and record a frame; what a frame costs after the texels of all maps really\n"
+            "changed, with their upload, all CPU time of the call, and what a filter computes on\n"
+            "the host; memory; and the error against a reference with many\n"
             "samples, once of the scene as it is, and once with its base lobes converted to von\n"
             "Mises-Fisher lobes, which leaves only the error of filtering.\n"
             "Frames of the filters alternate. If the filter reference is itself measured, it\n"

@@ -2,6 +2,7 @@
 
 #include <lobe/renderer.h>
 
+#include "tools/bench/changed_frame.h"
 #include "tools/bench/timing.h"
 
 /// A supersampled frame costs as much as dozens of others, and its time varies less.
@@ -11,7 +12,7 @@
 /// retained from turn to turn.
 typedef struct bench_run {
     const bench_job *job;
-    const lobe_scene *scene;
+    lobe_scene *scene;
     const char *name;
     lobe_renderer *renderers[BENCH_MAXIMUM_FILTERS];
     lobe_image truth, truth_lobe_base;
@@ -23,7 +24,7 @@ uint32_t bench_frames(const bench_job *job, const bench_filter *filter) {
 }
 
 void bench_result_free(bench_result *result) {
-    for (int kind = 0; kind < 2; kind++)
+    for (int kind = 0; kind < BENCH_PROFILES; kind++)
         lobe_profile_destroy(&result->profiles[kind]);
 }
 
@@ -141,8 +142,25 @@ static lobe_result time_frame(const bench_run *run, size_t index, const bench_fi
     return result;
 }
 
-/// One frame of each filter with maps rebuilt, then one with maps retained. The first round (`keep`
-/// false) only warms up; supersampling filters need none.
+/// `result`: NULL to warm up.
+static lobe_result time_changed_frame(const bench_run *run, size_t index, bench_result *result) {
+    lobe_render_parameters parameters = parameters_of(run->job, &run->job->filters[index]);
+    parameters.discard = true;
+    parameters.host.progress = NULL;
+    lobe_frame frame;
+    changed_cost cost;
+    lobe_result status = changed_frame_render(run->renderers[index], run->scene, &parameters,
+                                              run->job->host, &frame, &cost);
+    if (status == LOBE_OK && result)
+        status = timing_add(result->profiles[BENCH_CHANGED], &frame, run->job->host);
+    if (status == LOBE_OK && result)
+        status = changed_cost_add(result->profiles[BENCH_CHANGED_COST], &cost);
+    lobe_frame_free(&frame);
+    return status;
+}
+
+/// One frame of each filter with maps rebuilt, one with maps retained, and one with changed texels.
+/// The first round (`keep` false) only warms up; supersampling filters need none.
 static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
                               bench_result *results) {
     lobe_result status = LOBE_OK;
@@ -152,22 +170,34 @@ static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
                              : lobe_filter_supersamples(filter->filter);
         if (left_out)
             continue;
-        status = time_frame(run, i, filter, true, keep ? results[i].profiles[0] : NULL);
+        status = time_frame(run, i, filter, true, keep ? results[i].profiles[BENCH_REBUILT] : NULL);
         if (status == LOBE_OK)
-            status = time_frame(run, i, filter, false, keep ? results[i].profiles[1] : NULL);
+            status = time_frame(run, i, filter, false,
+                                keep ? results[i].profiles[BENCH_RETAINED] : NULL);
+        if (status == LOBE_OK)
+            status = time_changed_frame(run, i, keep ? &results[i] : NULL);
     }
     return status;
 }
 
 static lobe_result open_profiles(const bench_run *run, bench_result *result) {
-    lobe_result status = lobe_profile_create(run->job->host, &result->profiles[0]);
-    return status == LOBE_OK ? lobe_profile_create(run->job->host, &result->profiles[1]) : status;
+    lobe_result status = LOBE_OK;
+    for (int kind = 0; status == LOBE_OK && kind < BENCH_PROFILES; kind++)
+        status = lobe_profile_create(run->job->host, &result->profiles[kind]);
+    return status;
 }
 
 static lobe_result summarise(bench_result *result) {
-    lobe_result status = lobe_profile_statistics(result->profiles[0], &result->rebuilt);
-    return status == LOBE_OK ? lobe_profile_statistics(result->profiles[1], &result->retained)
-                             : status;
+    lobe_profile_summary *const summaries[BENCH_PROFILES] = {
+        [BENCH_REBUILT] = &result->rebuilt,
+        [BENCH_RETAINED] = &result->retained,
+        [BENCH_CHANGED] = &result->changed,
+        [BENCH_CHANGED_COST] = &result->changed_cost,
+    };
+    lobe_result status = LOBE_OK;
+    for (int kind = 0; status == LOBE_OK && kind < BENCH_PROFILES; kind++)
+        status = lobe_profile_statistics(result->profiles[kind], summaries[kind]);
+    return status;
 }
 
 static lobe_result measure_times(const bench_run *run, bench_result *results) {
@@ -186,7 +216,7 @@ static lobe_result measure_times(const bench_run *run, bench_result *results) {
     return result;
 }
 
-lobe_result bench_measure(const bench_job *job, const lobe_scene *scene, const char *name,
+lobe_result bench_measure(const bench_job *job, lobe_scene *scene, const char *name,
                           bench_result *results) {
     bench_run run = {.job = job, .scene = scene, .name = name};
     lobe_result result = render_truths(&run);

@@ -6,19 +6,44 @@
 #include <cjson/cJSON.h>
 #include <lobe/lobe.h>
 
+#include "tools/bench/changed_frame.h"
+
 // ---------------------------------------------------------------------------------------------
 // For people
 
-static void print_passes(const bench_result *result) {
+static void print_times(const lobe_profile_times *times, const char *name) {
+    printf("    %-36s %12.3f %12.3f\n", name, times->median_milliseconds, times->p95_milliseconds);
+}
+
+static void print_passes(const bench_result *result, const lobe_profile_summary *summary) {
     printf("  %s\n", lobe_filter_name(result->filter->filter));
-    for (size_t i = 0; i < result->rebuilt.pass_count; i++) {
-        const lobe_profile_times *pass = &result->rebuilt.passes[i];
-        printf("    %-36s %12.3f %12.3f\n", pass->name, pass->median_milliseconds,
-               pass->p95_milliseconds);
-    }
-    const lobe_profile_times *host = &result->rebuilt.host;
-    printf("    %-36s %12.3f %12.3f\n", "(host: to compile and record all)",
-           host->median_milliseconds, host->p95_milliseconds);
+    for (size_t i = 0; i < summary->pass_count; i++)
+        print_times(&summary->passes[i], summary->passes[i].name);
+    print_times(&summary->host, "(host: to compile and record all)");
+}
+
+static void print_changed(const bench_result *result) {
+    const lobe_profile_times *device = &result->changed.frame, *cost = result->changed_cost.passes;
+    printf("  %-10s %10.2f %10.2f", lobe_filter_name(result->filter->filter),
+           device->median_milliseconds, device->p95_milliseconds);
+    for (int part = 0; part < CHANGED_COSTS; part++)
+        printf(" %10.2f %10.2f", cost[part].median_milliseconds, cost[part].p95_milliseconds);
+    printf("\n");
+}
+
+/// What a frame costs after all texels changed, and its passes.
+static void print_all_changed(const bench_job *job, const bench_result *results) {
+    printf("  after all texels changed, with their upload and all that the host computes\n");
+    printf("  %-10s %21s %21s %21s %21s\n", "", "device", "wall", "caller's CPU", "process's CPU");
+    printf("  %-10s", "filter");
+    for (int part = 0; part < 1 + CHANGED_COSTS; part++)
+        printf(" %10s %10s", "median ms", "p95 ms");
+    printf("\n");
+    for (size_t i = 0; i < job->filter_count; i++)
+        print_changed(&results[i]);
+    printf("  passes after all texels changed %25s %12s\n", "median ms", "p95 ms");
+    for (size_t i = 0; i < job->filter_count; i++)
+        print_passes(&results[i], &results[i].changed);
 }
 
 static void print_summary(const bench_result *result) {
@@ -41,7 +66,8 @@ static void print_scene(const bench_job *job, const bench_result *results) {
         print_summary(&results[i]);
     printf("  passes with maps rebuilt %28s %12s\n", "median ms", "p95 ms");
     for (size_t i = 0; i < job->filter_count; i++)
-        print_passes(&results[i]);
+        print_passes(&results[i], &results[i].rebuilt);
+    print_all_changed(job, results);
 }
 
 void bench_print(const bench_job *job, const bench_result *results, size_t count) {
@@ -114,10 +140,17 @@ static cJSON *describe_result(const bench_job *job, const bench_result *result) 
     add_knobs(object, filter);
     add_passes(object, "passes", &result->rebuilt);
     add_passes(object, "retained_passes", &result->retained);
+    add_passes(object, "changed_passes", &result->changed);
     add_quantiles(object, "rebuilt_ms", &result->rebuilt.frame);
     add_quantiles(object, "retained_ms", &result->retained.frame);
     add_quantiles(object, "rebuilt_host_ms", &result->rebuilt.host);
     add_quantiles(object, "retained_host_ms", &result->retained.host);
+    add_quantiles(object, "changed_ms", &result->changed.frame);
+    add_quantiles(object, "changed_host_ms", &result->changed.host);
+    const lobe_profile_times *cost = result->changed_cost.passes;
+    add_quantiles(object, "changed_wall_ms", &cost[CHANGED_WALL]);
+    add_quantiles(object, "changed_caller_cpu_ms", &cost[CHANGED_CALLER_CPU]);
+    add_quantiles(object, "changed_process_cpu_ms", &cost[CHANGED_PROCESS_CPU]);
     cJSON_AddNumberToObject(object, "memory_bytes", (double)result->memory_bytes);
     add_number(object, "bytes_per_texel", result->bytes_per_texel);
     add_error(object, "error", &result->error);

@@ -15,10 +15,10 @@
 
 /// What is to be rendered.
 typedef struct budget_picture {
-    const char *name;        ///< of the scene, as given by the user
-    const lobe_scene *scene; ///< with its environment
-    const char *lighting;    ///< see scene_options_describe
-    bool own_view;           ///< camera and lights are the scene's own
+    const char *name;     ///< of the scene, as given by the user
+    lobe_scene *scene;    ///< with its environment
+    const char *lighting; ///< see scene_options_describe
+    bool own_view;        ///< camera and lights are the scene's own
     lobe_device *device;
     uint32_t size[2];
 } budget_picture;

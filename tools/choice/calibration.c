@@ -33,7 +33,7 @@ static lobe_result make_plan(sweep_job *job) {
     return sweep_plan_make(&request, bench->host, &job->plan);
 }
 
-static lobe_result measure(const sweep_job *job, const lobe_scene *scene, sweep_results *results) {
+static lobe_result measure(const sweep_job *job, lobe_scene *scene, sweep_results *results) {
     const bench_job *bench = &job->bench;
     sweep_scene entry = {.name = scene->name};
     results->rows = calloc(job->plan.count, sizeof *results->rows);

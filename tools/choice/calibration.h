@@ -12,7 +12,7 @@
 typedef struct calibration {
     lobe_device *device;
     const lobe_host *host;
-    const lobe_scene *scene; ///< with the camera and the lights of the picture
+    lobe_scene *scene; ///< with the camera and the lights of the picture
     uint32_t size[2];
 } calibration;
 

@@ -5,19 +5,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/bench/changed_frame.h"
 #include "tools/bench/timing.h"
 
 /// Timed frames of each kind in one turn of a row; each turn also needs two untimed ones.
 #define TURN_FRAMES 2
 
 typedef struct row_times {
-    lobe_profile *rebuilt, *retained, *parts;
+    lobe_profile *rebuilt, *retained, *parts, *changed, *changed_cost;
 } row_times;
 
 /// State of the measurements of one scene.
 typedef struct scene_run {
     const sweep_job *job;
-    const lobe_scene *scene;
+    lobe_scene *scene;
     const char *name; ///< in the results
     lobe_host errors; ///< only errors pass: a filter's warnings should not repeat
     sweep_row *rows;
@@ -58,7 +59,8 @@ static double time_work(const sweep_job *job) {
     double work = 0;
     for (size_t i = 0; i < job->plan.count; i++) {
         const sweep_variant *variant = &job->plan.variants[i];
-        work += bench_frames(&job->bench, &variant->filter) * (2.0 * sample_count(variant) + 1);
+        const double kinds = job->brief ? 2 : 3;
+        work += bench_frames(&job->bench, &variant->filter) * (kinds * sample_count(variant) + 1);
     }
     return work;
 }
@@ -250,6 +252,35 @@ static lobe_result time_frames(const scene_run *run, lobe_renderer *renderer, si
     return result;
 }
 
+static lobe_result time_changed_frame(const scene_run *run, lobe_renderer *renderer, size_t index,
+                                      bool keep) {
+    const row_times *times = &run->times[index];
+    lobe_render_parameters parameters = sweep_parameters(run->job, &run->job->plan.variants[index]);
+    parameters.reference.samples = keep ? parameters.reference.samples : 1;
+    lobe_frame frame;
+    changed_cost cost;
+    lobe_result result = changed_frame_render(renderer, run->scene, &parameters,
+                                              run->job->bench.host, &frame, &cost);
+    if (result == LOBE_OK && keep && !sweep_stopped(run->job)) {
+        result = timing_add(times->changed, &frame, run->job->bench.host);
+        if (result == LOBE_OK)
+            result = changed_cost_add(times->changed_cost, &cost);
+    }
+    lobe_frame_free(&frame);
+    return result;
+}
+
+/// The same with changed texels; none in brief sweeps.
+static lobe_result time_changed_frames(const scene_run *run, lobe_renderer *renderer, size_t index,
+                                       uint32_t count) {
+    if (run->job->brief)
+        return LOBE_OK;
+    lobe_result result = time_changed_frame(run, renderer, index, false);
+    for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
+        result = time_changed_frame(run, renderer, index, true);
+    return result;
+}
+
 static lobe_result take_turn(const scene_run *run, lobe_renderer *renderer, size_t index,
                              uint32_t first) {
     const uint32_t frames = bench_frames(&run->job->bench, &run->job->plan.variants[index].filter);
@@ -257,7 +288,9 @@ static lobe_result take_turn(const scene_run *run, lobe_renderer *renderer, size
         return LOBE_OK;
     const uint32_t count = frames - first < TURN_FRAMES ? frames - first : TURN_FRAMES;
     lobe_result result = time_frames(run, renderer, index, true, count);
-    return result == LOBE_OK ? time_frames(run, renderer, index, false, count) : result;
+    if (result == LOBE_OK)
+        result = time_frames(run, renderer, index, false, count);
+    return result == LOBE_OK ? time_changed_frames(run, renderer, index, count) : result;
 }
 
 static lobe_result take_turns(const scene_run *run, lobe_renderer *renderer, sweep_copies *copies) {
@@ -313,6 +346,23 @@ static lobe_result summarise_passes(const row_times *times, sweep_row *row) {
     return result;
 }
 
+static lobe_result summarise_changed(const row_times *times, sweep_row *row) {
+    lobe_profile_summary summary;
+    row->changed_ms = row->changed_wall_ms = NAN;
+    row->changed_caller_cpu_ms = row->changed_process_cpu_ms = NAN;
+    lobe_result result = lobe_profile_statistics(times->changed, &summary);
+    if (result != LOBE_OK || summary.frame.runs == 0)
+        return result;
+    row->changed_ms = summary.frame.median_milliseconds;
+    result = lobe_profile_statistics(times->changed_cost, &summary);
+    if (result != LOBE_OK)
+        return result;
+    row->changed_wall_ms = summary.passes[CHANGED_WALL].median_milliseconds;
+    row->changed_caller_cpu_ms = summary.passes[CHANGED_CALLER_CPU].median_milliseconds;
+    row->changed_process_cpu_ms = summary.passes[CHANGED_PROCESS_CPU].median_milliseconds;
+    return LOBE_OK;
+}
+
 static lobe_result summarise(const row_times *times, sweep_row *row) {
     lobe_profile_summary summary;
     lobe_result result = summarise_passes(times, row);
@@ -327,7 +377,7 @@ static lobe_result summarise(const row_times *times, sweep_row *row) {
         row->building_ms = summary.passes[0].median_milliseconds;
         row->shading_ms = summary.passes[1].median_milliseconds;
     }
-    return result;
+    return result == LOBE_OK ? summarise_changed(times, row) : result;
 }
 
 /// Passes of a frame that built everything, which frames that only build maps of materials lack.
@@ -411,10 +461,11 @@ static lobe_result open_rows(scene_run *run, const char *scene) {
     run->times = calloc(run->job->plan.count, sizeof *run->times);
     lobe_result result = run->times ? LOBE_OK : out_of_memory(run);
     for (size_t i = 0; result == LOBE_OK && i < run->job->plan.count; i++) {
-        lobe_profile **const profiles[] = {&run->times[i].rebuilt, &run->times[i].retained,
-                                           &run->times[i].parts};
+        row_times *times = &run->times[i];
+        lobe_profile **const profiles[] = {&times->rebuilt, &times->retained, &times->parts,
+                                           &times->changed, &times->changed_cost};
         result = name_row(run, &run->job->plan.variants[i], scene, &run->rows[i]);
-        for (int k = 0; result == LOBE_OK && k < 3; k++)
+        for (int k = 0; result == LOBE_OK && k < 5; k++)
             result = lobe_profile_create(host, profiles[k]);
     }
     return result;
@@ -425,13 +476,15 @@ static void close_run(scene_run *run) {
         lobe_profile_destroy(&run->times[i].rebuilt);
         lobe_profile_destroy(&run->times[i].retained);
         lobe_profile_destroy(&run->times[i].parts);
+        lobe_profile_destroy(&run->times[i].changed);
+        lobe_profile_destroy(&run->times[i].changed_cost);
     }
     free(run->times);
     sweep_path_free(run->job, &run->path);
     sweep_truth_free(&run->truth);
 }
 
-lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,
+lobe_result sweep_measure(const sweep_job *job, lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows) {
     lobe_host host = *job->bench.host;
     scene_run run = {.job = job,

@@ -47,8 +47,11 @@ typedef struct sweep_row {
     double rebuilt_ms, rebuilt_p95_ms;   ///< every map of materials built in the frame
     double retained_ms, retained_p95_ms; ///< no map built
     double building_ms, shading_ms;      ///< parts of rebuilt_ms: passes that build, all others
-    double environment_ms;               ///< passes that prepare the environment, in none of them
-    sweep_pass *passes;                  ///< of a frame in which every map is built
+    /// After the texels of all maps changed: time of the device, and of both calls in all, as in
+    /// tools/bench/changed_frame.h. NAN: not measured.
+    double changed_ms, changed_wall_ms, changed_caller_cpu_ms, changed_process_cpu_ms;
+    double environment_ms; ///< passes that prepare the environment, in none of them
+    sweep_pass *passes;    ///< of a frame in which every map is built
     size_t pass_count;
     uint64_t memory_bytes;         ///< most device memory in use: scene, maps and frame
     double bytes_per_texel;        ///< of filtered maps, for each texel of base maps; 0: no maps

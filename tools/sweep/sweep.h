@@ -153,10 +153,11 @@ double sweep_scene_work(const sweep_job *job);
 ///
 /// In every round each row has a turn in one renderer: a frame with its maps rebuilt that only
 /// warms up (switching between rows frees and allocates maps, and on a CPU memory is slow when
-/// first touched), timed frames with maps rebuilt, and the same with maps retained. So only one
-/// row's maps are on the device at a time, however many rows there are, and yet the frames of all
-/// rows are spread over the same minutes.
-lobe_result sweep_measure(const sweep_job *job, const lobe_scene *scene, sweep_scene *entry,
+/// first touched), timed frames with maps rebuilt, the same with maps retained, and, unless the
+/// sweep is brief, the same after all texels changed, which leaves the scene's texels moved. So
+/// only one row's maps are on the device at a time, however many rows there are, and yet the frames
+/// of all rows are spread over the same minutes.
+lobe_result sweep_measure(const sweep_job *job, lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows);
 
 // ---------------------------------------------------------------------------------------------

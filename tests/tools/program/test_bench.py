@@ -34,12 +34,14 @@ def check_error(error):
 
 
 def check_result(result):
-    times = ("rebuilt_ms", "retained_ms", "rebuilt_host_ms", "retained_host_ms")
+    times = ("rebuilt_ms", "retained_ms", "changed_ms", "rebuilt_host_ms", "retained_host_ms",
+             "changed_host_ms", "changed_wall_ms", "changed_caller_cpu_ms",
+             "changed_process_cpu_ms")
     check_keys(result, "scene", "filter", "size", "knobs", "passes", *times,
                "memory_bytes", "bytes_per_texel", "error", "error_lobe_base")
     check(result["size"] == [48, 32], str(result["size"]))
-    check(result["passes"], "no passes")
-    for one in result["passes"]:
+    check(result["passes"] and result["changed_passes"], "no passes")
+    for one in result["passes"] + result["changed_passes"]:
         check(sorted(one) == ["median_ms", "name", "p95_ms"], str(one))
         check_quantiles(one, "median_ms", "p95_ms")
     for name in times:
@@ -87,6 +89,25 @@ def test_what_is_measured_makes_sense():
           "building maps takes time")
     check(0 < results["reference"]["error"]["relative_l2"] <
           results["direct"]["error"]["relative_l2"], "the reference is nearer to the truth")
+
+
+def test_changed_texels_are_paid_for():
+    result, bench = measure(fresh_folder("changed"), "tablecloth", "--filters", "direct,moments",
+                            *QUICK)
+    direct, moments = bench["results"]
+    check("caller's CPU" in result.stdout, report(result))
+    for one in bench["results"]:
+        built, changed = ([entry["name"] for entry in one[key]]
+                          for key in ("passes", "changed_passes"))
+        check(built == changed, f"{built} is not {changed}")
+        wall, caller, process = (one[f"changed_{name}_ms"]["median"]
+                                 for name in ("wall", "caller_cpu", "process_cpu"))
+        check(wall > one["changed_ms"]["median"], "the host takes no time")
+        check(process > 0.9 * caller, "the caller is no part of the process")
+    # It chooses its bins anew, on the host.
+    added = [one["changed_caller_cpu_ms"]["median"] - one["changed_host_ms"]["median"]
+             for one in (direct, moments)]
+    check(added[1] > 5 * added[0], str(added))
 
 
 def test_two_truths():

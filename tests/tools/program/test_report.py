@@ -68,7 +68,9 @@ def one_row(scene, name, factor, varied="", value="a"):
             "settings": [{"name": "knob<1>", "value": value}, {"name": "probes", "value": "1"}],
             "varied": varied, "rebuilt_ms": total, "rebuilt_p95_ms": 1.1 * total,
             "retained_ms": 0.75 * total, "retained_p95_ms": 0.8 * total,
-            "building_ms": 0.25 * total, "shading_ms": 0.75 * total, "passes": passes(name, total),
+            "building_ms": 0.25 * total, "shading_ms": 0.75 * total, "changed_ms": 1.2 * total,
+            "changed_wall_ms": 2.5 * total, "changed_caller_cpu_ms": 0.4 * total,
+            "changed_process_cpu_ms": 3.5 * total, "passes": passes(name, total),
             "memory_bytes": 1 << 25, "bytes_per_texel": BYTES[name], "error": metrics(error),
             "error_lobe_base": metrics(0.8 * error),
             "flicker": -1 if name == "reference" else 0.6 * error,
@@ -218,6 +220,8 @@ def expected_cells(row):
     scale = 1 + 0.07 * SCENES.index(row["scene"]) * len("reference")
     gain = worth * 0.75 * MILLISECONDS["reference"] * scale / 64 / row["retained_ms"]
     return [row["rebuilt_ms"], row["retained_ms"], row["building_ms"], row["shading_ms"],
+            row["changed_ms"], row["changed_wall_ms"], row["changed_caller_cpu_ms"],
+            row["changed_process_cpu_ms"],
             row["bytes_per_texel"], row["memory_bytes"] / 2 ** 20, row["error"]["relative_l2"],
             row["error"]["relative_l1"], row["error"]["flip"],
             row["error_lobe_base"]["relative_l2"], row["error"]["mean_ratio"], row["flicker"],

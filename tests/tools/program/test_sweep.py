@@ -18,7 +18,8 @@ FILTERS = ["direct", "mipmap"]
 QUICK = ["--sweep", "--filters", ",".join(FILTERS), "--size", "64x36", "--samples", "4",
          "--frames", "1", "--stations", "2", "--path-samples", "2"]
 TIMES = ["rebuilt_ms", "rebuilt_p95_ms", "retained_ms", "retained_p95_ms", "building_ms",
-         "shading_ms"]
+         "shading_ms", "changed_ms", "changed_wall_ms", "changed_caller_cpu_ms",
+         "changed_process_cpu_ms"]
 ERRORS = ["flip", "mean_ratio", "psnr", "relative_l1", "relative_l2", "relative_mse", "rmse"]
 
 

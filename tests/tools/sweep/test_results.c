@@ -32,6 +32,10 @@ static sweep_row rows[] = {
      .retained_p95_ms = 85.75,
      .building_ms = 12.5,
      .shading_ms = 80.25,
+     .changed_ms = 95.5,
+     .changed_wall_ms = 240,
+     .changed_caller_cpu_ms = 120.5,
+     .changed_process_cpu_ms = 239,
      .passes = passes,
      .pass_count = 2,
      .memory_bytes = 6000000001,
@@ -149,6 +153,9 @@ static void assert_rows_equal(const sweep_row *a, const sweep_row *b) {
     }
     assert_string_equal(a->varied, b->varied);
     assert_true(a->rebuilt_ms == b->rebuilt_ms && a->rebuilt_p95_ms == b->rebuilt_p95_ms);
+    assert_true(a->changed_ms == b->changed_ms && a->changed_wall_ms == b->changed_wall_ms);
+    assert_true(a->changed_caller_cpu_ms == b->changed_caller_cpu_ms &&
+                a->changed_process_cpu_ms == b->changed_process_cpu_ms);
     assert_true(a->retained_ms == b->retained_ms && a->retained_p95_ms == b->retained_p95_ms);
     assert_true(a->building_ms == b->building_ms && a->shading_ms == b->shading_ms);
     assert_true(a->memory_bytes == b->memory_bytes && a->bytes_per_texel == b->bytes_per_texel);
@@ -243,6 +250,10 @@ static void what_older_files_lack_is_unknown(void **state) {
     write_changed("\"supersampling\"", "\"sampling\"");
     assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
     assert_int_equal(read.scenes[0].supersampling_count, 0);
+    sweep_results_free(&read);
+    write_changed("\"changed_wall_ms\"", "\"changing_wall_ms\"");
+    assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);
+    assert_true(isnan(read.rows[0].changed_wall_ms));
     sweep_results_free(&read);
     write_changed("\"mean_ratio\"", "\"ratio\"");
     assert_int_equal(sweep_results_read(results_file(), NULL, &read), LOBE_OK);

@@ -56,6 +56,10 @@ class Row:
     error_lobe_base: Errors
     flicker: float
     environment_ms: float = NAN
+    changed_ms: float = NAN
+    changed_wall_ms: float = NAN
+    changed_caller_cpu_ms: float = NAN
+    changed_process_cpu_ms: float = NAN
     picture: str | None = None
     worth: float = field(default=NAN, init=False)  # in samples, see supersampling.py
     gain: float = field(default=NAN, init=False)  # time of those samples, over retained_ms
