@@ -72,6 +72,12 @@ static lobe_result check_model(const number_owner *owner, const lobe_material *m
         lobe_result result = passes_check_number(owner, "metallic", material->metallic, 0, 1);
         return result ? result : passes_check_number(owner, "roughness", material->roughness, 0, 1);
     }
+    if (material->distribution != LOBE_DISTRIBUTION_BLINN_PHONG &&
+        material->distribution != LOBE_DISTRIBUTION_VMF)
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                              "%s: material '%s': half-vector lobes are Blinn-Phong or von "
+                              "Mises-Fisher lobes, not those of distribution %d",
+                              owner->where, material->name, (int)material->distribution);
     if (material->lobe_count < 1 || material->lobe_count > LOBE_MATERIAL_MAXIMUM_LOBES)
         return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
                               "%s: material '%s' has %u lobes; there may be 1 to %d", owner->where,

@@ -59,8 +59,8 @@ typedef enum lobe_material_model {
 
 /// Shape of the base lobe, which also defines what "width" means.
 typedef enum lobe_distribution {
-    LOBE_DISTRIBUTION_GGX,         ///< roughness [0, 1], alpha = roughness squared
-    LOBE_DISTRIBUTION_BECKMANN,    ///< roughness [0, 1], alpha = roughness squared
+    LOBE_DISTRIBUTION_GGX,         ///< microfacets only: roughness [0, 1], alpha = its square
+    LOBE_DISTRIBUTION_BECKMANN,    ///< microfacets only: roughness [0, 1], alpha = its square
     LOBE_DISTRIBUTION_BLINN_PHONG, ///< exponent s [0, 1e6], normalised by (s+1)/2pi
     LOBE_DISTRIBUTION_VMF,         ///< concentration kappa [0, 1e6] of a von Mises-Fisher lobe
 } lobe_distribution;

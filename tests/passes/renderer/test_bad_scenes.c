@@ -111,6 +111,10 @@ static void make_model_unknown(lobe_scene *scene) {
     scene->materials[0].model = 7;
 }
 
+static void make_lobes_of_microfacets(lobe_scene *scene) {
+    scene->materials[0].distribution = LOBE_DISTRIBUTION_BECKMANN;
+}
+
 static void make_lobe_long(lobe_scene *scene) {
     scene->materials[0].lobes[0].direction[2] = 2;
 }
@@ -173,6 +177,7 @@ static void broken_scenes_are_refused(void **state) {
         {"normal_scale is -inf", make_normal_scale_infinite},
         {"occlusion_strength is 1.5; expected a number in [0, 1]", make_occlusion_too_strong},
         {"model is 7", make_model_unknown},
+        {"not those of distribution 1", make_lobes_of_microfacets},
         {"direction is (0, 0, 2)", make_lobe_long},
         {"width is -3", make_lobe_width_negative},
         {"roughness is 1.25", make_rough_beyond_one},
