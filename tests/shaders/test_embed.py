@@ -1,5 +1,6 @@
 """The build step that compiles shaders: an error in one stops it, and leaves no table."""
 
+import re
 import subprocess
 import sys
 import tempfile
@@ -7,7 +8,7 @@ from pathlib import Path
 
 import tap
 
-SCRIPT, COMPILER, VALIDATOR = sys.argv[1:4]
+SCRIPT, COMPILER, VALIDATOR, OPTIMISER = sys.argv[1:5]
 GOOD = "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {}\n"
 LAYERED = """#version 460
 #extension GL_GOOGLE_include_directive : require
@@ -15,6 +16,21 @@ LAYERED = """#version 460
 layout(local_size_x = 1) in;
 void main() { f(); }
 """
+
+# Numbers of the SPIR-V specification.
+OP_FUNCTION_CALL, OP_DECORATE = 57, 71
+SPECIALISATION, BINDING = 1, 33
+
+
+def operations(words, code):
+    """The operands of each instruction of this kind in a module of SPIR-V."""
+    found, at = [], 5
+    while at < len(words):
+        length = words[at] >> 16
+        if words[at] & 0xffff == code:
+            found.append(words[at + 1:at + length])
+        at += length
+    return found
 
 
 def embed(sources, compiler=COMPILER):
@@ -25,8 +41,8 @@ def embed(sources, compiler=COMPILER):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
         done = subprocess.run(
-            [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR, "--folder",
-             folder, "--table", "table", "--output", output, "--depfile", f"{scratch}/table.d"],
+            [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR,
+             "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output, "--depfile", f"{scratch}/table.d"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         return done.returncode, done.stdout, output.read_text() if output.exists() else None
 
@@ -54,6 +70,21 @@ def test_filters_and_macros_give_variants():
     assert "table_count = 4;" in table
     status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
     assert status == 0 and '"pass_flat.comp"' in table and "aov" not in table
+
+
+def test_unused_bindings_and_constants_stay():
+    status, _, table = embed({"a.comp": """#version 460
+layout(local_size_x = 1) in;
+layout(constant_id = 3) const uint UNUSED = 5;
+layout(binding = 2) uniform sampler2D unused;
+void f() {}
+void main() { f(); }
+"""})
+    assert status == 0
+    words = [int(word, 16) for word in re.findall(r"0x([0-9a-f]{8}),", table)]
+    assert operations(words, OP_FUNCTION_CALL) == [], "a function is not inlined"
+    decorations = [operands[1:] for operands in operations(words, OP_DECORATE)]
+    assert [SPECIALISATION, 3] in decorations and [BINDING, 2] in decorations, decorations
 
 
 def test_faulty_source_is_named():
