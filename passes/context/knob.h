@@ -48,6 +48,8 @@ typedef struct filter_knob {
     /// A choice that decides what the filter's `prepare` keeps: each has slots of its own, so that
     /// two views with different choices prepare a material once each.
     bool decides_slots;
+    /// Name of the Vulkan feature without which a device only allows the default; NULL: none.
+    const char *needs;
 } filter_knob;
 
 #endif

@@ -33,8 +33,15 @@ static const filter_knob height_knob = {
     .feeds = KNOB_FEEDS_FILTER(leadr_knobs, height),
 };
 static const filter_knob *const knobs[] = {
-    &grid_knob,        &base_plane_knob,       &height_knob,         &passes_knob_probes,
-    &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
+    &grid_knob,
+    &base_plane_knob,
+    &height_knob,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 static const char *ignores(const lobe_material *material) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
 
 void lobe_settings_default(const lobe_filter *filter, lobe_settings *settings) {
     if (!settings)
@@ -84,6 +85,30 @@ lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings
         snprintf(text, sizeof text, "%g", settings->values[i]);
         if (!allows(knob, settings->values[i]))
             return refuse_number(knob, text, host);
+    }
+    return LOBE_OK;
+}
+
+/// The feature of that name if the device lacks it; otherwise NULL. `name` may be NULL.
+static const lobe_device_feature *find_missing(const lobe_device_information *device,
+                                               const char *name) {
+    for (size_t i = 0; name && i < device->feature_count; i++)
+        if (!strcmp(device->features[i].name, name) && !device->features[i].present)
+            return &device->features[i];
+    return NULL;
+}
+
+lobe_result passes_settings_check_device(const lobe_filter *filter, const lobe_settings *settings,
+                                         const lobe_device_information *device,
+                                         const lobe_host *host) {
+    for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
+        const filter_knob *knob = passes_filter_knob(filter, i);
+        const lobe_device_feature *missing = find_missing(device, knob->needs);
+        if (missing && settings->values[i] != knob->description.initial)
+            return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
+                                  "knob '%s' must be %g: the device '%s' lacks %s (%s)",
+                                  knob->description.name, knob->description.initial, device->name,
+                                  missing->name, missing->use);
     }
     return LOBE_OK;
 }

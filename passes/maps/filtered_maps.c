@@ -26,6 +26,17 @@ const filter_knob passes_knob_probes = {
                     .sweep = "2,4"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_PROBES),
 };
+const filter_knob passes_knob_anisotropy = {
+    .description = {.name = "anisotropy",
+                    .summary = "how much longer than wide the device's own sampler may take the "
+                               "area of one probe; 1: round. Its texels are the device's choice",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 16,
+                    .initial = 1},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_ANISOTROPY),
+    .needs = "samplerAnisotropy",
+};
 const filter_knob passes_knob_bias = {
     .description = {.name = "bias",
                     .summary = "added to the MIP level: below 0 sharper, above 0 smoother",
@@ -65,10 +76,12 @@ lobe_format passes_filtered_map_format(const filter_context *context) {
                                                                   : LOBE_FORMAT_RGBA16_FLOAT;
 }
 
-lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32_t map) {
+lobe_sampler passes_filtered_map_sampler(const filter_context *context,
+                                         const device_material *material, uint32_t map) {
     lobe_sampler sampler = passes_device_map_sampler(material, map);
     sampler.texels = LOBE_SAMPLE_LINEAR;
     sampler.levels = LOBE_SAMPLE_LINEAR;
+    sampler.maximum_anisotropy = (float)passes_knob_value(context, &passes_knob_anisotropy);
     return sampler;
 }
 
@@ -161,7 +174,7 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
             build ? filtered_map(context, index, map)
                   : lobe_graph_import_texture(context->graph, context->scene->white);
         passes_appearance_bind(appearance, filtered_names[map], resource,
-                               passes_filtered_map_sampler(material, map));
+                               passes_filtered_map_sampler(context, material, map));
         if (build)
             filtered |= 1u << map;
         if (is_like_lobes(material, map))

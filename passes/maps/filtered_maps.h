@@ -12,8 +12,9 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t material
 /// The format of filtered maps that the knob "storage" selects.
 lobe_format passes_filtered_map_format(const filter_context *context);
 
-/// Trilinear, with the wrapping of the material's map.
-lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32_t map);
+/// Trilinear, as anisotropic as the knob says, with the wrapping of the material's map.
+lobe_sampler passes_filtered_map_sampler(const filter_context *context,
+                                         const device_material *material, uint32_t map);
 
 /// Knobs of all filters that read filtered maps: put them last in a filter's list.
 ///
@@ -23,7 +24,8 @@ lobe_sampler passes_filtered_map_sampler(const device_material *material, uint32
 /// 0.1338; checkerboard 0.646, 0.627; rusted metal on a sphere 0.170, 0.129.
 ///
 /// curvature: 1 is the variance of the interpolated normals under the pixel's box.
-extern const filter_knob passes_knob_probes, passes_knob_bias, passes_knob_curvature;
+extern const filter_knob passes_knob_probes, passes_knob_anisotropy, passes_knob_bias,
+    passes_knob_curvature;
 
 /// The format of maps of numbers that lie between 0 and 1, or are directions.
 /// float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs

@@ -41,7 +41,7 @@ void passes_lobe_map_bind(const filter_context *context, uint32_t material, cons
     lobe_resource resource =
         map ? map->resource : lobe_graph_import_texture(context->graph, context->scene->white);
     passes_appearance_bind(appearance, binding, resource,
-                           passes_filtered_map_sampler(uploaded, grid.map));
+                           passes_filtered_map_sampler(context, uploaded, grid.map));
     if (!map)
         return;
     appearance->bytes = passes_reduced_map_bytes(map, format);

@@ -54,7 +54,11 @@ static lobe_result choose_filter(rendering *r, const lobe_filter **filter) {
     lobe_settings_default(*filter, &r->settings);
     if (r->parameters->settings)
         r->settings = *r->parameters->settings;
-    return passes_settings_check(*filter, &r->settings, host);
+    result = passes_settings_check(*filter, &r->settings, host);
+    return result == LOBE_OK
+               ? passes_settings_check_device(*filter, &r->settings,
+                                              lobe_device_describe(r->renderer->device), host)
+               : result;
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -27,8 +27,9 @@
 // uint, bit MAP_...: the map has the same size and coordinates as that of the lobes.
 #define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 9)
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
-#define SPECIALISE_ONE_HUE  (SPECIALISE_FILTER + 10)
-#define SPECIALISE_CLUSTERS (SPECIALISE_FILTER + 11) // uint, CLUSTERS_...
+#define SPECIALISE_ONE_HUE    (SPECIALISE_FILTER + 10)
+#define SPECIALISE_CLUSTERS   (SPECIALISE_FILTER + 11) // uint, CLUSTERS_...
+#define SPECIALISE_ANISOTROPY (SPECIALISE_FILTER + 12) // uint, [1, 16]
 
 // Numbers of the filter's knobs (see knobs.h).
 struct lobes_knobs {

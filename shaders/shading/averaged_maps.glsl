@@ -42,7 +42,7 @@ float width_from_average(float average) {
 vec4 fetch_averages(map_area area, surface_point surface) {
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(parameter_map, probe_position(area, i), max(area.level - 1.0, 0.0));
+        sum += fetch_probe(parameter_map, area, i);
     sum /= float(probes_of(area));
     if (may_see_level_0(lobe_map())) {
         vec3 normal = normals_of_level_0(surface, area.level, 1.0).mean;

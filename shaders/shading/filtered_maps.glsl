@@ -9,6 +9,7 @@
 #include "shading/unfiltered_maps.glsl"
 
 layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
+layout(constant_id = SPECIALISE_ANISOTROPY) const uint ANISOTROPY = 1; // of a probe, at most
 layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
@@ -26,7 +27,9 @@ const float SLACK = 0.25;
 struct map_area {
     vec2 centre; // texture coordinates
     vec2 stride; // from probe to probe, along the major axis
-    float level; // of the base map, at least 0
+    vec2 along;  // axes of a probe's ellipse, for an anisotropic sampler
+    vec2 across;
+    float level; // of the base map, at least 0; that of a round probe
     uint probes;
 };
 
@@ -55,6 +58,11 @@ map_area area_of(int map, vec2 size, surface_point surface) {
     area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
     float probes = float(probes_of(area));
     area.stride = pixel.direction * (pixel.major_axis / probes) / size;
+    // The bias is a factor of the width that a sampler filters. The length must not fall below the
+    // pixel's: its ends would not be seen.
+    float factor = exp2(knobs.level_bias);
+    area.along = max(factor, 1.0) * area.stride;
+    area.across = factor * vec2(-pixel.direction.y, pixel.direction.x) * pixel.minor_axis / size;
     area.level = max(level_of(pixel, probes) + knobs.level_bias, may_see_level_0(map) ? 0.0 : 1.0);
     return area;
 }
@@ -82,11 +90,26 @@ vec2 probe_position(map_area area, uint probe) {
     return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
 }
 
+// One probe of a filtered map; the second, of one of its layers. An anisotropic sampler takes the
+// level of the ellipse's width, and spreads its own samples along the length. Gradients of texture
+// coordinates fit any map's size, so that a filtered map's own level 0 is again level 1.
+vec4 fetch_probe(sampler2D map, map_area area, uint probe) {
+    vec2 position = probe_position(area, probe);
+    return ANISOTROPY > 1u ? textureGrad(map, position, area.along, area.across)
+                           : textureLod(map, position, max(area.level - 1.0, 0.0));
+}
+
+vec4 fetch_probe(sampler2DArray map, uint layer, map_area area, uint probe) {
+    vec3 position = vec3(probe_position(area, probe), layer);
+    return ANISOTROPY > 1u ? textureGrad(map, position, area.along, area.across)
+                           : textureLod(map, position, max(area.level - 1.0, 0.0));
+}
+
 // The mean of one layer of a filtered map over the area.
 vec4 filtered_layer(sampler2DArray map, map_area area, uint layer) {
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i)
-        sum += textureLod(map, vec3(probe_position(area, i), layer), max(area.level - 1.0, 0.0));
+        sum += fetch_probe(map, layer, area, i);
     return sum / float(probes_of(area));
 }
 
@@ -115,11 +138,10 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
         area = area_of(map, vec2(textureSize(base, 0)), surface);
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i) {
-        vec2 position = probe_position(area, i);
-        vec4 value = textureLod(filtered, position, max(area.level - 1.0, 0.0));
+        vec4 value = fetch_probe(filtered, area, i);
         if (may_see_level_0(map))
-            value = mix(filterable(map, textureLod(base, position, 0.0), surface), value,
-                        min(area.level, 1.0));
+            value = mix(filterable(map, textureLod(base, probe_position(area, i), 0.0), surface),
+                        value, min(area.level, 1.0));
         sum += value;
     }
     return sum / float(probes_of(area));

@@ -64,9 +64,11 @@ static const filter_knob storage_knob = {
          .sweep = "float16,float32"},
 };
 static const filter_knob *const knobs[] = {
-    &partition_knob,        &bins_knob,          &colour_knob,
-    &least_share_knob,      &passes_knob_probes, &passes_knob_bias,
-    &passes_knob_curvature, &storage_knob,       NULL,
+    &partition_knob,     &bins_knob,
+    &colour_knob,        &least_share_knob,
+    &passes_knob_probes, &passes_knob_anisotropy,
+    &passes_knob_bias,   &passes_knob_curvature,
+    &storage_knob,       NULL,
 };
 
 static lobe_format format_of(const filter_context *context) {

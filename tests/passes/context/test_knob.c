@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include <lobe/vulkan.h>
+
 #include "engine/graph/state.h"
 #include "engine/shader/shader.h"
 #include "passes/context/filter.h"
@@ -91,6 +93,26 @@ static void choices_are_constants_and_numbers_are_uniforms(void **state) {
                 assert_int_equal(knob->description.kind, LOBE_KNOB_CHOICE);
         }
     }
+}
+
+/// Otherwise a misspelt feature would count as present, and a required one is never missing.
+static void knobs_need_features_that_devices_may_lack(void **state) {
+    (void)state;
+    size_t count, needed = 0;
+    const lobe_device_feature *features = lobe_vulkan_feature_list(&count);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const filter_knob *knob;
+        for (size_t j = 0; (knob = passes_filter_knob(lobe_filter_get(i), j)); j++)
+            for (size_t k = 0; knob->needs && k <= count; k++) {
+                assert_true(k < count);
+                if (strcmp(features[k].name, knob->needs) != 0)
+                    continue;
+                assert_false(features[k].required);
+                needed++;
+                break;
+            }
+    }
+    assert_true(needed > 0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -190,6 +212,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_the_same_in_glsl),
         cmocka_unit_test(choices_are_constants_and_numbers_are_uniforms),
+        cmocka_unit_test(knobs_need_features_that_devices_may_lack),
         cmocka_unit_test(every_choice_reaches_its_constant),
         cmocka_unit_test(c_reads_a_knob_by_its_entry),
     };

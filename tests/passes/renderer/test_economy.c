@@ -323,8 +323,8 @@ static void a_moved_camera_rebuilds_camera_space_only(void **state) {
 }
 
 static void knobs_of_shading_rebuild_nothing(void **state) {
-    static const char *const knobs[] = {"epsilon0=0.5", "epsilon1=0.5", "blend=0.3", "probes=4",
-                                        "bias=1",       "view=lobes",   "base=lobe"};
+    static const char *const knobs[] = {"epsilon0=0.5", "epsilon1=0.5", "blend=0.3",  "probes=4",
+                                        "anisotropy=4", "bias=1",       "view=lobes", "base=lobe"};
     fixture *f = *state;
     lobe_scene *scene = varied_scene();
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
@@ -581,7 +581,7 @@ static void unused_outputs_are_compiled_out(void **state) {
 static void choices_are_constants_of_the_shader(void **state) {
     static const char *const knobs[] = {"subdivision=0", "subdivision=1", "threshold=dispersion",
                                         "probes=4",      "view=lobes",    "base=lobe",
-                                        "space=object",  "view=level"};
+                                        "space=object",  "view=level",    "anisotropy=4"};
     enum { COUNT = sizeof knobs / sizeof *knobs };
     fixture *f = *state;
     lobe_scene *scene = varied_scene();

@@ -71,6 +71,7 @@ static void knobs_are_valid(void **state) {
         {"lobes", "storage=float16", NULL},      {"mipmap", "storage=float16", NULL},
         {"lobes", "threshold=dispersion", NULL}, {"lobes", "probes=4", "view=level"},
         {"mipmap", "probes=4", "bias=1"},        {"direct", "base=lobe", NULL},
+        {"lobes", "anisotropy=8", NULL},         {"mipmap", "anisotropy=4", "probes=2"},
         {"lobes", "samples=auto", NULL},         {"direct", "samples=2", "view=samples"},
     };
     fixture *f = *state;

@@ -155,7 +155,8 @@ def test_filters_are_listed_with_their_knobs():
     text = succeeds("filters").stdout
     for words in ("direct: ", "mipmap: ", "lobes: ", "reference: ", "Xu et al. 2017",
                   "epsilon0     0.95  [0, 1]", "epsilon1     0.85  [0, 1]",
-                  "probes       1  [1, 16] whole", "{radiance, lobes, level, samples}"):
+                  "probes       1  [1, 16] whole", "anisotropy   1  [1, 16] whole",
+                  "{radiance, lobes, level, samples}"):
         check(words in text, f"no '{words}' in {text}")
 
 
