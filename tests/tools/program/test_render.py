@@ -247,4 +247,9 @@ def test_material_folder():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), under_sanitizers=(
+        test_both_outputs_at_once, test_metadata, test_depth, test_layers,
+        test_frames_keep_their_maps, test_graph, test_lights,
+        test_options_that_do_nothing_are_told, test_progress_on_a_terminal,
+        test_device_from_the_environment, test_gltf_file, test_an_empty_picture_is_explained,
+        test_material_folder)))

@@ -603,4 +603,10 @@ def test_a_browser_draws_marks_where_they_are():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), under_sanitizers=(
+        test_nothing_is_fetched, test_wide_pictures_are_reduced_and_a_part_is_kept,
+        test_what_draws_it_may_be_missing, test_a_missing_picture_is_named,
+        test_a_damaged_picture_is_named, test_pictures_of_other_sizes_are_refused,
+        test_broken_results_are_refused, test_too_many_filters_are_refused,
+        test_too_many_rows_are_refused, test_broken_targets_are_refused,
+        test_a_folder_that_cannot_be_made_is_told)))
