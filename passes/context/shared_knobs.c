@@ -13,6 +13,8 @@ static const char *const level_blends[] = {"trilinear", "blended", NULL};
 static const char *const horizons[] = {"ignored", "clipped", "faded", NULL};
 static const char *const scatterings[] = {"single", "multiple", NULL};
 
+static const char *const normal_mappings[] = {"classic", "microfacet", NULL};
+
 static const char environment_summary[] =
     "how light from an environment is integrated: over all its texels; with one fetch from its MIP "
     "chain; with a few fetches from levels filtered with lobes; or over a grid of samples";
@@ -135,6 +137,16 @@ const filter_knob passes_knob_scattering = {
                     .maximum = 1,
                     .choices = scatterings},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_MULTIPLE_SCATTERING),
+};
+const filter_knob passes_knob_normal_mapping = {
+    .description = {.name = "normal_mapping",
+                    .summary = "texels' facets lie in the surface, as in engines, and are black "
+                               "where they face away; or they tilt out of it, hide what is behind "
+                               "them, and lose no light",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = normal_mappings},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_NORMAL_MAPPING),
 };
 
 const filter_knob *const passes_shared_knobs[] = {

@@ -16,4 +16,7 @@ extern const filter_knob passes_knob_environment, passes_knob_environment_size,
 /// their samples takes one sample of the environment.
 extern const filter_knob passes_knob_reference_environment;
 
+/// Of filters whose surfaces can be closed.
+extern const filter_knob passes_knob_normal_mapping;
+
 #endif

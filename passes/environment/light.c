@@ -24,8 +24,10 @@ static uint32_t method_of(const filter_context *context) {
                                                                         : method;
 }
 
+/// Whether light is reflected more than once: by microfacets, or by the facets of texels.
 static bool scatters(const filter_context *context) {
-    return passes_knob_choice(context, &passes_knob_scattering) > 0;
+    return passes_knob_choice(context, &passes_knob_scattering) > 0 ||
+           passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
 }
 
 /// Whether lobes between two levels are blended from two cubes.

@@ -1,4 +1,5 @@
 #include "passes/context/filter.h"
+#include "passes/context/shared_knobs.h"
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/specialisation.h"
 
@@ -12,7 +13,7 @@ static const filter_knob curvature_knob = {
     .feeds = KNOB_FEEDS_SHARED(curvature),
     .compiles = SPECIALISE_CURVATURE,
 };
-static const filter_knob *const knobs[] = {&curvature_knob, NULL};
+static const filter_knob *const knobs[] = {&curvature_knob, &passes_knob_normal_mapping, NULL};
 
 const lobe_filter passes_filter_direct = {
     .name = "direct",

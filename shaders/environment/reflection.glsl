@@ -21,7 +21,7 @@ vec3 reflect_lambert(surface_point surface, base_material base, vec3 mean_normal
 }
 
 // ---------------------------------------------------------------------------------------------
-// A base material
+// Its lobes
 
 vec3 reflect_base_specular(surface_point surface, base_material base) {
     if (MODEL == MODEL_MICROFACET) {
@@ -39,7 +39,62 @@ vec3 reflect_base_specular(surface_point surface, base_material base) {
     return base.specular * sum;
 }
 
+// ---------------------------------------------------------------------------------------------
+// Closed surfaces (shading/facet_pairs.glsl)
+
+// What of the light that the mapped facet's microfacets reflect passes the upright facet.
+float passing_microfacets(mapped_facet facet, vec3 outgoing) {
+    return facet_pair_shares(facet.slope, outgoing).x *
+           (1.0 - facet_pair_exchange_of_microfacets(facet.slope, outgoing,
+                                                     exchange_alpha(facet)));
+}
+
+// Irradiance of both facets over pi, times their areas: the integrals of the light from above times
+//   a_p <w_p, u> G_1(u) = max(u_z - s u_xy, 0) - max(-s u_xy, 0)
+// and times the rest of u_z.
+struct facet_irradiance {
+    vec3 mapped, upright;
+};
+
+facet_irradiance irradiance_of_facets(surface_point surface, vec2 slope) {
+    float square = dot(slope, slope);
+    vec2 down = square > 0.0 ? -slope * inversesqrt(square) : vec2(1.0, 0.0);
+    vec3 all = irradiance_above(surface, SURFACE_NORMAL);
+    vec3 mapped =
+        sqrt(1.0 + square) * irradiance_above(surface, normal_of_slope(slope)) -
+        sqrt(square) * irradiance_above(surface, vec3(down, 0.0));
+    mapped = clamp(mapped, vec3(0.0), all);
+    return facet_irradiance(mapped, all - mapped);
+}
+
+// Lambert's part and exchanged light.
+vec3 reflect_facet_pair(surface_point surface, mapped_facet facet) {
+    facet_irradiance irradiance = irradiance_of_facets(surface, facet.slope);
+    vec3 normal = normal_of_slope(facet.slope);
+    vec3 met = irradiance.upright + exchange_of_mapped_facet(facet) * irradiance.mapped;
+    vec3 sum = met_by_upright_facet(facet, surface.outgoing) * gain_of_upright_facet(facet) * met;
+    if (DIFFUSE) {
+        vec4 albedo = albedo_of(dot(normal, surface.outgoing), facet.width);
+        sum += facet_pair_shares(facet.slope, surface.outgoing).x * normal.z *
+               diffuse_albedo(albedo, facet.diffuse, facet.f0, vec3(1.0)) * irradiance.mapped;
+    }
+    return sum;
+}
+
+vec3 reflect_closed_material(surface_point surface, base_material base) {
+    mapped_facet facet = facet_of_base(base);
+    vec3 reflected = reflect_base_specular(surface, base);
+    if (!sampled_by_grid())
+        reflected *= passing_microfacets(facet, surface.outgoing);
+    return reflected + reflect_facet_pair(surface, facet);
+}
+
+// ---------------------------------------------------------------------------------------------
+// A base material
+
 vec3 reflect_base_material(surface_point surface, base_material base, vec3 mean_normal) {
+    if (closes_surface())
+        return reflect_closed_material(surface, base);
     vec3 sum = reflect_base_specular(surface, base);
     if (DIFFUSE)
         sum += reflect_lambert(surface, base, mean_normal);

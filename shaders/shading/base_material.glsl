@@ -5,6 +5,7 @@
 // evaluate, and what all other filters should average.
 
 #include "shading/albedo_table.glsl"
+#include "shading/facet_pairs.glsl"
 #include "lib/number/angle.glsl"
 #include "lib/lobe/base_lobe.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
@@ -106,6 +107,11 @@ vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     return sum;
 }
 
+mapped_facet facet_of_base(base_material base) {
+    return mapped_facet(slope_of_normal(base.normal), base.diffuse, base.specular,
+                        widened_width(base));
+}
+
 // Reflectance times cosine, for unit directions in the tangent frame. No light arrives from below
 // the macro-surface. `mean_normal` is used for the Lambert part, as in evaluate_microfacets.
 vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
@@ -124,7 +130,12 @@ vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing,
 }
 
 vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
-    return evaluate_base_material(base, base.normal, outgoing, incoming);
+    vec3 reflected = evaluate_base_material(base, base.normal, outgoing, incoming);
+    if (!closes_surface())
+        return reflected;
+    mapped_facet facet = facet_of_base(base);
+    return unmasked_share(facet.slope, outgoing, incoming) * reflected +
+           exchanged_light(facet, outgoing, incoming);
 }
 
 #endif

@@ -165,7 +165,8 @@ static void a_missing_knob_has_no_value(void **state) {
         fixture_forget_messages(&messages);
         lobe_result result =
             lobe_settings_get(filter, &settings, names[i], &value, &log_to_messages);
-        assert_failure(&messages, result, LOBE_ERROR_NOT_FOUND, "curvature, view, samples, base");
+        assert_failure(&messages, result, LOBE_ERROR_NOT_FOUND,
+                       "curvature, normal_mapping, view, samples, base");
         assert_true(value == -7);
         assert_int_equal(lobe_settings_get(filter, &settings, names[i], &value, NULL),
                          LOBE_ERROR_NOT_FOUND);
