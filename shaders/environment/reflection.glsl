@@ -45,8 +45,7 @@ vec3 reflect_base_specular(surface_point surface, base_material base) {
 // What of the light that the mapped facet's microfacets reflect passes the upright facet.
 float passing_microfacets(mapped_facet facet, vec3 outgoing) {
     return facet_pair_shares(facet.slope, outgoing).x *
-           (1.0 - facet_pair_exchange_of_microfacets(facet.slope, outgoing,
-                                                     exchange_alpha(facet)));
+           (1.0 - exchange_of_microfacets(facet, outgoing));
 }
 
 // Irradiance of both facets over pi, times their areas: the integrals of the light from above times
@@ -76,7 +75,7 @@ vec3 reflect_facet_pair(surface_point surface, mapped_facet facet) {
     if (DIFFUSE) {
         vec4 albedo = albedo_of(dot(normal, surface.outgoing), facet.width);
         sum += facet_pair_shares(facet.slope, surface.outgoing).x * normal.z *
-               diffuse_albedo(albedo, facet.diffuse, facet.f0, vec3(1.0)) * irradiance.mapped;
+               diffuse_albedo(albedo, facet.diffuse, facet.cover, vec3(1.0)) * irradiance.mapped;
     }
     return sum;
 }
@@ -87,6 +86,57 @@ vec3 reflect_closed_material(surface_point surface, base_material base) {
     if (!sampled_by_grid())
         reflected *= passing_microfacets(facet, surface.outgoing);
     return reflected + reflect_facet_pair(surface, facet);
+}
+
+// The facets of a footprint.
+struct facet_sum {
+    vec3 reflected; // by Lambert's part, and exchanged
+    float passing;  // how much of what their microfacets reflect passes the upright facets
+    // Of the normals, by how much of that passes:
+    vec3 normal;
+    mat3 second_moments;
+};
+
+facet_sum no_facets() {
+    return facet_sum(vec3(0.0), 0.0, vec3(0.0), mat3(0.0));
+}
+
+void add_facet(inout facet_sum sum, surface_point surface, mapped_facet facet) {
+    float part = 1.0 / float(SLOPE_NODES);
+    float passing = part * passing_microfacets(facet, surface.outgoing);
+    vec3 normal = normal_of_slope(facet.slope);
+    sum.reflected += part * reflect_facet_pair(surface, facet);
+    sum.passing += passing;
+    sum.normal += passing * normal;
+    sum.second_moments += passing * outerProduct(normal, normal);
+}
+
+direction_lobe lobe_of_passing(facet_sum sum, vec3 outgoing) {
+    vec3 axis = normalize(sum.normal);
+    vec3 along = perpendicular_towards(axis, outgoing), across = cross(axis, along);
+    vec3 image = sum.second_moments * along / sum.passing;
+    float deviation = sqrt(max(dot(along, image), 1e-12));
+    float mixed = dot(across, image) / deviation;
+    float rest = dot(across, sum.second_moments * across) / sum.passing - mixed * mixed;
+    return direction_lobe(axis, deviation * along + mixed * across,
+                          sqrt(max(rest, 1e-12)) * across);
+}
+
+// Lit by what the normals that the viewer sees reflect. `parameter` is that of the microfacets.
+vec3 reflect_facets(surface_point surface, facet_sum sum, uint kind, vec3 f0, float parameter) {
+    if (sum.passing < 1e-6)
+        return sum.reflected;
+    direction_lobe normals = lobe_of_passing(sum, surface.outgoing);
+    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP) {
+        direction_lobe base =
+            base_half_vectors(normals.axis, parameter, surface.outgoing).shape;
+        normals = broadened_lobe(normals, base.first, base.second);
+        return sum.reflected +
+               sum.passing * microfacets_by_mip(surface, half_vector_distribution(normals, kind),
+                                                f0, parameter);
+    }
+    return sum.reflected +
+           sum.passing * reflect_facing(surface, normals, kind, f0, parameter, true);
 }
 
 // ---------------------------------------------------------------------------------------------

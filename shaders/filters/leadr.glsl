@@ -91,7 +91,7 @@ vec4 facet_sums(slope_distribution facets, vec3 outgoing, vec3 incoming[4]) {
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
 // 1/height is the factor <n_mean, omega_g>/<n_mean, omega_o>.
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (!DIFFUSE)
+    if (!DIFFUSE || closes_surface())
         return;
     float height = height_above_slope(fetched.moments.mean, surface.outgoing);
     fetched.gathered =
@@ -111,8 +111,77 @@ vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoin
                                height_above_slope(lobe.slopes.mean, outgoing));
 }
 
+// ---------------------------------------------------------------------------------------------
+// Closed surfaces: masked not as a displaced surface is, but as each texel's facets are
+
+mat2 covariance_matrix(slope_distribution slopes) {
+    vec3 root = slopes.root;
+    float mixed = root.x * root.z;
+    return mat2(root.x * root.x, mixed, mixed, root.y * root.y + root.z * root.z);
+}
+
+mapped_facet facet_of_footprint(appearance fetched, int node) {
+    return mapped_facet(slope_at(fetched.lobe.facets, slope_node(node)),
+                        fetched.filtered.specular, fetched.filtered.diffuse,
+                        fetched.filtered.specular, fetched.filtered.width, turn_of_node(node));
+}
+
+slope_distribution slopes_of_matrix(vec2 mean, mat2 covariance) {
+    return slope_distribution_of(mean, vec3(covariance[0][0], covariance[1][1], covariance[0][1]));
+}
+
+// The mean over all texels of D times their visibility. Its nodes are texels that reflect: if their
+// slopes were of covariance C and their base lobes in the plane of B, they would be
+//   at mean + C (C + B)^-1 (slope - mean), of covariance C - C (C + B)^-1 C,
+// and they weigh D over that Gaussian of B. Tilting a texel broadens its base lobe, so that B is
+// taken broader than the base lobe: too broad costs little accuracy, too narrow misses texels.
+const int REFLECTING_NODES = 40;
+
+float mirroring_texels(footprint_lobe lobe, float width, vec3 halfway, vec3 outgoing,
+                       vec3 incoming) {
+    vec2 slope_of_half = slope_of_normal(halfway);
+    mat2 texels = covariance_matrix(lobe.facets);
+    mat2 base = 2.0 * (1.0 + 2.0 * (texels[0][0] + texels[1][1])) *
+                (covariance_matrix(lobe.slopes) - texels);
+    mat2 gain = texels * inverse(texels + base);
+    slope_distribution reflecting = slopes_of_matrix(
+        lobe.facets.mean + gain * (slope_of_half - lobe.facets.mean), texels - gain * texels);
+    slope_distribution expected = slopes_of_matrix(slope_of_half, base);
+    float sum = 0.0;
+    for (int i = 0; i < REFLECTING_NODES; ++i) {
+        vec2 slope = slope_at(reflecting, slope_node(i, REFLECTING_NODES));
+        sum += normal_distribution(DISTRIBUTION, normal_of_slope(slope), halfway, width) *
+               visibility_of_texel(slope, width, outgoing, incoming) /
+               max(slope_density(expected, slope), 1e-20);
+    }
+    return slope_density(slopes_of_matrix(lobe.facets.mean, texels + base), slope_of_half) * sum /
+           float(REFLECTING_NODES);
+}
+
+vec3 mirror_closed_facets(appearance fetched, vec3 halfway, vec3 outgoing, vec3 incoming) {
+    vec3 f0 = fetched.filtered.specular;
+    float width = fetched.filtered.width;
+    float cosine = max(dot(fetched.normal, outgoing), 0.0);
+    return fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway)) *
+           scattering_scale(f0, cosine, width) *
+           mirroring_texels(fetched.lobe, width, halfway, outgoing, incoming);
+}
+
+vec3 evaluate_closed_facets(appearance fetched, vec3 outgoing, vec3 incoming) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < SLOPE_NODES; ++i)
+        sum += exchanged_and_diffuse(facet_of_footprint(fetched, i), outgoing, incoming);
+    return sum / float(SLOPE_NODES) +
+           mirror_closed_facets(fetched, half_vector(incoming, outgoing), outgoing, incoming);
+}
+
+// ---------------------------------------------------------------------------------------------
+// A footprint
+
 // Half-vector lobes include their own masking.
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
+    if (closes_surface())
+        return evaluate_closed_facets(fetched, outgoing, incoming);
     vec3 halfway = half_vector(incoming, outgoing);
     vec3 fresnel = vec3(0.0), sum;
     if (MODEL == MODEL_MICROFACET) {
@@ -180,6 +249,8 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return lobes_colour() * frame.specular * reflect_half_vectors(surface, half_vectors);
+    if (closes_surface())
+        return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
         return sampled_slopes(surface, slopes, frame.specular);
     // Masked as a round distribution as narrow as the slopes are: the rest of their variance
@@ -211,7 +282,19 @@ vec3 lambert_slopes(appearance fetched, surface_point surface) {
            (visible / (row * row * max(height, COSINE_MINIMUM)));
 }
 
+vec3 reflect_closed_facets(appearance fetched, surface_point surface) {
+    facet_sum sum = no_facets();
+    for (int i = 0; i < SLOPE_NODES; ++i)
+        add_facet(sum, surface, facet_of_footprint(fetched, i));
+    if (sampled_by_grid()) // samples are masked one by one
+        return sum.reflected + reflect_slopes(fetched, surface);
+    return reflect_facets(surface, sum, DISTRIBUTION_BECKMANN, fetched.filtered.specular,
+                          fetched.filtered.width);
+}
+
 vec3 reflect_footprint(appearance fetched, surface_point surface) {
+    if (closes_surface())
+        return reflect_closed_facets(fetched, surface);
     vec3 sum = reflect_slopes(fetched, surface);
     if (DIFFUSE)
         sum += lambert_slopes(fetched, surface);

@@ -53,7 +53,7 @@ vec3 bin_half_vector(surface_point surface, vec3 incoming) {
 }
 
 light_sum no_light() {
-    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0));
+    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
 }
 
 // The mean normal of the texels, from the mean axis of their lobes: lobes turn with the normals,
@@ -93,6 +93,26 @@ void take_means(inout appearance fetched, surface_point surface, bin_means means
     fetched.filtered.normal = fetched.normal;
 }
 
+// Of closed surfaces, what the bin's facets exchange, and their Lambert part.
+void add_exchange(inout appearance fetched, surface_point surface, plane_bin bin,
+                  vec3 incoming[4]) {
+    float part = part_of_bin(bin) / float(SLOPE_NODES);
+    for (int i = 0; i < SLOPE_NODES; ++i) {
+        mapped_facet facet = facet_of_bin(bin, fetched.filtered, i);
+        fetched.first.exchanged_and_diffuse +=
+            part * exchanged_and_diffuse(facet, surface.outgoing, incoming[0]);
+        if (LIGHTS_AT_ONCE > 1u)
+            fetched.second.exchanged_and_diffuse +=
+                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[1]);
+        if (LIGHTS_AT_ONCE > 2u)
+            fetched.third.exchanged_and_diffuse +=
+                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[2]);
+        if (LIGHTS_AT_ONCE > 3u)
+            fetched.fourth.exchanged_and_diffuse +=
+                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[3]);
+    }
+}
+
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!MIXTURE)
         return;
@@ -119,6 +139,8 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
             add_bin_to_light(fetched.third, bin, halfway[2], places[2]);
         if (LIGHTS_AT_ONCE > 3u)
             add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
+        if (closes_surface())
+            add_exchange(fetched, surface, bin, incoming);
     }
     take_means(fetched, surface, means);
 }
@@ -195,8 +217,20 @@ normal_spread reflecting_normals(appearance fetched, light_sum sum, float scale)
                : normals;
 }
 
-vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
-                              vec3 incoming) {
+// Masking of the microfacets and of the facets of a closed surface, over 4 <n, omega_o>: mean of
+// the texels that reflect. All of their spread counts: at grazing angles both fall off on either
+// side of the surface's own normal.
+float mean_visibility(normal_spread normals, float width, vec3 outgoing, vec3 incoming) {
+    float sum = 0.0;
+    for (int i = 0; i < SLOPE_NODES; ++i)
+        sum += visibility_of_texel(slope_in_plane(normals.place, normals.covariance, i), width,
+                                   outgoing, incoming);
+    return sum / float(SLOPE_NODES);
+}
+
+// Without Lambert's part.
+vec3 evaluate_bin_specular(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                           vec3 incoming, out vec3 fresnel) {
     float scale = 1.0 / max(sum.distribution, 1e-20);
     float sharpness = max(sum.sharpness * scale, 0.4);
     float width = parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
@@ -214,11 +248,34 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
     facing_cosines cosines =
         facing_cosines_of(reflecting_normals(fetched, sum, scale), incoming, outgoing);
     float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, width);
-    vec3 fresnel = fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway));
-    return microfacet_specular(fresnel, cosines.share * distribution, visible,
-                               cosines.outgoing) *
-               scattering_scale(f0, cosines.outgoing, width) +
-           evaluate_bin_diffuse(fetched, fresnel, halfway, incoming);
+    fresnel = fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway));
+    vec3 scale_of_bins = scattering_scale(f0, cosines.outgoing, width);
+    if (closes_surface())
+        return scale_of_bins * fresnel *
+               (distribution * mean_visibility(reflecting_normals(fetched, sum, scale), width,
+                                               outgoing, incoming));
+    return microfacet_specular(fresnel, cosines.share * distribution, visible, cosines.outgoing) *
+           scale_of_bins;
+}
+
+vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                              vec3 incoming) {
+    vec3 fresnel;
+    vec3 specular = evaluate_bin_specular(fetched, sum, halfway, outgoing, incoming, fresnel);
+    return specular + evaluate_bin_diffuse(fetched, fresnel, halfway, incoming);
+}
+
+vec3 evaluate_closed_bins(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                          vec3 incoming) {
+    appearance bins = fetched;
+    bins.base_share = 0.0;
+    vec3 fresnel;
+    vec3 value = evaluate_bin_specular(bins, sum, halfway, outgoing, incoming, fresnel) +
+                 sum.exchanged_and_diffuse;
+    if (may_see_level_0(lobe_map()))
+        value = mix(value, evaluate_base_material(fetched.base, outgoing, incoming),
+                    fetched.base_share);
+    return value;
 }
 
 // The colour of all base lobes together.
@@ -252,6 +309,8 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         return vec3(0.0);
     vec3 halfway = bin_half_vector(surface, incoming);
     light_sum sum = sum_of_light(fetched, light);
+    if (closes_surface())
+        return evaluate_closed_bins(fetched, sum, halfway, surface.outgoing, incoming);
     return MODEL == MODEL_MICROFACET
                ? evaluate_bin_microfacets(fetched, sum, halfway, surface.outgoing, incoming)
                : evaluate_bin_lobes(fetched, sum, halfway, incoming);
@@ -284,13 +343,14 @@ vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 
         surface, half_vector_distribution(lobe_of_bin(bin, covariance), kind), f0, parameter);
 }
 
-// A bin's share of the appearance. For microfacets as seen along the normal, where a lobe's mass is
-// more than one.
-float part_of_bin(plane_bin bin) {
-    if (MODEL == MODEL_HALF_VECTOR_LOBES)
-        return bin.mass;
-    float parameter = parameter_of_plane_variance(distribution_kind(), bin.mean_variance);
-    return bin.mass / plane_mass(MODEL, distribution_kind(), parameter);
+vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
+    facet_sum sum = no_facets();
+    for (int i = 0; i < SLOPE_NODES; ++i)
+        add_facet(sum, surface, facet_of_bin(bin, fetched.filtered, i));
+    if (sampled_by_grid()) // samples are masked one by one
+        return sum.reflected + reflect_bin(fetched, surface, bin, f0);
+    return reflect_facets(surface, sum, distribution_kind(), f0,
+                          parameter_of_plane_variance(DISTRIBUTION, bin.variance));
 }
 
 vec3 reflect_bins(inout appearance fetched, surface_point surface) {
@@ -304,7 +364,9 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
         add_to_means(means, bin);
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
-        vec3 reflected = part_of_bin(bin) * reflect_bin(fetched, surface, bin, f0);
+        vec3 reflected = closes_surface() ? reflect_closed_bin(fetched, surface, bin, f0)
+                                          : reflect_bin(fetched, surface, bin, f0);
+        reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
             reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * mixture_colour();
         sum += reflected;
@@ -317,6 +379,11 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
     if (!MIXTURE)
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     vec3 sum = reflect_bins(fetched, surface);
+    if (closes_surface())
+        return sum + (may_see_level_0(lobe_map())
+                          ? fetched.base_share *
+                                reflect_base_material(surface, fetched.base, fetched.base.normal)
+                          : vec3(0.0));
     base_material frame = fetched.filtered;
     if (may_see_level_0(lobe_map())) {
         base_material base = fetched.base;

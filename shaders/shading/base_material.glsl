@@ -108,8 +108,8 @@ vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
 }
 
 mapped_facet facet_of_base(base_material base) {
-    return mapped_facet(slope_of_normal(base.normal), base.diffuse, base.specular,
-                        widened_width(base));
+    return mapped_facet(slope_of_normal(base.normal), base.specular, base.diffuse, base.specular,
+                        widened_width(base), TURN_OF_FACET);
 }
 
 // Reflectance times cosine, for unit directions in the tangent frame. No light arrives from below
@@ -130,12 +130,13 @@ vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing,
 }
 
 vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
-    vec3 reflected = evaluate_base_material(base, base.normal, outgoing, incoming);
     if (!closes_surface())
-        return reflected;
+        return evaluate_base_material(base, base.normal, outgoing, incoming);
     mapped_facet facet = facet_of_base(base);
-    return unmasked_share(facet.slope, outgoing, incoming) * reflected +
-           exchanged_light(facet, outgoing, incoming);
+    base.diffuse = vec3(0.0);
+    return unmasked_share(facet.slope, outgoing, incoming) *
+               evaluate_base_material(base, base.normal, outgoing, incoming) +
+           exchanged_and_diffuse(facet, outgoing, incoming);
 }
 
 #endif

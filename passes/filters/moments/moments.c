@@ -2,6 +2,7 @@
 
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/filters/moments/binning.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
@@ -64,11 +65,17 @@ static const filter_knob storage_knob = {
          .sweep = "float16,float32"},
 };
 static const filter_knob *const knobs[] = {
-    &partition_knob,     &bins_knob,
-    &colour_knob,        &least_share_knob,
-    &passes_knob_probes, &passes_knob_anisotropy,
-    &passes_knob_bias,   &passes_knob_curvature,
-    &storage_knob,       NULL,
+    &partition_knob,
+    &bins_knob,
+    &colour_knob,
+    &least_share_knob,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_curvature,
+    &storage_knob,
+    &passes_knob_normal_mapping,
+    NULL,
 };
 
 static lobe_format format_of(const filter_context *context) {

@@ -25,6 +25,7 @@ struct light_sum {
     vec3 second_moments; // (xx, yy, xy) of their places
     float sharpness;     // of their base lobes
     vec3 colour;
+    vec3 exchanged_and_diffuse; // of closed surfaces
 };
 
 const int MAXIMUM_TERMS = 4;
@@ -210,6 +211,36 @@ void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 pla
     }
     if (BIN_COLOUR)
         sum.colour += value * bin.colour;
+}
+
+// A bin's share of the appearance. For microfacets as seen along the normal, where a lobe's mass is
+// more than one.
+float part_of_bin(plane_bin bin) {
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return bin.mass;
+    float parameter = parameter_of_plane_variance(distribution_kind(), bin.mean_variance);
+    return bin.mass / plane_mass(MODEL, distribution_kind(), parameter);
+}
+
+// The slope of a node of normals that are Gaussian in the plane.
+vec2 slope_in_plane(vec2 mean, vec3 covariance, int node) {
+    float x = sqrt(max(covariance.x, 1e-12)), shear = covariance.z / x;
+    float y = sqrt(max(covariance.y - shear * shear, 1e-12));
+    vec2 place = slope_node(node);
+    return slope_of_normal(
+        direction_from_plane(mean + vec2(x * place.x, shear * place.x + y * place.y)));
+}
+
+// The texels' facets at one of the bin's nodes.
+mapped_facet facet_of_bin(plane_bin bin, base_material footprint, int node) {
+    mapped_facet facet;
+    facet.slope = slope_in_plane(bin.mean, bin.places, node);
+    facet.f0 = BIN_COLOUR ? bin.colour : footprint.specular;
+    facet.diffuse = footprint.diffuse;
+    facet.cover = BIN_COLOUR ? vec3(0.0) : footprint.specular;
+    facet.width = parameter_of_plane_variance(DISTRIBUTION, bin.variance);
+    facet.turn = turn_of_node(node);
+    return facet;
 }
 
 #endif

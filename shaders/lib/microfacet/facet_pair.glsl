@@ -37,6 +37,16 @@ float facet_pair_masking(vec2 slope, vec3 direction) {
     return clamp(direction.z / max(heights.x + heights.y, 1e-20), 0.0, 1.0);
 }
 
+// lambda_p G_1 over <w_p, o>, 0 where p faces away from either: what remains of the factors by which
+// facets mask what p's microfacets reflect, F D G_2/(4 <w_p, o>).
+float facet_pair_visibility(vec2 slope, vec3 outgoing, vec3 incoming) {
+    vec2 seen = facet_pair_heights(slope, outgoing), lit = facet_pair_heights(slope, incoming);
+    float area = sqrt(1.0 + dot(slope, slope));
+    return seen.x > 0.0 && lit.x > 0.0
+               ? area * incoming.z / ((seen.x + seen.y) * (lit.x + lit.y))
+               : 0.0;
+}
+
 // The same for all the light that a Lambert p sends, or t sends to p, by the crossed strings of
 // their profile, a right-angled triangle: (a_p + a_t - 1)/(2 a_p).
 float facet_pair_exchange(vec2 slope) {
@@ -44,19 +54,20 @@ float facet_pair_exchange(vec2 slope) {
     return 0.5 * (sqrt(square) + square / (area + 1.0)) / area;
 }
 
-// What p sends to t of the light that its microfacets reflect from one direction, as a mean over a
-// few of those that the direction sees: Dupuy, Benyoub, 2023, Sampling Visible GGX Normals with
-// Spherical Caps. The points are a Fibonacci lattice. Error over all slopes, directions and
-// roughnesses: 0.01 on average.
-const int VISIBLE_NORMALS = 12;
-
-vec3 visible_normal(vec3 direction, float alpha, int i) {
-    float angle = 2.0 * PI * fract(0.618033989 * float(i) + 0.5);
+// What p sends to t of the light that its microfacets reflect from one direction, as a mean over
+// some of those that the direction sees: Dupuy, Benyoub, 2023, Sampling Visible GGX Normals with
+// Spherical Caps. The points are a Fibonacci lattice, which `turn` turns, a part of a circle. With
+// 12 of them the error is 0.004 on average over all slopes, directions and roughnesses.
+vec3 visible_normal(vec3 direction, float alpha, vec2 point) {
     vec3 stretched = normalize(vec3(alpha * direction.xy, direction.z));
-    float height = mix(1.0, -stretched.z, (float(i) + 0.5) / float(VISIBLE_NORMALS));
-    float sine = sqrt(max(1.0 - height * height, 0.0));
+    float height = mix(1.0, -stretched.z, point.x);
+    float sine = sqrt(max(1.0 - height * height, 0.0)), angle = 2.0 * PI * point.y;
     vec3 cap = vec3(sine * cos(angle), sine * sin(angle), height) + stretched;
     return normalize(vec3(alpha * cap.xy, cap.z));
+}
+
+vec2 lattice_point(int i, int count, float turn) {
+    return vec2((float(i) + 0.5) / float(count), fract(0.618033989 * float(i) + turn));
 }
 
 // From p's frame: x up the slope, z along its normal.
@@ -68,14 +79,15 @@ mat3 facet_frame(vec2 slope) {
     return mat3(along, cross(normal, along), normal);
 }
 
-float facet_pair_exchange_of_microfacets(vec2 slope, vec3 direction, float alpha) {
+float facet_pair_exchange_of_microfacets(vec2 slope, vec3 direction, float alpha, int count,
+                                         float turn) {
     mat3 frame = facet_frame(slope);
     vec3 local = direction * frame;
     if (local.z <= 0.0)
         return 0.0;
     float outgoing = lambda_ggx(local.z, alpha), sum = 0.0, weights = 1e-10;
-    for (int i = 0; i < VISIBLE_NORMALS; ++i) {
-        vec3 normal = visible_normal(local, alpha, i);
+    for (int i = 0; i < count; ++i) {
+        vec3 normal = visible_normal(local, alpha, lattice_point(i, count, turn));
         vec3 reflected = 2.0 * dot(local, normal) * normal - local;
         float weight = reflected.z > 0.0
                            ? 1.0 / (1.0 + outgoing + lambda_ggx(reflected.z, alpha))

@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/context/sample_pattern.h"
+#include "tests/reference/vector.h"
+
 lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
                                       double metallic) {
     lobe_material material;
@@ -20,6 +23,29 @@ lobe_image slope_plane_leaning_map(uint64_t seed) {
         float x = 2 * texel[0] - 1, z = 2 * texel[2] - 1;
         texel[0] = 0.5f + 0.5f * (0.8f * x + 0.6f * z);
         texel[2] = 0.5f + 0.5f * (0.8f * z - 0.6f * x);
+    }
+    return image;
+}
+
+/// By Box and Muller.
+void slope_plane_bumpy_normal(uint32_t texel, double slope, double normal[3]) {
+    double u = passes_hashed_number(2 * texel + 1), v = passes_hashed_number(2 * texel + 2);
+    double radius = slope * sqrt(-2 * log(1 - u));
+    normal[0] = radius * cos(2 * M_PI * v);
+    normal[1] = radius * sin(2 * M_PI * v);
+    normal[2] = 1;
+    reference_normalise(normal);
+}
+
+lobe_image slope_plane_bumpy_map(uint32_t extent, double slope) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, extent, extent);
+    for (uint32_t i = 0; i < extent * extent; i++) {
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        double normal[3];
+        slope_plane_bumpy_normal(i, slope, normal);
+        for (int j = 0; j < 3; j++)
+            texel[j] = (float)(0.5 + 0.5 * normal[j]);
+        texel[3] = 1;
     }
     return image;
 }

@@ -13,6 +13,10 @@ lobe_material slope_plane_microfacets(lobe_distribution distribution, double rou
                                       double metallic);
 /// Normals about a tilted one, in a map of 8 x 8 texels.
 lobe_image slope_plane_leaning_map(uint64_t seed);
+/// Slopes at random, Gaussian with a standard deviation of `slope`, in a square map.
+lobe_image slope_plane_bumpy_map(uint32_t extent, double slope);
+/// The unit normal of one of its texels.
+void slope_plane_bumpy_normal(uint32_t texel, double slope, double normal[3]);
 
 void slope_plane_direction(double degrees, double azimuth, double direction[3]);
 

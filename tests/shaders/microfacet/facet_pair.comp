@@ -11,7 +11,7 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         return vec4(facet_pair_shares(slope, a.xyz), facet_pair_masking(slope, a.xyz),
                     facet_pair_exchange(slope));
     case 1:
-        return vec4(facet_pair_exchange_of_microfacets(slope, a.xyz, c.x),
+        return vec4(facet_pair_exchange_of_microfacets(slope, a.xyz, c.x, 12, 0.4),
                     facet_pair_mean_exchange_of_microfacets(slope, c.x), 0.0, 0.0);
     default:
         return vec4(facet_pair_gain(slope, vec3(c.x), vec3(c.y)), 0.0);

@@ -5,44 +5,19 @@
 
 #include <math.h>
 
-#include "passes/context/sample_pattern.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
 #include "tests/passes/support/slope_plane.h"
-#include "tests/reference/vector.h"
 
 enum { EXTENT = 64, TEXELS = EXTENT * EXTENT };
-
-/// Unit normal of a texel: slopes are Gaussian with this standard deviation, by Box and Muller.
-static void normal_of_texel(uint32_t texel, double slope, double normal[3]) {
-    double u = passes_hashed_number(2 * texel + 1), v = passes_hashed_number(2 * texel + 2);
-    double radius = slope * sqrt(-2 * log(1 - u));
-    normal[0] = radius * cos(2 * M_PI * v);
-    normal[1] = radius * sin(2 * M_PI * v);
-    normal[2] = 1;
-    reference_normalise(normal);
-}
-
-static lobe_image bumpy_map(double slope) {
-    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
-    for (uint32_t i = 0; i < TEXELS; i++) {
-        float *texel = (float *)image.texels + (size_t)4 * i;
-        double normal[3];
-        normal_of_texel(i, slope, normal);
-        for (int j = 0; j < 3; j++)
-            texel[j] = (float)(0.5 + 0.5 * normal[j]);
-        texel[3] = 1;
-    }
-    return image;
-}
 
 static double mean_of_texels(const lobe_material *material, double slope, const double outgoing[3],
                              const double incoming[3]) {
     double sum = 0;
     for (uint32_t i = 0; i < TEXELS; i++) {
         double normal[3], radiance[3];
-        normal_of_texel(i, slope, normal);
+        slope_plane_bumpy_normal(i, slope, normal);
         shade_base_material(material, normal, outgoing, incoming, radiance);
         sum += radiance[1] / TEXELS;
     }
@@ -54,7 +29,7 @@ static void check_material(fixture *f, const lobe_material *material, double slo
                            double tolerance) {
     static const double lights[][2] = {{0, 0}, {80, M_PI}, {80, 0}, {45, 0.5 * M_PI}};
     static const double views[] = {60, 75};
-    lobe_image normals = bumpy_map(slope);
+    lobe_image normals = slope_plane_bumpy_map(EXTENT, slope);
     for (int i = 0; i < 8; i++) {
         const double *light = lights[i % 4];
         double outgoing[3], incoming[3];
