@@ -15,7 +15,7 @@
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
-enum { WIDTH = 96, HEIGHT = 54, TEXT = 16384 };
+enum { WIDTH = 96, HEIGHT = 54, TEXT = 16384, MOST_FILTERS = 16 };
 
 // ---------------------------------------------------------------------------------------------
 // The run
@@ -45,13 +45,15 @@ static void print_scene(fixture *f, const lobe_scene *scene, const char *const (
 
 /// With every filter.
 static void print_builtin_scenes(fixture *f) {
+    const char *requests[MOST_FILTERS][2] = {{NULL}};
+    const size_t count = lobe_filter_count();
+    assert_true(count <= MOST_FILTERS);
+    for (size_t i = 0; i < count; i++)
+        requests[i][0] = lobe_filter_name(lobe_filter_get(i));
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
         lobe_scene *scene;
         assert_int_equal(lobe_scene_open(lobe_builtin_scene_get(i)->name, NULL, &scene), LOBE_OK);
-        for (size_t j = 0; j < lobe_filter_count(); j++) {
-            const char *const request[][2] = {{lobe_filter_name(lobe_filter_get(j)), NULL}};
-            print_scene(f, scene, request, 1);
-        }
+        print_scene(f, scene, requests, count);
         lobe_scene_destroy(&scene);
     }
 }

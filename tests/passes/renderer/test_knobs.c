@@ -43,15 +43,20 @@ static void draw_with(fixture *f, const char *filter, const char *assignment) {
     lobe_frame_free(&frame);
 }
 
+/// The picture of the default is drawn once for all knobs.
 static void draw_knob(fixture *f, const char *filter, const lobe_knob *knob) {
     char assignment[128];
     for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
+        if ((double)i == knob->initial)
+            continue;
         snprintf(assignment, sizeof assignment, "%s=%s", knob->name, knob->choices[i]);
         draw_with(f, filter, assignment);
     }
     for (int i = 0; !knob->choices && i < 2; i++) {
-        snprintf(assignment, sizeof assignment, "%s=%g", knob->name,
-                 i ? knob->maximum : knob->minimum);
+        double end = i ? knob->maximum : knob->minimum;
+        if (end == knob->initial)
+            continue;
+        snprintf(assignment, sizeof assignment, "%s=%g", knob->name, end);
         draw_with(f, filter, assignment);
     }
 }
@@ -62,6 +67,7 @@ static void every_knob_draws_at_both_ends(void **state) {
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const lobe_filter *filter = lobe_filter_get(i);
+        draw_with(f, lobe_filter_name(filter), "base=exact");
         for (size_t j = 0; j < lobe_filter_knob_count(filter); j++)
             draw_knob(f, lobe_filter_name(filter), lobe_filter_knob(filter, j));
     }

@@ -20,19 +20,20 @@ static void draw_silently(fixture *f, const char *scene, const picture_request *
     check_silence(f, scene, request);
 }
 
+/// Each filter writes outputs in every other scene.
 static void built_in_scenes_are_valid(void **state) {
     fixture *f = *state;
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
         lobe_scene *scene;
         assert_int_equal(lobe_scene_open(lobe_builtin_scene_get(i)->name, NULL, &scene), LOBE_OK);
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-        for (size_t j = 0; j < 2 * lobe_filter_count(); j++) {
-            picture_request request = {.filter = lobe_filter_name(lobe_filter_get(j / 2)),
+        for (size_t j = 0; j < lobe_filter_count(); j++) {
+            picture_request request = {.filter = lobe_filter_name(lobe_filter_get(j)),
                                        .settings = {NULL},
                                        .width = 96,
                                        .height = 54,
                                        .samples = 10,
-                                       .outputs = j % 2};
+                                       .outputs = (i + j) % 2};
             draw_silently(f, scene->name, &request);
         }
         assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
