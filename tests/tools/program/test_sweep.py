@@ -444,4 +444,12 @@ def test_a_folder_for_pictures_that_cannot_be():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), under_sanitizers=(
+        test_results_have_their_form, test_each_knob_is_varied_alone, test_times_come_apart,
+        test_bytes_are_those_of_the_maps, test_the_reference_has_one_row_without_flicker,
+        test_pictures_are_kept, test_pictures_may_go_elsewhere,
+        test_scenes_that_do_not_open_are_skipped, test_a_sweep_of_nothing_fails,
+        test_tables_are_made_from_json, test_interrupted_in_the_first_scene,
+        test_resuming_measures_more_scenes_and_skipped_ones,
+        test_resuming_refuses_other_measurements, test_resuming_from_a_broken_file_is_refused,
+        test_options_that_do_not_go_together, test_a_folder_for_pictures_that_cannot_be)))

@@ -343,12 +343,12 @@ def test_monitors_of_other_dots():
     check(panel_width() == width, f"{width} pixels have become {panel_width()}")
     radiance = colours()
     # The knob "view": its choices come down.
-    window().meets("unit 2", "mousemove", 200, 331)
-    for choice in (402, 354):
-        window().do("mousemove", 200, 331, "click", 1)
+    window().meets("unit 2", "mousemove", 200, 371)
+    for choice in (442, 394):
+        window().do("mousemove", 200, 371, "click", 1)
         window().do("mousemove", 150, choice, "click", 1)
         window().do("mousemove", 600, 100)  # no explanation then
-        expected = 1 if choice == 402 else len(radiance)
+        expected = 1 if choice == 442 else len(radiance)
         check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
     window().meets("unit 1", "mousemove", 630, 470)
     window().do("windowsize", window().number, *SIZE, "key", "Tab")
