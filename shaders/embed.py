@@ -3,10 +3,10 @@
 
 Each *.vert, *.frag and *.comp below the folder is a pass, named by its path
 ("maps/level_reduction.comp"). One that includes "filter.glsl" is compiled once for each file of
-filters/, which replaces that include. If a pass tests the macros ENVIRONMENT or AOV, it is compiled
-without and with each: shading/shading.frag and filters/lobes.glsl give shading/shading_lobes.frag,
-shading/shading_lobes_environment.frag, and so on. The table records the source of each entry, so
-that the library can recompile it at run time.
+filters/, which replaces that include. A pass or a filter may name macros that it tests, in a line
+"#pragma variants ENVIRONMENT AOV": it is compiled without and with each. shading/shading.frag and
+filters/lobes.glsl give shading/shading_lobes.frag, shading/shading_lobes_environment.frag, and so
+on. The table records the source of each entry, so that the library can recompile it at run time.
 """
 
 import argparse
@@ -22,7 +22,7 @@ from pathlib import Path
 
 STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
-MACROS = ("ENVIRONMENT", "AOV")
+VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
 # Drivers inline all functions anyway. Where they need not do it, and meet no variables that merely
 # pass arguments, lavapipe creates a shading pipeline in half the time. Bindings and specialisation
 # constants stay, also those that no code uses.
@@ -40,24 +40,29 @@ class Shader:
     substitute: str = ""
 
 
+def definitions_of(text):
+    """All sets of the macros that a text names."""
+    sets = [()]
+    for macro in " ".join(VARIANTS.findall(text)).split():
+        sets += [(*others, macro) for others in sets]
+    return sets
+
+
 def variants(folder, path):
     """The shaders compiled from one source file."""
     text = path.read_text()
-    filters = [""]
+    filters = [("", "")]
     if FILTER_INCLUDE.search(text):
-        filters = [file.stem for file in sorted((folder / "filters").glob("*.glsl"))]
-    sets = [()]
-    for macro in MACROS:
-        if re.search(rf"^\s*#\s*ifdef\s+{macro}\b", text, re.MULTILINE):
-            sets += [(*others, macro) for others in sets]
+        filters = [(f"filters/{file.name}", file.read_text())
+                   for file in sorted((folder / "filters").glob("*.glsl"))]
+    source = path.relative_to(folder)
     found = []
-    for name in filters:
-        for definitions in sets:
-            words = [path.stem, *([name] if name else []), *(word.lower() for word in definitions)]
-            source = path.relative_to(folder)
+    for substitute, filter_text in filters:
+        for definitions in definitions_of(text + filter_text):
+            words = [path.stem, *([Path(substitute).stem] if substitute else []),
+                     *(word.lower() for word in definitions)]
             found.append(Shader(source.with_name("_".join(words) + path.suffix).as_posix(),
-                                source.as_posix(), definitions,
-                                f"filters/{name}.glsl" if name else ""))
+                                source.as_posix(), definitions, substitute))
     return found
 
 

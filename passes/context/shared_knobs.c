@@ -146,7 +146,6 @@ const filter_knob passes_knob_normal_mapping = {
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = normal_mappings},
-    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_NORMAL_MAPPING),
 };
 
 const filter_knob *const passes_shared_knobs[] = {

@@ -7,6 +7,7 @@
 #include "passes/context/camera.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/material_specialisation.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/renderer/background.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
@@ -17,13 +18,15 @@
 /// The draws of a pass, in order; only a selection has a mask, and not every scene a background.
 enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
 
+#define SHADER_NAME_SIZE 80
+
 /// What the draws of one pass share.
 typedef struct drawing {
     const filter_context *context;
     const environment_light *light;
     const shading_selection *selection; ///< NULL: all pixels
     bool depth_as_coverage;
-    char fragment_shader[64];
+    bool aov;
     lobe_pass *pass;
 } drawing;
 
@@ -228,11 +231,27 @@ static size_t bind_draw(const filter_context *context, const environment_light *
     return count;
 }
 
+/// Whether a material's normal map is that of a closed surface. Half-vector lobes include their own
+/// masking.
+static bool closes_surface(const filter_context *context, const device_material *material) {
+    return passes_knob_choice(context, &passes_knob_normal_mapping) > 0 &&
+           material->material->model == LOBE_MATERIAL_MICROFACET &&
+           material->map_bits & 1u << MAP_NORMAL;
+}
+
+/// The variant of the filter's shader that has what this draw needs.
+static void name_shader(const drawing *d, const device_material *material,
+                        char name[SHADER_NAME_SIZE]) {
+    snprintf(name, SHADER_NAME_SIZE, "shading/shading_%s%s%s%s.frag", d->context->filter->shading,
+             d->light->present ? "_environment" : "", d->aov ? "_aov" : "",
+             closes_surface(d->context, material) ? "_closed_surface" : "");
+}
+
 static void draw_instance(const drawing *d, size_t instance,
                           const filtered_appearance *appearance) {
     const filter_context *context = d->context;
     const device_instance *drawn = &context->scene->instances[instance];
-    const lobe_material *material = context->scene->materials[drawn->material].material;
+    const device_material *material = &context->scene->materials[drawn->material];
     const float *transform = context->scene->scene->instances[instance].transform;
     struct instance_constants constants;
     for (int row = 0; row < 3; row++) {
@@ -243,13 +262,15 @@ static void draw_instance(const drawing *d, size_t instance,
     size_t binding_count = bind_draw(context, d->light, instance, appearance, bindings);
     specialisation_list list = {.graph = context->graph};
     specialise_draw(d, instance, appearance, &list);
+    char fragment_shader[SHADER_NAME_SIZE];
+    name_shader(d, material, fragment_shader);
     lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
-        .fragment_shader = d->fragment_shader,
+        .fragment_shader = fragment_shader,
         .indices = lobe_graph_import_buffer(context->graph, context->scene->indices[drawn->mesh]),
         .index_count = (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count,
-        .cull = material->double_sided ? LOBE_CULL_NONE : outside,
+        .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
         .depth_test = true,
         .depth_write = true,
         .constants = &constants,
@@ -307,15 +328,13 @@ void passes_shading(const filter_context *context, const filtered_appearance *ap
                  .light = &light->environment,
                  .selection = selection,
                  .depth_as_coverage = targets->depth_as_coverage,
+                 .aov = aov,
                  .pass = pass};
     if (selection)
         draw_mask(&d);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
         draw_background(&d, sample, aov);
-    snprintf(d.fragment_shader, sizeof d.fragment_shader, "shading/shading_%s%s%s.frag",
-             context->filter->shading, light->environment.present ? "_environment" : "",
-             aov ? "_aov" : "");
     for (size_t i = 0; i < context->scene->scene->instance_count; i++)
         draw_instance(&d, i, &appearances[i]);
 }

@@ -33,7 +33,7 @@ vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, v
             float scale = max(half_cosine, 0.0) /
                           (outgoing_cosine * max(dot(normal, point.half_vector), 1e-3));
             float seen = above_horizon(incoming) ? visible * scale : 0.0;
-            if (closes_surface())
+            if (CLOSED)
                 seen *= unmasked_share(slope_of_normal(normal), surface.outgoing, incoming);
             vec3 fresnel = fresnel_schlick(f0, vec3(1.0), half_cosine);
             sum += point.weight * seen * fresnel * sample_radiance(surface, point, incoming);
@@ -173,7 +173,7 @@ vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, ve
     vec3 reflected = specular_albedo(albedo_of(outgoing_cosine, parameter), f0, vec3(1.0)) *
                      scattering_scale(f0, outgoing_cosine, parameter);
     direction_lobe incoming = reflected_lobe(lobe.shape, surface.outgoing);
-    if (HORIZON != HORIZON_IGNORED && !closes_surface()) {
+    if (HORIZON != HORIZON_IGNORED && !CLOSED) {
         float own = max(lobe_share_above(incoming, normal), 0.05);
         reflected *= min(lobe_share_above(incoming, SURFACE_NORMAL) / own, 1.0);
     }
@@ -204,7 +204,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     }
     float share = 1.0;
     incoming = lobe_above_surface(incoming, own, normals.axis, share);
-    if (closes_surface())
+    if (CLOSED)
         share = 1.0;
     vec3 sum = share * reflected *
                    lobe_radiance(surface, half_vector_distribution(normals, kind), incoming) +
@@ -221,7 +221,7 @@ vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lob
     direction_lobe normals = facing_normals(
         lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter)),
         surface.outgoing, share);
-    if (closes_surface())
+    if (CLOSED)
         share = 1.0;
     return share * reflect_facing(surface, normals, lobe.kind, f0, parameter, true);
 }

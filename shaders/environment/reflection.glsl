@@ -70,7 +70,8 @@ facet_irradiance irradiance_of_facets(surface_point surface, vec2 slope) {
 vec3 reflect_facet_pair(surface_point surface, mapped_facet facet) {
     facet_irradiance irradiance = irradiance_of_facets(surface, facet.slope);
     vec3 normal = normal_of_slope(facet.slope);
-    vec3 met = irradiance.upright + exchange_of_mapped_facet(facet) * irradiance.mapped;
+    vec3 met = irradiance.upright +
+               exchange_of_mapped_facet(facet, mean_albedo_of_facet(facet)) * irradiance.mapped;
     vec3 sum = met_by_upright_facet(facet, surface.outgoing) * gain_of_upright_facet(facet) * met;
     if (DIFFUSE) {
         vec4 albedo = albedo_of(dot(normal, surface.outgoing), facet.width);
@@ -143,7 +144,7 @@ vec3 reflect_facets(surface_point surface, facet_sum sum, uint kind, vec3 f0, fl
 // A base material
 
 vec3 reflect_base_material(surface_point surface, base_material base, vec3 mean_normal) {
-    if (closes_surface())
+    if (CLOSED)
         return reflect_closed_material(surface, base);
     vec3 sum = reflect_base_specular(surface, base);
     if (DIFFUSE)

@@ -163,7 +163,7 @@ int base_lobes() {
 const float LAMBERT_SHARE = 0.5;
 
 float lambert_share() {
-    return DIFFUSE || closes_surface() ? LAMBERT_SHARE : 0.0;
+    return DIFFUSE || CLOSED ? LAMBERT_SHARE : 0.0;
 }
 
 vec3 direction_about(vec3 axis, float height, float angle) {

@@ -1,6 +1,8 @@
 // One unfiltered sample of the maps: what every filter should average. The reference averages many
 // of these.
 
+#pragma variants CLOSED_SURFACE
+
 #include "shading/unfiltered_maps.glsl"
 
 #ifdef ENVIRONMENT

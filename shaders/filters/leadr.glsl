@@ -8,6 +8,8 @@
 // makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees
 // (BASE_PLANE_SURFACE).
 
+#pragma variants CLOSED_SURFACE
+
 #include "shading/slope_maps.glsl"
 #include "lib/microfacet/slope_masking.glsl"
 
@@ -91,7 +93,7 @@ vec4 facet_sums(slope_distribution facets, vec3 outgoing, vec3 incoming[4]) {
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
 // 1/height is the factor <n_mean, omega_g>/<n_mean, omega_o>.
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (!DIFFUSE || closes_surface())
+    if (!DIFFUSE || CLOSED)
         return;
     float height = height_above_slope(fetched.moments.mean, surface.outgoing);
     fetched.gathered =
@@ -180,7 +182,7 @@ vec3 evaluate_closed_facets(appearance fetched, vec3 outgoing, vec3 incoming) {
 
 // Half-vector lobes include their own masking.
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
-    if (closes_surface())
+    if (CLOSED)
         return evaluate_closed_facets(fetched, outgoing, incoming);
     vec3 halfway = half_vector(incoming, outgoing);
     vec3 fresnel = vec3(0.0), sum;
@@ -249,7 +251,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return lobes_colour() * frame.specular * reflect_half_vectors(surface, half_vectors);
-    if (closes_surface())
+    if (CLOSED)
         return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
         return sampled_slopes(surface, slopes, frame.specular);
@@ -293,7 +295,7 @@ vec3 reflect_closed_facets(appearance fetched, surface_point surface) {
 }
 
 vec3 reflect_footprint(appearance fetched, surface_point surface) {
-    if (closes_surface())
+    if (CLOSED)
         return reflect_closed_facets(fetched, surface);
     vec3 sum = reflect_slopes(fetched, surface);
     if (DIFFUSE)

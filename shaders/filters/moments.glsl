@@ -3,6 +3,8 @@
 // the normals, convolved with the base lobe's own shape. Developed here, after Olano, Baker 2010,
 // LEAN Mapping (linear moments), and Vasconcelos, Lippman 1998 (mixtures of mixtures).
 
+#pragma variants CLOSED_SURFACE
+
 #include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "filters/moments/bins.glsl"
@@ -99,17 +101,18 @@ void add_exchange(inout appearance fetched, surface_point surface, plane_bin bin
     float part = part_of_bin(bin) / float(SLOPE_NODES);
     for (int i = 0; i < SLOPE_NODES; ++i) {
         mapped_facet facet = facet_of_bin(bin, fetched.filtered, i);
+        facet_exchange exchange = exchange_seen(facet, surface.outgoing);
         fetched.first.exchanged_and_diffuse +=
-            part * exchanged_and_diffuse(facet, surface.outgoing, incoming[0]);
+            part * exchanged_and_diffuse(facet, exchange, surface.outgoing, incoming[0]);
         if (LIGHTS_AT_ONCE > 1u)
             fetched.second.exchanged_and_diffuse +=
-                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[1]);
+                part * exchanged_and_diffuse(facet, exchange, surface.outgoing, incoming[1]);
         if (LIGHTS_AT_ONCE > 2u)
             fetched.third.exchanged_and_diffuse +=
-                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[2]);
+                part * exchanged_and_diffuse(facet, exchange, surface.outgoing, incoming[2]);
         if (LIGHTS_AT_ONCE > 3u)
             fetched.fourth.exchanged_and_diffuse +=
-                part * exchanged_and_diffuse(facet, surface.outgoing, incoming[3]);
+                part * exchanged_and_diffuse(facet, exchange, surface.outgoing, incoming[3]);
     }
 }
 
@@ -139,7 +142,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
             add_bin_to_light(fetched.third, bin, halfway[2], places[2]);
         if (LIGHTS_AT_ONCE > 3u)
             add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
-        if (closes_surface())
+        if (CLOSED)
             add_exchange(fetched, surface, bin, incoming);
     }
     take_means(fetched, surface, means);
@@ -250,7 +253,7 @@ vec3 evaluate_bin_specular(appearance fetched, light_sum sum, vec3 halfway, vec3
     float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, width);
     fresnel = fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway));
     vec3 scale_of_bins = scattering_scale(f0, cosines.outgoing, width);
-    if (closes_surface())
+    if (CLOSED)
         return scale_of_bins * fresnel *
                (distribution * mean_visibility(reflecting_normals(fetched, sum, scale), width,
                                                outgoing, incoming));
@@ -309,7 +312,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         return vec3(0.0);
     vec3 halfway = bin_half_vector(surface, incoming);
     light_sum sum = sum_of_light(fetched, light);
-    if (closes_surface())
+    if (CLOSED)
         return evaluate_closed_bins(fetched, sum, halfway, surface.outgoing, incoming);
     return MODEL == MODEL_MICROFACET
                ? evaluate_bin_microfacets(fetched, sum, halfway, surface.outgoing, incoming)
@@ -364,7 +367,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
         add_to_means(means, bin);
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
-        vec3 reflected = closes_surface() ? reflect_closed_bin(fetched, surface, bin, f0)
+        vec3 reflected = CLOSED ? reflect_closed_bin(fetched, surface, bin, f0)
                                           : reflect_bin(fetched, surface, bin, f0);
         reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
@@ -379,7 +382,7 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
     if (!MIXTURE)
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     vec3 sum = reflect_bins(fetched, surface);
-    if (closes_surface())
+    if (CLOSED)
         return sum + (may_see_level_0(lobe_map())
                           ? fetched.base_share *
                                 reflect_base_material(surface, fetched.base, fetched.base.normal)

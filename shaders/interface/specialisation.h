@@ -31,7 +31,6 @@
 #define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes are turned into von Mises-Fisher lobes first
 #define SPECIALISE_DEPTH_AS_COVERAGE 26 // bool: alpha is the depth, see sample_choice.comp
 #define SPECIALISE_CURVATURE         29 // bool: the knob `curvature` is not 0
-#define SPECIALISE_NORMAL_MAPPING    30 // uint, NORMAL_MAPPING_...
 // The first of a filter's own, see shaders/filters.
 #define SPECIALISE_FILTER 32
 
@@ -43,9 +42,6 @@
 #define DISTRIBUTION_BLINN_PHONG 2
 #define DISTRIBUTION_VMF         3
 #define DISTRIBUTION_COUNT       4
-
-#define NORMAL_MAPPING_CLASSIC    0
-#define NORMAL_MAPPING_MICROFACET 1 // see shaders/lib/microfacet/facet_pair.glsl
 
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants AOV
 
 // Draws the environment where no surface covers it.
 

@@ -130,7 +130,7 @@ vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing,
 }
 
 vec3 evaluate_base_material(base_material base, vec3 outgoing, vec3 incoming) {
-    if (!closes_surface())
+    if (!CLOSED)
         return evaluate_base_material(base, base.normal, outgoing, incoming);
     mapped_facet facet = facet_of_base(base);
     base.diffuse = vec3(0.0);

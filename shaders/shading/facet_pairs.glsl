@@ -1,8 +1,8 @@
 #ifndef FACET_PAIRS_GLSL
 #define FACET_PAIRS_GLSL
 
-// Microfacet materials whose mapped normals belong to closed surfaces: light that their facets
-// exchange (lib/microfacet/facet_pair.glsl).
+// Microfacet materials whose mapped normals belong to closed surfaces (the variant CLOSED_SURFACE):
+// light that their facets exchange (lib/microfacet/facet_pair.glsl).
 
 #include "lib/microfacet/facet_pair.glsl"
 #include "lib/microfacet/microfacet.glsl"
@@ -10,13 +10,12 @@
 #include "lib/number/angle.glsl"
 #include "shading/albedo_table.glsl"
 
-layout(constant_id = SPECIALISE_NORMAL_MAPPING) const uint NORMAL_MAPPING = NORMAL_MAPPING_CLASSIC;
-
-// Half-vector lobes include their own masking.
-bool closes_surface() {
-    return NORMAL_MAPPING == NORMAL_MAPPING_MICROFACET && MODEL == MODEL_MICROFACET &&
-           has_map(MAP_NORMAL);
-}
+// A literal, so that shaders for other surfaces contain no code for these.
+#ifdef CLOSED_SURFACE
+#define CLOSED true
+#else
+#define CLOSED false
+#endif
 
 // The mapped facet of a pair, and its material.
 struct mapped_facet {
@@ -92,9 +91,13 @@ vec3 met_by_upright_facet(mapped_facet facet, vec3 direction) {
 // Schlick's Fresnel reflectance has its mean over all directions at this cosine.
 const float MEAN_FRESNEL_COSINE = 0.456;
 
+// Of light from all directions.
+facet_albedo mean_albedo_of_facet(mapped_facet facet) {
+    return facet_albedo_at(facet, MEAN_FRESNEL_COSINE);
+}
+
 // What the mapped facet reflects towards the upright one, of light from all directions.
-vec3 exchange_of_mapped_facet(mapped_facet facet) {
-    facet_albedo albedo = facet_albedo_at(facet, MEAN_FRESNEL_COSINE);
+vec3 exchange_of_mapped_facet(mapped_facet facet, facet_albedo albedo) {
     return albedo.specular * facet_pair_mean_exchange_of_microfacets(facet.slope,
                                                                      exchange_alpha(facet)) +
            albedo.diffuse * facet_pair_exchange(facet.slope);
@@ -102,9 +105,9 @@ vec3 exchange_of_mapped_facet(mapped_facet facet) {
 
 // K.
 vec3 gain_of_upright_facet(mapped_facet facet) {
-    facet_albedo albedo = facet_albedo_at(facet, MEAN_FRESNEL_COSINE);
+    facet_albedo albedo = mean_albedo_of_facet(facet);
     return facet_pair_gain(facet.slope, albedo.specular + albedo.diffuse,
-                           exchange_of_mapped_facet(facet));
+                           exchange_of_mapped_facet(facet, albedo));
 }
 
 // Factor of what the mapped facet reflects at once.
@@ -112,10 +115,20 @@ float unmasked_share(vec2 slope, vec3 outgoing, vec3 incoming) {
     return facet_pair_shares(slope, outgoing).x * facet_pair_masking(slope, incoming);
 }
 
+// What does not depend on the light: Q of the viewer, and K.
+struct facet_exchange {
+    vec3 seen, gain;
+};
+
+facet_exchange exchange_seen(mapped_facet facet, vec3 outgoing) {
+    return facet_exchange(met_by_upright_facet(facet, outgoing), gain_of_upright_facet(facet));
+}
+
 // Of reflectance times cosine, light that the facets exchange and the mapped one's Lambert part.
-vec3 exchanged_and_diffuse(mapped_facet facet, vec3 outgoing, vec3 incoming) {
-    vec3 sum = met_by_upright_facet(facet, outgoing) * met_by_upright_facet(facet, incoming) *
-               gain_of_upright_facet(facet) * (INVERSE_PI * max(incoming.z, 0.0));
+vec3 exchanged_and_diffuse(mapped_facet facet, facet_exchange exchange, vec3 outgoing,
+                           vec3 incoming) {
+    vec3 sum = exchange.seen * met_by_upright_facet(facet, incoming) * exchange.gain *
+               (INVERSE_PI * max(incoming.z, 0.0));
     if (!DIFFUSE)
         return sum;
     vec3 fresnel = fresnel_schlick(facet.cover, vec3(1.0),
@@ -123,6 +136,10 @@ vec3 exchanged_and_diffuse(mapped_facet facet, vec3 outgoing, vec3 incoming) {
     return sum + unmasked_share(facet.slope, outgoing, incoming) *
                      microfacet_diffuse(facet.diffuse, fresnel,
                                         dot(normal_of_slope(facet.slope), incoming));
+}
+
+vec3 exchanged_and_diffuse(mapped_facet facet, vec3 outgoing, vec3 incoming) {
+    return exchanged_and_diffuse(facet, exchange_seen(facet, outgoing), outgoing, incoming);
 }
 
 // Masking of a texel's microfacets and of its facets, over 4 <n, omega_o>.

@@ -42,7 +42,8 @@ def embed(sources, compiler=COMPILER):
             (folder / name).write_text(text)
         done = subprocess.run(
             [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR,
-             "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output, "--depfile", f"{scratch}/table.d"],
+             "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output,
+             "--depfile", f"{scratch}/table.d"],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         return done.returncode, done.stdout, output.read_text() if output.exists() else None
 
@@ -62,12 +63,14 @@ def test_shaders_become_a_table():
 
 
 def test_filters_and_macros_give_variants():
-    source = LAYERED.replace("void main", "#ifdef AOV\n#endif\n#ifdef ENVIRONMENT\n#endif\nvoid main")
-    status, _, table = embed({"pass.comp": source, "filters/flat.glsl": "void f() {}\n"})
-    assert status == 0
-    for name in ("pass_flat", "pass_flat_aov", "pass_flat_environment", "pass_flat_environment_aov"):
-        assert f'"{name}.comp"' in table, name
-    assert "table_count = 4;" in table
+    source = LAYERED.replace("void main", "#pragma variants ENVIRONMENT AOV\nvoid main")
+    status, printed, table = embed({"pass.comp": source, "filters/flat.glsl": "void f() {}\n",
+                                    "filters/deep.glsl": "#pragma variants DEEP\nvoid f() {}\n"})
+    assert status == 0 and not printed, printed
+    for name in ("flat", "flat_environment", "flat_aov", "flat_environment_aov", "deep",
+                 "deep_deep", "deep_environment_deep", "deep_environment_aov_deep"):
+        assert f'"pass_{name}.comp"' in table, name
+    assert "table_count = 12;" in table
     status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
     assert status == 0 and '"pass_flat.comp"' in table and "aov" not in table
 
