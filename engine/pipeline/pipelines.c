@@ -8,6 +8,7 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/pipeline/cache.h"
 #include "engine/pipeline/layout.h"
+#include "engine/pipeline/module.h"
 #include "engine/pipeline/raster.h"
 #include "engine/resource/sampler.h"
 #include "engine/shader/shaders.h"
@@ -128,36 +129,6 @@ static lobe_result find_shader(lobe_device *device, const char *name, VkShaderSt
 }
 
 // ---------------------------------------------------------------------------------------------
-// Specialisation in Vulkan's form
-
-typedef struct specialisation {
-    VkSpecializationInfo information;
-    VkSpecializationMapEntry *entries;
-} specialisation;
-
-static lobe_result create_specialisation(lobe_device *device, const pipeline_key *key,
-                                         specialisation *created) {
-    const size_t count = key->specialisation_count;
-    created->entries = lobe_allocate(device->host.allocator, count + 1, sizeof *created->entries);
-    if (!created->entries)
-        return fail_memory(device, key);
-    for (size_t i = 0; i < count; i++)
-        created->entries[i] = (VkSpecializationMapEntry){
-            .constantID = key->specialisation[i].id,
-            .offset =
-                (uint32_t)(i * sizeof(lobe_specialisation) + offsetof(lobe_specialisation, bits)),
-            .size = sizeof key->specialisation[i].bits,
-        };
-    created->information = (VkSpecializationInfo){
-        .mapEntryCount = (uint32_t)count,
-        .pMapEntries = created->entries,
-        .dataSize = count * sizeof *key->specialisation,
-        .pData = key->specialisation,
-    };
-    return LOBE_OK;
-}
-
-// ---------------------------------------------------------------------------------------------
 // Creation
 
 static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
@@ -166,15 +137,6 @@ static void destroy_pipeline(lobe_device *device, cached_pipeline *cached) {
     lobe_release((void *)cached->pipeline.name);
     lobe_release(cached->key.specialisation);
     lobe_release(cached);
-}
-
-static void apply_local_size(const pipeline_key *key, engine_pipeline *pipeline) {
-    const engine_shader *shader = key->shaders[0];
-    memcpy(pipeline->local_size, shader->local_size, sizeof pipeline->local_size);
-    for (size_t i = 0; i < key->specialisation_count; i++)
-        for (size_t axis = 0; axis < 3; axis++)
-            if (shader->local_size_ids[axis] == key->specialisation[i].id)
-                pipeline->local_size[axis] = key->specialisation[i].bits;
 }
 
 static lobe_result check_local_size(lobe_device *device, const engine_pipeline *pipeline) {
@@ -188,30 +150,35 @@ static lobe_result check_local_size(lobe_device *device, const engine_pipeline *
     return LOBE_OK;
 }
 
-static lobe_result create_compute(lobe_device *device, const cached_pipeline *cached,
-                                  const VkSpecializationInfo *specialised,
+static lobe_result apply_local_size(lobe_device *device, const pipeline_key *key,
+                                    engine_pipeline *pipeline) {
+    const engine_shader *shader = key->shaders[0];
+    memcpy(pipeline->local_size, shader->local_size, sizeof pipeline->local_size);
+    for (size_t i = 0; i < key->specialisation_count; i++)
+        for (size_t axis = 0; axis < 3; axis++)
+            if (shader->local_size_ids[axis] == key->specialisation[i].id)
+                pipeline->local_size[axis] = key->specialisation[i].bits;
+    return check_local_size(device, pipeline);
+}
+
+static lobe_result create_compute(lobe_device *device, VkPipelineCache cache, VkShaderModule module,
                                   engine_pipeline *pipeline) {
-    apply_local_size(&cached->key, pipeline);
-    const lobe_result result = check_local_size(device, pipeline);
-    if (result != LOBE_OK)
-        return result;
     const VkComputePipelineCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage =
             {
                 .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                 .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                .module = cached->key.shaders[0]->module,
+                .module = module,
                 .pName = "main",
-                .pSpecializationInfo = specialised,
             },
         .layout = pipeline->layout,
     };
-    return VULKAN_CHECK(
-        &device->host,
-        device->api.vkCreateComputePipelines(device->vulkan, device->pipelines->cache.vulkan, 1,
-                                             &create, device->callbacks, &pipeline->pipeline),
-        "pipeline '%s'", pipeline->name);
+    return VULKAN_CHECK(&device->host,
+                        device->api.vkCreateComputePipelines(device->vulkan, cache, 1, &create,
+                                                             device->callbacks,
+                                                             &pipeline->pipeline),
+                        "pipeline '%s'", pipeline->name);
 }
 
 static char *name_of(const lobe_allocator *allocator, const pipeline_key *key) {
@@ -220,23 +187,34 @@ static char *name_of(const lobe_allocator *allocator, const pipeline_key *key) {
                       : lobe_copy_text(allocator, shaders[0]->name);
 }
 
+static lobe_result create_modules(lobe_device *device, const pipeline_key *key,
+                                  VkShaderModule modules[ENGINE_MAXIMUM_STAGES]) {
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; i < ENGINE_MAXIMUM_STAGES && key->shaders[i] && result == LOBE_OK; i++)
+        result = engine_module_create(device, key->shaders[i], key->specialisation,
+                                      key->specialisation_count, &modules[i]);
+    return result;
+}
+
 /// `raster` is NULL for a compute pipeline.
 static lobe_result create_vulkan(lobe_device *device, const engine_raster_parameters *raster,
                                  cached_pipeline *cached) {
     engine_pipeline *pipeline = &cached->pipeline;
     const pipeline_key *key = &cached->key;
-    specialisation specialised = {0};
+    const VkPipelineCache cache = device->pipelines->cache.vulkan;
+    VkShaderModule modules[ENGINE_MAXIMUM_STAGES] = {VK_NULL_HANDLE};
     lobe_result result =
         engine_pipeline_layout_create(device, key->shaders, key->shaders[1] ? 2 : 1, pipeline);
+    if (result == LOBE_OK && !raster)
+        result = apply_local_size(device, key, pipeline);
     if (result == LOBE_OK)
-        result = create_specialisation(device, key, &specialised);
-    if (result == LOBE_OK && raster)
-        result = engine_raster_pipeline_create(device, device->pipelines->cache.vulkan, raster,
-                                               key->shaders[0], key->shaders[1],
-                                               &specialised.information, pipeline);
-    else if (result == LOBE_OK)
-        result = create_compute(device, cached, &specialised.information, pipeline);
-    lobe_release(specialised.entries);
+        result = create_modules(device, key, modules);
+    if (result == LOBE_OK)
+        result = raster ? engine_raster_pipeline_create(device, cache, raster, modules[0],
+                                                        modules[1], pipeline)
+                        : create_compute(device, cache, modules[0], pipeline);
+    for (size_t i = 0; i < ENGINE_MAXIMUM_STAGES; i++)
+        device->api.vkDestroyShaderModule(device->vulkan, modules[i], device->callbacks);
     if (result == LOBE_OK)
         engine_device_name(device, VK_OBJECT_TYPE_PIPELINE, (uint64_t)pipeline->pipeline,
                            pipeline->name);

@@ -6,14 +6,13 @@
 
 #define COLOURS ENGINE_MAXIMUM_COLOUR_ATTACHMENTS
 
-static VkPipelineShaderStageCreateInfo stage_of(const engine_shader *shader,
-                                                const VkSpecializationInfo *specialisation) {
+static VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage,
+                                                VkShaderModule module) {
     return (VkPipelineShaderStageCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-        .stage = shader->stage,
-        .module = shader->module,
+        .stage = stage,
+        .module = module,
         .pName = "main",
-        .pSpecializationInfo = specialisation,
     };
 }
 
@@ -98,16 +97,14 @@ static lobe_result check_blending(lobe_device *device, const engine_raster_param
 
 lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache cache,
                                           const engine_raster_parameters *parameters,
-                                          const engine_shader *vertex,
-                                          const engine_shader *fragment,
-                                          const VkSpecializationInfo *specialisation,
+                                          VkShaderModule vertex, VkShaderModule fragment,
                                           engine_pipeline *pipeline) {
     const lobe_result supported = check_blending(device, parameters, pipeline->name);
     if (supported != LOBE_OK)
         return supported;
-    VkPipelineShaderStageCreateInfo stages[2] = {stage_of(vertex, specialisation)};
+    VkPipelineShaderStageCreateInfo stages[2] = {stage_of(VK_SHADER_STAGE_VERTEX_BIT, vertex)};
     if (fragment)
-        stages[1] = stage_of(fragment, specialisation);
+        stages[1] = stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, fragment);
     const VkPipelineVertexInputStateCreateInfo no_attributes = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
     };

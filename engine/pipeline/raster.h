@@ -4,13 +4,11 @@
 #include "engine/pipeline/pipeline.h"
 
 /// Creates the Vulkan pipeline for a draw. `pipeline` has its name, layout and output_locations;
-/// `fragment` may be NULL; `cache` may be null.
+/// `fragment` may be null; `cache` may be null.
 /// LOBE_ERROR_UNSUPPORTED: the device cannot blend into an attachment's format.
 lobe_result engine_raster_pipeline_create(lobe_device *device, VkPipelineCache cache,
                                           const engine_raster_parameters *parameters,
-                                          const engine_shader *vertex,
-                                          const engine_shader *fragment,
-                                          const VkSpecializationInfo *specialisation,
+                                          VkShaderModule vertex, VkShaderModule fragment,
                                           engine_pipeline *pipeline);
 
 #endif

@@ -29,7 +29,8 @@ typedef struct engine_shader_binding {
 typedef struct engine_shader {
     const char *name; ///< "reduction.comp"
     VkShaderStageFlagBits stage;
-    VkShaderModule module;
+    const uint32_t *words; ///< SPIR-V, which outlives this
+    size_t word_count;
     uint64_t version; ///< stamp (see engine_device_stamp) of the code; changes on reload
     engine_shader_binding *bindings; ///< ordered by binding
     size_t binding_count;

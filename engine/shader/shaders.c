@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "engine/device/device.h"
-#include "engine/device/vulkan_check.h"
 #include "engine/shader/reflection.h"
 #include "engine/shader/words.h"
 
@@ -92,28 +91,10 @@ static void free_words(const engine_shader_code *code, engine_shader_words *word
         engine_shader_words_free(words);
 }
 
-static void free_loaded(lobe_device *device, loaded_shader *loaded) {
-    device->api.vkDestroyShaderModule(device->vulkan, loaded->shader.module, device->callbacks);
+static void free_loaded(loaded_shader *loaded) {
     engine_reflection_free(&loaded->shader);
     free_words(loaded->code, &loaded->words);
     lobe_release(loaded);
-}
-
-static lobe_result create_module(lobe_device *device, loaded_shader *loaded) {
-    const VkShaderModuleCreateInfo create = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-        .codeSize = loaded->words.count * sizeof *loaded->words.words,
-        .pCode = loaded->words.words,
-    };
-    const lobe_result result =
-        VULKAN_CHECK(&device->host,
-                     device->api.vkCreateShaderModule(device->vulkan, &create, device->callbacks,
-                                                      &loaded->shader.module),
-                     "shader '%s'", loaded->shader.name);
-    if (result == LOBE_OK)
-        engine_device_name(device, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)loaded->shader.module,
-                           loaded->shader.name);
-    return result;
 }
 
 /// Creates a shader from its words and takes ownership of them, even on failure.
@@ -130,11 +111,12 @@ static lobe_result load(engine_shaders *shaders, const engine_shader_code *code,
     loaded->code = code;
     loaded->shader.name = code->name;
     loaded->shader.version = engine_device_stamp(device);
-    lobe_result result = engine_reflect(&device->host, words->words, words->count, &loaded->shader);
-    if (result == LOBE_OK)
-        result = create_module(device, loaded);
+    loaded->shader.words = words->words;
+    loaded->shader.word_count = words->count;
+    const lobe_result result =
+        engine_reflect(&device->host, words->words, words->count, &loaded->shader);
     if (result != LOBE_OK) {
-        free_loaded(device, loaded);
+        free_loaded(loaded);
         return result;
     }
     loaded->next = shaders->loaded;
@@ -199,7 +181,7 @@ void engine_shaders_destroy(engine_shaders **shaders) {
         return;
     for (loaded_shader *loaded = (*shaders)->loaded, *next; loaded; loaded = next) {
         next = loaded->next;
-        free_loaded((*shaders)->device, loaded);
+        free_loaded(loaded);
     }
     for (shader_table *table = (*shaders)->tables, *next; table; table = next) {
         next = table->next;

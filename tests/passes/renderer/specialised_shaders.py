@@ -2,7 +2,7 @@
 """Checks that compiled shaders do not contain what a scene does not need.
 
 Compiles the shading pass of each filter as the build does, sets its specialisation constants, lets
-spirv-opt remove what they make unreachable, as a driver would, and counts what is left.
+spirv-opt remove what they make unreachable, and counts what is left.
 
 usage: specialised_shaders.py SHADERS GLSLANG SPIRV_OPT SPIRV_DIS
 """

@@ -1,0 +1,119 @@
+// Shaders with values for their specialisation constants.
+
+#include "tests/engine/support/cmocka_all.h"
+
+#include <string.h>
+
+#include "engine/device/device.h"
+#include "engine/pipeline/module.h"
+#include "engine/shader/shaders.h"
+#include "tests/engine/support/log_recorder.h"
+#include "tests/engine/support/test_shaders.h"
+#include "third_party/spirv_tools.h"
+
+// Numbers of the SPIR-V specification.
+enum {
+    OP_DECORATE = 71,
+    OP_IMAGE_SAMPLE_EXPLICIT_LOD = 88,
+    OP_LOOP_MERGE = 246,
+    OP_BRANCH_CONDITIONAL = 250,
+    DECORATION_SPEC_ID = 1,
+    HEADER_WORDS = 5,
+};
+
+static log_recorder recorder;
+static lobe_device *device;
+
+static int open_device(void **state) {
+    (void)state;
+    log_recorder_start(&recorder);
+    return open_device_with_test_shaders(&recorder.host, NULL, &device) != LOBE_OK;
+}
+
+static int close_device(void **state) {
+    (void)state;
+    const uint64_t mistakes = lobe_device_validation_count(device);
+    lobe_device_destroy(&device);
+    return mistakes != 0;
+}
+
+static const engine_shader *find(const char *name) {
+    const engine_shader *shader;
+    assert_int_equal(engine_shader_find(device, name, &shader), LOBE_OK);
+    return shader;
+}
+
+typedef struct content {
+    size_t words, spec_ids, samples, loops, branches;
+} content;
+
+static void count(void *user, const uint32_t *words, size_t length) {
+    content *found = user;
+    found->words = length;
+    for (size_t i = HEADER_WORDS; i < length; i += words[i] >> 16) {
+        const uint32_t operation = words[i] & 0xffff;
+        found->spec_ids += operation == OP_DECORATE && words[i + 2] == DECORATION_SPEC_ID;
+        found->samples += operation == OP_IMAGE_SAMPLE_EXPLICIT_LOD;
+        found->loops += operation == OP_LOOP_MERGE;
+        found->branches += operation == OP_BRANCH_CONDITIONAL;
+    }
+}
+
+static content specialised(const engine_shader *shader, const spirv_constant *constants,
+                           size_t constant_count) {
+    content found = {0};
+    const spirv_source source = {
+        shader->words, shader->word_count, constants, constant_count, count, &found};
+    char message[SPIRV_MESSAGE_SIZE];
+    assert_true(third_party_spirv_specialise(&source, message));
+    return found;
+}
+
+static void constants_become_values(void **state) {
+    (void)state;
+    const engine_shader *shader = find("reflection.comp");
+    content whole = {0};
+    count(&whole, shader->words, shader->word_count);
+    assert_int_equal(whole.spec_ids, 2);
+    const spirv_constant both[] = {{3, 5}, {7, 1}};
+    assert_int_equal(specialised(shader, both, 2).spec_ids, 0);
+    // Others have their defaults, and identifiers that the shader lacks do not matter.
+    const spirv_constant other[] = {{99, 5}};
+    assert_int_equal(specialised(shader, other, 1).spec_ids, 0);
+}
+
+static void unreachable_code_is_removed(void **state) {
+    (void)state;
+    const engine_shader *shader = find("reflection.comp");
+    const spirv_constant doubled[] = {{3, 5}, {7, 1}}, plain[] = {{3, 5}, {7, 0}};
+    const content with = specialised(shader, doubled, 2), without = specialised(shader, plain, 2);
+    assert_true(with.samples > 0 && with.loops == 1);
+    // Only the loop's own condition remains.
+    assert_int_equal(with.branches, 1);
+    assert_int_equal(without.branches, 1);
+    assert_true(without.words < with.words);
+}
+
+static void damaged_words_are_refused(void **state) {
+    (void)state;
+    const engine_shader *shader = find("reflection.comp");
+    engine_shader damaged = *shader;
+    damaged.word_count -= 3;
+    VkShaderModule module;
+    const lobe_specialisation value = {7, 1};
+    assert_int_equal(engine_module_create(device, &damaged, &value, 1, &module), LOBE_ERROR_SHADER);
+    assert_true(module == VK_NULL_HANDLE);
+    assert_int_equal(recorder.errors, 1);
+    assert_non_null(strstr(recorder.last_error, "shader 'reflection.comp' cannot be specialised"));
+}
+
+#define WITH_DEVICE(test) cmocka_unit_test_setup_teardown(test, open_device, close_device)
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WITH_DEVICE(constants_become_values),
+        WITH_DEVICE(unreachable_code_is_removed),
+        WITH_DEVICE(damaged_words_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
