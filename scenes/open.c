@@ -56,3 +56,9 @@ lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
 lobe_result lobe_scene_open(const char *scene, const lobe_host *host, lobe_scene **result) {
     return lobe_scene_open_with(&(lobe_scene_open_parameters){.scene = scene}, host, result);
 }
+
+lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
+                                     const lobe_host *host, lobe_scene **result) {
+    const lobe_scene_open_parameters parameters = {.scene = folder, .carrier = &carrier};
+    return lobe_scene_open_with(&parameters, host, result);
+}

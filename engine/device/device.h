@@ -59,7 +59,9 @@ void engine_device_lock_queue(lobe_device *device);
 void engine_device_unlock_queue(lobe_device *device);
 
 /// Returns a number above 0 that this device has not returned before. It identifies content.
-uint64_t engine_device_stamp(lobe_device *device);
+static inline uint64_t engine_device_stamp(lobe_device *device) {
+    return ++device->last_stamp;
+}
 
 /// Submits a finished command buffer. The timeline reaches `*value` when it has executed; `value`
 /// may be NULL. Only barriers order submissions. `host`: its semaphores; NULL: none.

@@ -293,7 +293,3 @@ uint64_t lobe_device_validation_count(const lobe_device *device) {
         return 0;
     return atomic_load(&device->validation_count);
 }
-
-uint64_t engine_device_stamp(lobe_device *device) {
-    return ++device->last_stamp;
-}

@@ -4,7 +4,7 @@
 
 #include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
-#include "engine/resource/staging.h"
+#include "engine/resource/upload.h"
 
 static lobe_result check_content(const lobe_host *host, const char *name, const lobe_image *image) {
     if (!image || !image->texels || lobe_format_size(image->format) == 0)

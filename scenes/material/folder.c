@@ -270,9 +270,3 @@ lobe_result scenes_material_open(const lobe_scene_open_parameters *parameters, l
     *result = folder.scene;
     return status;
 }
-
-lobe_result lobe_scene_open_material(const char *path, lobe_carrier carrier, const lobe_host *host,
-                                     lobe_scene **result) {
-    const lobe_scene_open_parameters parameters = {.scene = path, .carrier = &carrier};
-    return lobe_scene_open_with(&parameters, host, result);
-}

@@ -5,7 +5,7 @@
 
 #include "engine/device/device.h"
 #include "engine/resource/resource.h"
-#include "engine/resource/staging.h"
+#include "engine/resource/upload.h"
 #include "tests/engine/support/log_recorder.h"
 
 static log_recorder recorder;
@@ -114,7 +114,7 @@ static void texture_larger_than_a_step_is_whole(void **state) {
     (void)state;
     const uint32_t width = 1500, height = 1001;
     const size_t size = (size_t)width * height * 16;
-    assert_true(size > ENGINE_STAGING_STEP);
+    assert_true(size > ENGINE_UPLOAD_STEP);
     lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, width, height, calloc(size, 1)};
     for (size_t i = 0; i < size / 4; i++)
         ((float *)image.texels)[i] = (float)i;
@@ -218,7 +218,7 @@ static void texture_beyond_the_memory_limit_is_refused(void **state) {
 
 static void buffer_holds_what_it_was_given(void **state) {
     (void)state;
-    static const size_t sizes[] = {1, 3, 4, 4099, ENGINE_STAGING_STEP + 12};
+    static const size_t sizes[] = {1, 3, 4, 4099, ENGINE_UPLOAD_STEP + 12};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         void *data = pattern(sizes[i], 5);
         lobe_buffer *buffer = NULL;

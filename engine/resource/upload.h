@@ -1,5 +1,5 @@
-#ifndef ENGINE_RESOURCE_STAGING_H
-#define ENGINE_RESOURCE_STAGING_H
+#ifndef ENGINE_RESOURCE_UPLOAD_H
+#define ENGINE_RESOURCE_UPLOAD_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -10,7 +10,7 @@
 
 /// Maximum number of bytes of mapped memory that an upload uses at a time. Larger uploads take
 /// several steps, so that a large texture does not need twice its size.
-#define ENGINE_STAGING_STEP ((VkDeviceSize)16 << 20)
+#define ENGINE_UPLOAD_STEP ((VkDeviceSize)16 << 20)
 
 /// Fills a buffer (with zeros if `data` is NULL) and makes the content visible to every later
 /// submission. Waits for the device.

@@ -1,4 +1,4 @@
-#include "engine/resource/staging.h"
+#include "engine/resource/upload.h"
 
 #include <string.h>
 
@@ -7,26 +7,6 @@
 
 static VkDeviceSize minimum(VkDeviceSize first, VkDeviceSize second) {
     return first < second ? first : second;
-}
-
-lobe_result engine_staging_create(lobe_device *device, const char *name, VkDeviceSize size,
-                                  engine_memory_place place, engine_staging *staging) {
-    VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    if (size <= device->limits.maxStorageBufferRange)
-        usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    *staging = (engine_staging){.size = size};
-    const lobe_result result = engine_buffer_create_placed(device, name, size, usage, place,
-                                                           &staging->buffer, &staging->allocation);
-    if (result != LOBE_OK)
-        *staging = (engine_staging){0};
-    staging->mapped = staging->allocation.mapped;
-    return result;
-}
-
-void engine_staging_destroy(lobe_device *device, engine_staging *staging) {
-    engine_buffer_destroy_placed(device, &staging->buffer, &staging->allocation);
-    *staging = (engine_staging){0};
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -117,7 +97,7 @@ lobe_result engine_upload_buffer(lobe_device *device, const char *name, VkBuffer
     if (!data)
         return zero_buffer(device, name, buffer);
     engine_staging staging;
-    lobe_result result = engine_staging_create(device, name, minimum(size, ENGINE_STAGING_STEP),
+    lobe_result result = engine_staging_create(device, name, minimum(size, ENGINE_UPLOAD_STEP),
                                                ENGINE_MEMORY_UPLOAD, &staging);
     for (VkDeviceSize done = 0; result == LOBE_OK && done < size; done += staging.size) {
         const VkDeviceSize step = minimum(staging.size, size - done);
@@ -158,7 +138,7 @@ static lobe_result copy_to_image(lobe_device *device, const char *name, VkBuffer
 lobe_result engine_upload_image(lobe_device *device, const char *name, VkImage image,
                                 const lobe_image *content) {
     const VkDeviceSize row = content->width * (VkDeviceSize)lobe_format_size(content->format);
-    const VkDeviceSize fitting = row < ENGINE_STAGING_STEP ? ENGINE_STAGING_STEP / row : 1;
+    const VkDeviceSize fitting = row < ENGINE_UPLOAD_STEP ? ENGINE_UPLOAD_STEP / row : 1;
     const uint32_t rows = (uint32_t)minimum(fitting, content->height);
     engine_staging staging;
     lobe_result result =
