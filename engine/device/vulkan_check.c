@@ -47,10 +47,6 @@ static const vulkan_result_meaning *meaning_of(VkResult result) {
     return &unknown;
 }
 
-const char *engine_vulkan_result_name(VkResult result) {
-    return meaning_of(result)->name;
-}
-
 lobe_result engine_vulkan_result(VkResult result) {
     return meaning_of(result)->meaning;
 }
@@ -71,5 +67,5 @@ lobe_result engine_vulkan_check(const lobe_host *host, VkResult vulkan, const ch
         if (*end == '.' || *end == '>')
             name = end + 1;
     return lobe_host_fail(host, result, "%s: %.*s gave %s", purpose, (int)(end - name), name,
-                          engine_vulkan_result_name(vulkan));
+                          meaning_of(vulkan)->name);
 }

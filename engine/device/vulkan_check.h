@@ -6,9 +6,6 @@
 #include <lobe/host.h>
 #include <lobe/result.h>
 
-/// The enumerator's name, for example "VK_ERROR_DEVICE_LOST". Never NULL.
-const char *engine_vulkan_result_name(VkResult result);
-
 /// Translates a VkResult for lobe's callers. All success codes give LOBE_OK.
 lobe_result engine_vulkan_result(VkResult result);
 

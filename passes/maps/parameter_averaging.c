@@ -1,10 +1,9 @@
 #include "passes/maps/parameter_averaging.h"
 
-#include "passes/maps/lobe_map.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
-static const lobe_map_kind averaged_parameters = {
+const lobe_map_kind passes_averaged_parameters = {
     .content = "averaged parameters",
     .pass = "parameter_averaging",
     .shader = "maps/parameter_averaging.comp",
@@ -13,12 +12,8 @@ static const lobe_map_kind averaged_parameters = {
     .presence_id = SPECIALISE_MIXTURE,
 };
 
-reduced_map passes_parameter_averaging(const filter_context *context, uint32_t material) {
-    return passes_lobe_map(context, material, &averaged_parameters);
-}
-
 void passes_parameter_averaging_build(const filter_context *context, size_t instance,
                                       const void *prepared, filtered_appearance *appearance) {
     (void)prepared;
-    passes_lobe_map_build(context, instance, &averaged_parameters, appearance);
+    passes_lobe_map_build(context, instance, &passes_averaged_parameters, appearance);
 }

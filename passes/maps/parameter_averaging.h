@@ -2,13 +2,12 @@
 #define PASSES_MAPS_PARAMETER_AVERAGING_H
 
 #include "passes/context/filter.h"
-#include "passes/maps/level_reduction.h"
+#include "passes/maps/lobe_map.h"
 
-/// Adds the pass that averages normals and concentrations like colours, and the reduction of what
-/// it writes. The material has a normal or width map.
-reduced_map passes_parameter_averaging(const filter_context *context, uint32_t material);
+/// Normals and concentrations, averaged like colours.
+extern const lobe_map_kind passes_averaged_parameters;
 
-/// The `build` of a filter that shades from these maps (shaders/shading/averaged_maps.glsl).
+/// The `build` of a filter that shades from this map (shaders/shading/averaged_maps.glsl).
 void passes_parameter_averaging_build(const filter_context *context, size_t instance,
                                       const void *prepared, filtered_appearance *appearance);
 

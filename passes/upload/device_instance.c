@@ -71,7 +71,7 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
                           scene->material_count);
 }
 
-void passes_device_scene_measure_instance(device_scene *scene, size_t index) {
+static void measure_instance(device_scene *scene, size_t index) {
     const lobe_instance *source = &scene->scene->instances[index];
     const lobe_grid grid = passes_lobe_grid(&scene->materials[source->material]);
     scene->instances[index] = (device_instance){
@@ -109,6 +109,6 @@ lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scen
     if (status == LOBE_OK)
         status = upload_material(device, scene, source->material, host);
     if (status == LOBE_OK)
-        passes_device_scene_measure_instance(scene, index);
+        measure_instance(scene, index);
     return status;
 }

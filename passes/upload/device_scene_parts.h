@@ -21,10 +21,9 @@ lobe_result passes_device_scene_upload_environment(lobe_device *device, device_s
 /// LOBE_ERROR_MALFORMED if the mesh or the material does not exist.
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host);
-/// Checks and uploads what the instance needs and the device does not have, then measures it.
+/// Checks and uploads what the instance needs and the device does not have, then derives
+/// what follows from its transform, mesh and maps.
 lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
                                                 size_t index, const lobe_host *host);
-/// Derives what follows from the instance's transform, mesh and maps.
-void passes_device_scene_measure_instance(device_scene *scene, size_t index);
 
 #endif

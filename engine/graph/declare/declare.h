@@ -37,10 +37,6 @@ bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const ch
 /// Appends a command to the pass; NULL after a failure.
 engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind);
 
-/// Copies a binding and adds its access. Returns the resource's newest version.
-lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_list *list,
-                                       const lobe_binding *binding, engine_access_kind kind);
-
 // ---------------------------------------------------------------------------------------------
 // Compilation
 

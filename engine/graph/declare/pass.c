@@ -117,8 +117,9 @@ static void append_binding(engine_graph_binding_list *list, engine_graph_binding
     list->last = binding;
 }
 
-lobe_resource engine_graph_add_binding(lobe_pass *pass, engine_graph_binding_list *list,
-                                       const lobe_binding *binding, engine_access_kind kind) {
+/// Copies a binding and adds its access. Returns the resource's newest version.
+static lobe_resource add_binding(lobe_pass *pass, engine_graph_binding_list *list,
+                                 const lobe_binding *binding, engine_access_kind kind) {
     lobe_graph *graph = pass->graph;
     lobe_resource resource = binding->resource;
     if (!check_binding_name(pass, list, binding->name))
@@ -157,7 +158,7 @@ static lobe_resource bind_to_pass(lobe_pass *pass, const lobe_binding *binding,
                         binding->name ? binding->name : "");
         return binding->resource;
     }
-    return engine_graph_add_binding(pass, &pass->bindings, binding, kind);
+    return add_binding(pass, &pass->bindings, binding, kind);
 }
 
 void lobe_pass_read(lobe_pass *pass, const lobe_binding *binding) {
@@ -208,7 +209,7 @@ static bool check_constants(lobe_pass *pass, const char *shader, const void *con
 static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
                             const lobe_binding *bindings, size_t count) {
     for (size_t i = 0; i < count; i++)
-        engine_graph_add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
+        add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
 }
 
 /// `size`: of what the command reads at `offset`, bytes.

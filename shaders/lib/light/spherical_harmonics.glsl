@@ -21,8 +21,9 @@ void spherical_harmonics(vec3 direction, out float basis[HARMONICS]) {
     basis[8] = 0.5 * quadratic * (d.x * d.x - d.y * d.y);
 }
 
-// Their sum, with factors for degrees 1 and 2. Never negative: nine harmonics of a single light
-// ring down to -4 % of its irradiance behind it.
+// Their sum, with factors for degrees 1 and 2; with factors of 1 the irradiance of a surface with
+// this unit normal: Ramamoorthi, Hanrahan, 2001, Eq. 6. Never negative: nine harmonics of a single
+// light ring down to -4 % of its irradiance behind it.
 vec3 harmonic_irradiance_by_degree(vec4 coefficients[HARMONICS], vec3 direction, float first,
                                    float second) {
     float basis[HARMONICS];
@@ -33,11 +34,6 @@ vec3 harmonic_irradiance_by_degree(vec4 coefficients[HARMONICS], vec3 direction,
     for (int i = 4; i < HARMONICS; ++i)
         sum += (second * basis[i]) * coefficients[i].rgb;
     return max(sum, vec3(0.0));
-}
-
-// Irradiance of a surface with this unit normal: Ramamoorthi, Hanrahan, 2001, Eq. 6.
-vec3 harmonic_irradiance(vec4 coefficients[HARMONICS], vec3 normal) {
-    return harmonic_irradiance_by_degree(coefficients, normal, 1.0, 1.0);
 }
 
 // Mean irradiance of surfaces whose normals have the mean r mu, 0 <= r <= 1, and are distributed

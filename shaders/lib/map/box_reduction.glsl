@@ -7,10 +7,6 @@
 // Guthe, Heckbert 2005, Non-Power-of-Two Mipmap Creation (NVIDIA): the polyphase box. For
 // size = 2m + 1, target j covers [j, j + 1) (2m + 1) / m and takes texels 2j, 2j + 1, 2j + 2.
 
-int reduced_size(int size) {
-    return max(1, size / 2);
-}
-
 int box_taps(int size) {
     return size == 1 ? 1 : 2 + (size & 1);
 }

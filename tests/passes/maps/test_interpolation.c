@@ -58,9 +58,8 @@ typedef struct map_ends {
     float last[4 * SLOPE_LAYERS];
 } map_ends;
 
-typedef reduced_map (*map_maker)(const filter_context *context, uint32_t material);
-
-static map_ends make_map(fixture *f, lobe_scene *scene, const char *name, map_maker make) {
+static map_ends make_map(fixture *f, lobe_scene *scene, const char *name,
+                         const lobe_map_kind *kind) {
     const lobe_filter *filter = filter_named(name);
     lobe_settings settings = settings_of(filter, (const char *[]){"storage=float32", NULL});
     device_scene *uploaded;
@@ -72,7 +71,7 @@ static map_ends make_map(fixture *f, lobe_scene *scene, const char *name, map_ma
                               .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
-    reduced_map map = make(&context, 0);
+    reduced_map map = passes_lobe_map(&context, 0, kind);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
@@ -124,12 +123,12 @@ static void means_of_steep_and_gentle_maps(void **state) {
         reference_layers surface = surface_of(scene, &material);
         double exact[4 * ALL_LAYERS];
         reference_mean(&surface, exact);
-        map_ends slopes = make_map(*state, scene, "lean", passes_slope_moments);
+        map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
         const double square = exact[4] + exact[5], tolerance = cases[i / 2].squares;
         check("xx", (double)slopes.last[4], exact[4], square, tolerance);
         check("yy", (double)slopes.last[5], exact[5], square, tolerance);
         check("xy", (double)slopes.last[6], exact[6], square, tolerance);
-        map_ends means = make_map(*state, scene, "toksvig", passes_parameter_averaging);
+        map_ends means = make_map(*state, scene, "toksvig", &passes_averaged_parameters);
         double found = 0, truth = 0;
         for (int j = 0; j < 3; j++) {
             found += (double)means.last[j] * (double)means.last[j];
@@ -151,7 +150,7 @@ static void first_levels_are_local(void **state) {
     material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.5, 511));
     square_of(scene, &material);
     reference_layers surface = surface_of(scene, &material), boxes = reference_reduce(&surface);
-    map_ends slopes = make_map(*state, scene, "lean", passes_slope_moments);
+    map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
     const uint32_t count = boxes.width * boxes.height;
     double errors[2] = {0}, squares[2] = {0};
     for (uint32_t i = 0; i < count; i++) {
@@ -180,7 +179,7 @@ static void edges_are_wrapped_as_the_sampler_says(void **state) {
         material.normal_map.wrap_u = (lobe_scene_wrap)wrap;
         material.normal_map.wrap_v = LOBE_SCENE_WRAP_CLAMP;
         square_of(scene, &material);
-        map_ends slopes = make_map(*state, scene, "lean", passes_slope_moments);
+        map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
         reference_layers same = surface_of(scene, &material);
         double exact[4 * ALL_LAYERS], other[4 * ALL_LAYERS];
         reference_mean(&same, exact);
@@ -207,7 +206,7 @@ static void texels_that_are_not_interpolated_are_facets(void **state) {
     material.normal_map.nearest = true;
     square_of(scene, &material);
     reference_layers texels = slope_moments_of_texels(scene, &material);
-    map_ends slopes = make_map(*state, scene, "lean", passes_slope_moments);
+    map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
     double exact[4 * SLOPE_LAYERS];
     reference_mean(&texels, exact);
     for (int i = 4; i < 7; i++)
@@ -227,7 +226,7 @@ static void widths_are_interpolated(void **state) {
         material.metallic_roughness_map = scene_add_map(scene, random_map(24, 24, 0.2, 1, 542));
         square_of(scene, &material);
         reference_layers surface = surface_of(scene, &material);
-        map_ends slopes = make_map(*state, scene, "lean", passes_slope_moments);
+        map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
         double exact[4 * ALL_LAYERS];
         reference_mean(&surface, exact);
         check("base variance", (double)slopes.last[3], exact[3], exact[3], 0.015);

@@ -50,7 +50,7 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
                               .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
-    reduced_map map = passes_parameter_averaging(&context, 0);
+    reduced_map map = passes_lobe_map(&context, 0, &passes_averaged_parameters);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);

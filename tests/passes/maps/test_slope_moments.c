@@ -49,7 +49,7 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
                               .view = {.camera = &scene->camera},
                               .host = &f->host};
     lobe_graph_begin(f->graph);
-    reduced_map map = passes_slope_moments(&context, 0);
+    reduced_map map = passes_lobe_map(&context, 0, &passes_slope_moments);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);

@@ -39,7 +39,8 @@ static long double corner_solid_angle(long double x, long double y) {
     return atan2l(x * y, sqrtl(1 + x * x + y * y));
 }
 
-double reference_cube_solid_angle(const double low[2], const double high[2]) {
+/// Steradians of the rectangle between two corners of a face, coordinates in [-1, 1].
+static double solid_angle(const double low[2], const double high[2]) {
     return (double)(corner_solid_angle(high[0], high[1]) - corner_solid_angle(low[0], high[1]) -
                     corner_solid_angle(high[0], low[1]) + corner_solid_angle(low[0], low[1]));
 }
@@ -47,5 +48,5 @@ double reference_cube_solid_angle(const double low[2], const double high[2]) {
 double reference_cube_texel_solid_angle(int x, int y, int size) {
     const double low[2] = {2.0 * x / size - 1, 2.0 * y / size - 1};
     const double high[2] = {2.0 * (x + 1) / size - 1, 2.0 * (y + 1) / size - 1};
-    return reference_cube_solid_angle(low, high);
+    return solid_angle(low, high);
 }

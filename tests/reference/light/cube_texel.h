@@ -10,9 +10,7 @@ int reference_cube_face(const double direction[3], double position[2]);
 /// Unit direction of the centre of texel (x, y).
 void reference_cube_texel_direction(int face, int x, int y, int size, double direction[3]);
 
-/// Steradians of the rectangle between two corners of a face, coordinates in [-1, 1], and of a
-/// texel.
-double reference_cube_solid_angle(const double low[2], const double high[2]);
+/// Steradians of a texel.
 double reference_cube_texel_solid_angle(int x, int y, int size);
 
 #endif

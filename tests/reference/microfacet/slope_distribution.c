@@ -20,7 +20,8 @@ void reference_normal_of_slope(const double slope[2], double normal[3]) {
     normal[1] = -slope[1] * normal[2];
 }
 
-double reference_slope_density(const reference_slopes *slopes, const double slope[2]) {
+/// Density per unit of slopes' area. The covariance must be invertible.
+static double slope_density(const reference_slopes *slopes, const double slope[2]) {
     const double *c = slopes->covariance;
     double determinant = c[0] * c[1] - c[2] * c[2];
     double x = slope[0] - slopes->mean[0], y = slope[1] - slopes->mean[1];
@@ -32,7 +33,7 @@ double reference_distribution_of_slopes(const reference_slopes *slopes, const do
     if (normal[2] <= 0)
         return 0;
     const double slope[2] = {-normal[0] / normal[2], -normal[1] / normal[2]};
-    return reference_slope_density(slopes, slope) / pow(normal[2], 4);
+    return slope_density(slopes, slope) / pow(normal[2], 4);
 }
 
 double reference_lobe_of_slopes(const reference_slopes *slopes, const double normal[3]) {

@@ -13,9 +13,8 @@ typedef struct reference_slopes {
 void reference_slope_of_normal(const double normal[3], double slope[2]);
 void reference_normal_of_slope(const double slope[2], double normal[3]);
 
-/// Density per unit of slopes' area. The covariance must be invertible.
-double reference_slope_density(const reference_slopes *slopes, const double slope[2]);
-/// Distributions of unit normals: of projected area one, and of area one.
+/// Distributions of unit normals: of projected area one, and of area one. The covariance must be
+/// invertible.
 double reference_distribution_of_slopes(const reference_slopes *slopes, const double normal[3]);
 double reference_lobe_of_slopes(const reference_slopes *slopes, const double normal[3]);
 

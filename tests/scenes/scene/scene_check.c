@@ -140,7 +140,8 @@ normal_statistics scene_check_normal_map(const lobe_image *image) {
     return found;
 }
 
-uint64_t scene_check_hash_bytes(uint64_t hash, const void *bytes, size_t size) {
+/// FNV-1a over bytes, continuing from `hash`.
+static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size) {
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ ((const uint8_t *)bytes)[i]) * 1099511628211u;
     return hash;
@@ -151,20 +152,18 @@ static size_t image_size(const lobe_image *image) {
 }
 
 uint64_t scene_check_hash(const lobe_scene *scene) {
-    uint64_t hash = SCENE_CHECK_HASH;
+    uint64_t hash = 14695981039346656037u; // FNV's offset basis
     for (size_t i = 0; i < scene->image_count; i++)
-        hash = scene_check_hash_bytes(hash, scene->images[i].image.texels,
-                                      image_size(&scene->images[i].image));
+        hash = hash_bytes(hash, scene->images[i].image.texels, image_size(&scene->images[i].image));
     for (size_t i = 0; i < scene->mesh_count; i++) {
         const lobe_mesh *mesh = &scene->meshes[i];
         for (size_t k = 0; k < mesh->vertex_count; k++) {
             const lobe_scene_vertex *vertex = &mesh->vertices[k];
-            hash = scene_check_hash_bytes(hash, vertex->position, sizeof vertex->position);
-            hash = scene_check_hash_bytes(hash, vertex->texture_coordinates,
-                                          sizeof vertex->texture_coordinates);
+            hash = hash_bytes(hash, vertex->position, sizeof vertex->position);
+            hash =
+                hash_bytes(hash, vertex->texture_coordinates, sizeof vertex->texture_coordinates);
         }
-        hash =
-            scene_check_hash_bytes(hash, mesh->indices, mesh->index_count * sizeof *mesh->indices);
+        hash = hash_bytes(hash, mesh->indices, mesh->index_count * sizeof *mesh->indices);
     }
     return hash;
 }

@@ -23,10 +23,6 @@ typedef struct normal_statistics {
 } normal_statistics;
 normal_statistics scene_check_normal_map(const lobe_image *image);
 
-/// FNV-1a over bytes, continuing from `hash`; start with SCENE_CHECK_HASH.
-#define SCENE_CHECK_HASH 14695981039346656037u
-uint64_t scene_check_hash_bytes(uint64_t hash, const void *bytes, size_t size);
-
 /// Hash over images and the positions, coordinates and triangles of meshes.
 uint64_t scene_check_hash(const lobe_scene *scene);
 

@@ -12,7 +12,7 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         coefficients[i] = vec4(values[i]);
     switch (FUNCTION) {
     case 0:
-        return harmonic_irradiance(coefficients, a.xyz).xyzz;
+        return harmonic_irradiance_by_degree(coefficients, a.xyz, 1.0, 1.0).xyzz;
     default:
         return harmonic_irradiance_of_mean_normal(coefficients, a.xyz).xyzz;
     }

@@ -51,10 +51,10 @@ static void test_unit_normal(void **state) {
         const float *a = arguments[i].a;
         double direction[3] = {a[0], a[1], a[2]};
         reference_normalise(direction);
-        check_close("harmonic_irradiance", &arguments[i], results[i].value[0],
+        check_close("harmonic_irradiance_by_degree", &arguments[i], results[i].value[0],
                     sum_at(&arguments[i], direction), 2e-6);
     }
-    report_worst_error("harmonic_irradiance");
+    report_worst_error("harmonic_irradiance_by_degree");
 }
 
 // Each harmonic on its own, on top of a constant.
@@ -102,7 +102,8 @@ static void test_never_negative(void **state) {
         double sum = sum_at(&arguments[i], (double[3]){sin(angle), 0, cos(angle)});
         least = fmin(least, sum);
         negative += sum < 0;
-        check_close("harmonic_irradiance", &arguments[i], results[i].value[0], fmax(sum, 0), 1e-6);
+        check_close("harmonic_irradiance_by_degree", &arguments[i], results[i].value[0],
+                    fmax(sum, 0), 1e-6);
     }
     assert_true(negative > COUNT / 10);
     // The bound stated in the shader.

@@ -10,6 +10,6 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     case 0:
         return vec4(box_weights(size, int(a.y)), 0.0);
     default:
-        return vec4(reduced_size(size), box_taps(size), 0.0, 0.0);
+        return vec4(box_taps(size));
     }
 }
