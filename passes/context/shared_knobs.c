@@ -12,7 +12,6 @@ static const char *const sizes[] = {"16", "32", "64", "128", "256", "512", "1024
 static const char *const level_blends[] = {"trilinear", "blended", NULL};
 static const char *const horizons[] = {"ignored", "clipped", "faded", NULL};
 static const char *const scatterings[] = {"single", "multiple", NULL};
-
 static const char *const normal_mappings[] = {"classic", "microfacet", NULL};
 
 static const char environment_summary[] =

@@ -151,8 +151,8 @@ direction_lobe lobe_above_surface(direction_lobe lobe, direction_lobe own, vec3 
                       min(cut.variance / before.variance, 1.0));
 }
 
-// Facets that face away reflect nothing: the normals that are left, and their share.
-direction_lobe facing_normals(direction_lobe normals, vec3 outgoing, out float share) {
+// Facets that face away reflect nothing: the lobe of the normals that are left, and their share.
+direction_lobe facing_lobe(direction_lobe normals, vec3 outgoing, out float share) {
     horizon_cut cut = cut_by_plane(normals, outgoing, 1.0);
     share = cut.share;
     return moved_lobe(normals, direction_of(cut.shift), length(cut.shift), cut.variance);
@@ -218,7 +218,7 @@ vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lob
     if (!spread_out)
         return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
     float share;
-    direction_lobe normals = facing_normals(
+    direction_lobe normals = facing_lobe(
         lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter)),
         surface.outgoing, share);
     if (CLOSED)
