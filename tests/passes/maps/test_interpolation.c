@@ -2,18 +2,15 @@
 // their own wrapping, and normals made unit length after that. Against means over many points of
 // each texel.
 
-#include "tests/passes/support/fixture.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "passes/maps/parameter_averaging.h"
 #include "passes/maps/slope_moments.h"
-#include "passes/upload/scene_upload.h"
 #include "shaders/interface/slope_moments.h"
 #include "tests/passes/support/mixture_reference.h"
-#include "tests/passes/support/picture.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 #include "tests/reference/microfacet/slope_distribution.h"
@@ -54,46 +51,23 @@ static reference_layers surface_of(const lobe_scene *scene, const lobe_material 
 /// Level 0 and the last level of a map.
 typedef struct map_ends {
     uint32_t width, height, layers; ///< of level 0
-    float *first;                   ///< level 0, layer after layer; to free by the caller
+    float *first;                   ///< level 0, layer after layer, then the others; to be freed
     float last[4 * SLOPE_LAYERS];
 } map_ends;
 
 static map_ends make_map(fixture *f, lobe_scene *scene, const char *name,
                          const lobe_map_kind *kind) {
-    const lobe_filter *filter = filter_named(name);
-    lobe_settings settings = settings_of(filter, (const char *[]){"storage=float32", NULL});
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    filter_context context = {.graph = f->graph,
-                              .settings = &settings,
-                              .filter = filter,
-                              .scene = uploaded,
-                              .view = {.camera = &scene->camera},
-                              .host = &f->host};
-    lobe_graph_begin(f->graph);
-    reduced_map map = passes_lobe_map(&context, 0, kind);
-    lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
-    size_t bytes;
-    const float *texels = lobe_graph_data(f->graph, map.resource, &bytes);
-    map_ends ends = {.width = map.width, .height = map.height, .layers = map.layers};
-    size_t count = (size_t)4 * map.width * map.height * map.layers;
-    ends.first = malloc(count * sizeof *ends.first);
-    assert_non_null(ends.first);
-    memcpy(ends.first, texels, count * sizeof *ends.first);
-    count = (size_t)4 * map.layers;
-    memcpy(ends.last, texels + bytes / sizeof *texels - count, count * sizeof *texels);
-    lobe_graph_begin(f->graph);
-    passes_device_scene_destroy(&uploaded);
+    pass_run run;
+    pass_run_begin(&run, f, scene, name, (const char *[]){"storage=float32", NULL});
+    const reduced_map map = passes_lobe_map(&run.context, 0, kind);
+    float *texels = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
+    map_ends ends = {
+        .width = map.width, .height = map.height, .layers = map.layers, .first = texels};
+    const size_t last = (size_t)4 * map.layers;
+    const size_t count = passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT) / sizeof *texels;
+    memcpy(ends.last, texels + count - last, last * sizeof *texels);
+    pass_run_end(&run);
     return ends;
-}
-
-static lobe_scene *square_of(lobe_scene *scene, const lobe_material *material) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    return scene;
 }
 
 static lobe_material metal(void) {
@@ -119,7 +93,7 @@ static void means_of_steep_and_gentle_maps(void **state) {
         lobe_material material = metal();
         material.normal_map = scene_add_map(
             scene, random_normal_map(16, i % 2 ? 16 : 11, cases[i / 2].tilt, 501 + i));
-        square_of(scene, &material);
+        scene_end_with_square(scene, &material);
         reference_layers surface = surface_of(scene, &material);
         double exact[4 * ALL_LAYERS];
         reference_mean(&surface, exact);
@@ -148,7 +122,7 @@ static void first_levels_are_local(void **state) {
     lobe_scene *scene = scene_begin();
     lobe_material material = metal();
     material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.5, 511));
-    square_of(scene, &material);
+    scene_end_with_square(scene, &material);
     reference_layers surface = surface_of(scene, &material), boxes = reference_reduce(&surface);
     map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
     const uint32_t count = boxes.width * boxes.height;
@@ -178,7 +152,7 @@ static void edges_are_wrapped_as_the_sampler_says(void **state) {
         material.normal_map = scene_add_map(scene, random_normal_map(4, 4, 0.4, 521));
         material.normal_map.wrap_u = (lobe_scene_wrap)wrap;
         material.normal_map.wrap_v = LOBE_SCENE_WRAP_CLAMP;
-        square_of(scene, &material);
+        scene_end_with_square(scene, &material);
         map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
         reference_layers same = surface_of(scene, &material);
         double exact[4 * ALL_LAYERS], other[4 * ALL_LAYERS];
@@ -204,7 +178,7 @@ static void texels_that_are_not_interpolated_are_facets(void **state) {
     lobe_material material = metal();
     material.normal_map = scene_add_map(scene, random_normal_map(20, 20, 0.6, 531));
     material.normal_map.nearest = true;
-    square_of(scene, &material);
+    scene_end_with_square(scene, &material);
     reference_layers texels = slope_moments_of_texels(scene, &material);
     map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
     double exact[4 * SLOPE_LAYERS];
@@ -224,7 +198,7 @@ static void widths_are_interpolated(void **state) {
         material.normal_map = scene_add_map(scene, random_normal_map(12, 8, 0.2, 541));
         material.normal_map.nearest = nearest;
         material.metallic_roughness_map = scene_add_map(scene, random_map(24, 24, 0.2, 1, 542));
-        square_of(scene, &material);
+        scene_end_with_square(scene, &material);
         reference_layers surface = surface_of(scene, &material);
         map_ends slopes = make_map(*state, scene, "lean", &passes_slope_moments);
         double exact[4 * ALL_LAYERS];

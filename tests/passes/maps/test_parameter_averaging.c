@@ -1,14 +1,12 @@
 // The naive filter's map against means in double precision: normals and widths averaged as if they
 // were colours.
 
-#include "tests/passes/support/fixture.h"
-
 #include <math.h>
 #include <stdlib.h>
 
 #include "passes/maps/parameter_averaging.h"
-#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/mixture_reference.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
@@ -34,31 +32,16 @@ static void check_map(const float *texel, const reduced_map *map, const referenc
 }
 
 static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *material) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    const lobe_filter *filter;
-    lobe_settings settings;
-    assert_int_equal(lobe_filter_find("mipmap", &f->host, &filter), LOBE_OK);
-    lobe_settings_default(filter, &settings);
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    filter_context context = {.graph = f->graph,
-                              .settings = &settings,
-                              .filter = filter,
-                              .scene = uploaded,
-                              .view = {.camera = &scene->camera},
-                              .host = &f->host};
-    lobe_graph_begin(f->graph);
-    reduced_map map = passes_lobe_map(&context, 0, &passes_averaged_parameters);
-    lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
+    scene_end_with_square(scene, material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "mipmap", (const char *[]){"storage=float32", NULL});
+    const reduced_map map = passes_lobe_map(&run.context, 0, &passes_averaged_parameters);
+    float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
     reference_layers texels = averaged_parameters_of_texels(scene, material);
-    check_map(lobe_graph_data(f->graph, map.resource, NULL), &map, &texels);
+    check_map(found, &map, &texels);
+    free(found);
     reference_layers_free(&texels);
-    lobe_graph_begin(f->graph);
-    passes_device_scene_destroy(&uploaded);
+    pass_run_end(&run);
     lobe_scene_destroy(&scene);
 }
 

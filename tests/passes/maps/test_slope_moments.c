@@ -1,18 +1,14 @@
 // The map of slope moments against means in double precision, and what is left of a variance where
 // second moments and squared means cancel.
 
-#include "tests/passes/support/fixture.h"
-
 #include <math.h>
 #include <stdlib.h>
 
-#include "engine/image/half.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/slope_moments.h"
-#include "passes/upload/scene_upload.h"
 #include "shaders/interface/slope_moments.h"
 #include "tests/passes/support/mixture_reference.h"
-#include "tests/passes/support/picture.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
@@ -20,47 +16,18 @@
 typedef void (*map_check)(const float *texels, const reduced_map *map,
                           const reference_layers *exact, double tolerance);
 
-/// The caller frees the result.
-static float *read_map(fixture *f, const reduced_map *map, bool halves) {
-    size_t size = 0;
-    const void *data = lobe_graph_data(f->graph, map->resource, &size);
-    size_t count = size / (halves ? sizeof(uint16_t) : sizeof(float));
-    float *texels = malloc(count * sizeof *texels);
-    assert_non_null(texels);
-    for (size_t i = 0; i < count; i++)
-        texels[i] =
-            halves ? engine_half_to_float(((const uint16_t *)data)[i]) : ((const float *)data)[i];
-    return texels;
-}
-
 static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
                      const char *storage, double tolerance, map_check check) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    const lobe_filter *filter = filter_named("lean");
-    lobe_settings settings = settings_of(filter, (const char *[]){storage, NULL});
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    filter_context context = {.graph = f->graph,
-                              .settings = &settings,
-                              .filter = filter,
-                              .scene = uploaded,
-                              .view = {.camera = &scene->camera},
-                              .host = &f->host};
-    lobe_graph_begin(f->graph);
-    reduced_map map = passes_lobe_map(&context, 0, &passes_slope_moments);
-    lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
+    scene_end_with_square(scene, material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "lean", (const char *[]){storage, NULL});
+    const reduced_map map = passes_lobe_map(&run.context, 0, &passes_slope_moments);
+    float *found = pass_run_read(&run, &map, passes_filtered_map_format(&run.context));
     reference_layers texels = slope_moments_of_texels(scene, material);
-    float *found =
-        read_map(f, &map, passes_filtered_map_format(&context) == LOBE_FORMAT_RGBA16_FLOAT);
     check(found, &map, &texels, tolerance);
     free(found);
     reference_layers_free(&texels);
-    lobe_graph_begin(f->graph);
-    passes_device_scene_destroy(&uploaded);
+    pass_run_end(&run);
     lobe_scene_destroy(&scene);
 }
 

@@ -172,9 +172,7 @@ static uint32_t mixture_layers(fixture *f) {
 
 static uint32_t layers_of_material(fixture *f, lobe_scene *scene, const lobe_material *material,
                                    const char *knob, uint64_t *bytes) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, material);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     picture_request request = request_for("lobes", knob);
     lobe_frame frame = draw(f, &request);

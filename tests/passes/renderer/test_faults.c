@@ -16,9 +16,7 @@ static lobe_scene *small_scene(uint32_t map_extent) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
     material.normal_map = scene_add_map(scene, random_normal_map(map_extent, map_extent, 0.4, 90));
-    scene_add_square(scene, &material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, &material);
     return scene;
 }
 

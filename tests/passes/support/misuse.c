@@ -9,9 +9,7 @@ lobe_scene *small_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
     material.normal_map = scene_add_map(scene, random_normal_map(16, 16, 0.4, 131));
-    scene_add_square(scene, &material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, &material);
     return scene;
 }
 

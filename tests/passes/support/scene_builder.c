@@ -162,6 +162,12 @@ void scene_end(lobe_scene *scene) {
     require(scenes_complete(scene, false, NULL));
 }
 
+void scene_end_with_square(lobe_scene *scene, const lobe_material *material) {
+    scene_add_square(scene, material, 1, NULL);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+}
+
 lobe_material half_vector_material(lobe_distribution distribution, float width) {
     lobe_material material;
     lobe_material_default(&material);

@@ -49,6 +49,8 @@ void scene_look_along(lobe_scene *scene);
 
 /// Sets the bounds; the last step.
 void scene_end(lobe_scene *scene);
+/// The last steps for a scene of one square with one copy of its maps, which fills the picture.
+void scene_end_with_square(lobe_scene *scene, const lobe_material *material);
 
 /// A half-vector material with one white lobe along the normal and no diffuse part.
 lobe_material half_vector_material(lobe_distribution distribution, float width);

@@ -1,18 +1,15 @@
 // Clusters of lobes against the sums of their texels' characteristic vectors in double precision:
 // in tangent space, and over a mesh's atlas in object and camera space.
 
-#include "tests/passes/support/fixture.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/image/half.h"
 #include "passes/filters/lobes/clustering.h"
-#include "passes/upload/scene_upload.h"
 #include "shaders/interface/cluster.h"
 #include "tests/passes/support/mixture_reference.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/lobe/lobe_cluster.h"
 #include "tests/reference/lobe/von_mises_fisher.h"
@@ -34,53 +31,21 @@ typedef struct clusters {
     float *texels; ///< all levels
 } clusters;
 
-static float *floats_from(const void *data, size_t bytes, lobe_format format) {
-    size_t count = bytes / (format == LOBE_FORMAT_RGBA16_FLOAT ? 2 : 4);
-    float *floats = malloc(count * sizeof *floats);
-    assert_non_null(floats);
-    for (size_t i = 0; i < count; i++)
-        floats[i] = format == LOBE_FORMAT_RGBA16_FLOAT
-                        ? engine_half_to_float(((const uint16_t *)data)[i])
-                        : ((const float *)data)[i];
-    return floats;
-}
-
 /// Clusters instance 0 of a scene, and reduces.
 static clusters cluster(fixture *f, const lobe_scene *scene, const request *asked) {
-    const lobe_filter *filter;
-    lobe_settings settings;
-    assert_int_equal(lobe_filter_find("lobes", &f->host, &filter), LOBE_OK);
-    lobe_settings_default(filter, &settings);
-    assert_int_equal(lobe_settings_set(filter, &settings,
-                                       asked->half_floats ? "storage=float16" : "storage=float32",
-                                       &f->host),
-                     LOBE_OK);
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
-    filter_context context = {.graph = f->graph,
-                              .settings = &settings,
-                              .filter = filter,
-                              .scene = uploaded,
-                              .view = {.camera = &scene->camera},
-                              .host = &f->host};
-    lobe_graph_begin(f->graph);
+    pass_run run;
+    pass_run_begin(
+        &run, f, scene, "lobes",
+        (const char *[]){asked->half_floats ? "storage=float16" : "storage=float32", NULL});
     const mixture_request wanted = {.space = asked->space,
                                     .subdivision = asked->subdivision,
                                     .clusters =
                                         asked->as_in_paper ? CLUSTERS_PAPER : CLUSTERS_TURNED,
                                     .mean = asked->mean};
-    clusters result = {.mixture = passes_lobe_clustering(&context, 0, &wanted)};
+    clusters result = {.mixture = passes_lobe_clustering(&run.context, 0, &wanted)};
     passes_level_reduction(f->graph, &result.mixture.map);
-    lobe_resource resource = result.mixture.map.resource;
-    lobe_graph_read_back(f->graph, resource, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
-    size_t bytes;
-    const void *data = lobe_graph_data(f->graph, resource, &bytes);
-    assert_int_equal(bytes, passes_reduced_map_bytes(&result.mixture.map, result.mixture.format));
-    result.texels = floats_from(data, bytes, result.mixture.format);
-    lobe_graph_begin(f->graph);
-    passes_device_scene_destroy(&uploaded);
+    result.texels = pass_run_read(&run, &result.mixture.map, result.mixture.format);
+    pass_run_end(&run);
     return result;
 }
 
@@ -137,9 +102,7 @@ static void check_tangent_space(fixture *f, lobe_scene *scene, const request *as
 }
 
 static lobe_scene *square_of(const lobe_material *material, lobe_scene *scene) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, material);
     return scene;
 }
 

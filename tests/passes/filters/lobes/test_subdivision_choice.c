@@ -12,9 +12,7 @@
 
 /// Uploads a scene of one square and returns the choice for its material.
 static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *material) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, material);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     uint32_t subdivision =

@@ -1,17 +1,13 @@
 // The map of lobe moments against means in double precision: every level, layer and channel.
 
-#include "tests/passes/support/fixture.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/image/half.h"
 #include "passes/filters/moments/binning.h"
-#include "passes/upload/scene_upload.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/moment_reference.h"
-#include "tests/passes/support/picture.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
@@ -33,68 +29,27 @@ static const map_request usual = {
 typedef void (*map_check)(const float *texels, const moment_map *map, const reference_layers *exact,
                           const reference_moment_bins *bins, const map_request *request);
 
-static float number_at(const void *data, size_t i, lobe_format format) {
-    if (format == LOBE_FORMAT_RGBA32_FLOAT)
-        return ((const float *)data)[i];
-    if (format == LOBE_FORMAT_RGBA16_FLOAT)
-        return engine_half_to_float(((const uint16_t *)data)[i]);
-    return fmaxf((float)((const int16_t *)data)[i] / 32767, -1);
-}
-
-/// The caller frees the result.
-static float *read_map(fixture *f, const moment_map *map) {
-    size_t size = 0;
-    const void *data = lobe_graph_data(f->graph, map->map.resource, &size);
-    size_t count = size / lobe_format_size(map->format) * 4;
-    float *texels = malloc(count * sizeof *texels);
-    assert_non_null(texels);
-    for (size_t i = 0; i < count; i++)
-        texels[i] = number_at(data, i, map->format);
-    return texels;
-}
-
-static moment_map build_map(fixture *f, const device_scene *scene, const map_request *request,
-                            const moment_partition *partition) {
-    const lobe_filter *filter = filter_named("moments");
-    lobe_settings settings = settings_of(filter, (const char *[]){request->base, NULL});
-    filter_context context = {.graph = f->graph,
-                              .settings = &settings,
-                              .filter = filter,
-                              .scene = scene,
-                              .view = {.camera = &scene->scene->camera},
-                              .host = &f->host};
-    lobe_graph_begin(f->graph);
-    moment_map map = passes_moment_binning(&context, 0, partition, request->format,
-                                           (float)request->colour_scale);
-    lobe_graph_read_back(f->graph, map.map.resource, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
-    return map;
-}
-
 /// Destroys the scene afterwards.
 static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
                      const map_request *request, map_check check) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    scene_end_with_square(scene, material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "moments", (const char *[]){request->base, NULL});
     moment_partition partition;
     const partition_request wanted = {request->kind, request->bins,
                                       request->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
-    assert_int_equal(passes_moment_partition_make(uploaded, 0, &wanted, &f->host, &partition),
+    assert_int_equal(passes_moment_partition_make(run.scene, 0, &wanted, &f->host, &partition),
                      LOBE_OK);
     reference_moment_bins bins = moment_bins_of(&partition, request->colour_scale);
-    moment_map map = build_map(f, uploaded, request, &partition);
+    const moment_map map = passes_moment_binning(&run.context, 0, &partition, request->format,
+                                                 (float)request->colour_scale);
     reference_layers exact =
         moments_of_texels(scene, material, &bins, strcmp(request->base, "base=lobe") == 0);
-    float *texels = read_map(f, &map);
+    float *texels = pass_run_read(&run, &map.map, map.format);
     check(texels, &map, &exact, &bins, request);
     free(texels);
     reference_layers_free(&exact);
-    lobe_graph_begin(f->graph);
-    passes_device_scene_destroy(&uploaded);
+    pass_run_end(&run);
     lobe_scene_destroy(&scene);
 }
 

@@ -19,9 +19,7 @@ enum { AUTOMATIC = 0 };
 /// afterwards, unless `keep`.
 static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_material *material,
                                      uint32_t kind, uint32_t bins, bool keep) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, material);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     const partition_request request = {kind, bins, BIN_COLOUR_AUTOMATIC};

@@ -15,9 +15,7 @@
 
 /// Free with lobe_release.
 static lobe_survey *survey_of(fixture *f, lobe_scene *scene, const lobe_material *material) {
-    scene_add_square(scene, material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
+    scene_end_with_square(scene, material);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
     lobe_survey *survey = passes_lobe_survey_make(scene, &uploaded->materials[0], NULL);

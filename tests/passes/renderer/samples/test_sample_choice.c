@@ -1,13 +1,10 @@
 // Which pixels take several samples, and what the passes that take them are told.
 
-#include "tests/passes/support/fixture.h"
-
 #include <string.h>
 
 #include "passes/renderer/samples/sample_choice.h"
 #include "passes/renderer/shading.h"
-#include "passes/upload/scene_upload.h"
-#include "tests/passes/support/picture.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
 
 enum { WIDTH = 70, HEIGHT = 11, STEP = 33 }; // more than one tile of the key
@@ -57,37 +54,26 @@ static void choose(fixture *f, const step *step, const char *samples, bool blend
     lobe_scene *scene = scene_begin();
     lobe_material material;
     lobe_material_default(&material);
-    scene_add_square(scene, &material, 1, NULL);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    scene_end_with_square(scene, &material);
     lobe_texture *texture = step_texture(f, step);
-    const lobe_settings settings =
-        settings_of(filter_named("lobes"), (const char *const[]){samples, NULL});
-    const filter_context context = {.graph = f->graph,
-                                    .settings = &settings,
-                                    .filter = filter_named("lobes"),
-                                    .scene = uploaded,
-                                    .view = {&scene->camera, WIDTH, HEIGHT},
-                                    .host = &f->host};
-    lobe_graph_begin(f->graph);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "lobes", (const char *[]){samples, NULL});
+    run.context.view.width = WIDTH;
+    run.context.view.height = HEIGHT;
     const sample_choice choice =
-        passes_sample_choice(&context, lobe_graph_import_texture(f->graph, texture), blended);
+        passes_sample_choice(&run.context, lobe_graph_import_texture(f->graph, texture), blended);
     lobe_graph_read_back(f->graph, choice.counts, (lobe_range){0});
     lobe_graph_read_back(f->graph, choice.list, (lobe_range){0});
     lobe_graph_read_back(f->graph, choice.arguments, (lobe_range){0});
-    if (lobe_graph_execute(f->graph) != LOBE_OK)
-        fail_msg("%s", f->error);
+    pass_run_execute(&run);
     read(f->graph, choice.counts, 0, result->counts, sizeof result->counts);
     read(f->graph, choice.list, 0, &result->listed, 4);
     read(f->graph, choice.list, 4, result->pixels, sizeof result->pixels);
     read(f->graph, choice.arguments, 0, &result->dispatch, sizeof result->dispatch);
-    assert_int_equal(passes_shading_draw_count(&context), 3);
+    assert_int_equal(passes_shading_draw_count(&run.context), 3);
     read(f->graph, choice.arguments, sizeof *result->draws, result->draws, sizeof result->draws);
-    lobe_graph_begin(f->graph);
+    pass_run_end(&run);
     lobe_texture_destroy(&texture);
-    passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     assert_int_equal(f->errors, 0);
     assert_int_equal(lobe_device_validation_count(f->device), 0);
