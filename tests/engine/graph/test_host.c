@@ -118,12 +118,18 @@ static void fill_green(const host_image *image, VkCommandBuffer commands) {
     host_clear(commands, image, (float[]){0, 1, 0.25f, 1});
 }
 
-static void what_the_host_drew_is_kept(void **state) {
-    fixture *f = *state;
+/// A picture that the host cleared to green.
+static host_image green_picture(fixture *f) {
     host_image image = picture(f);
     VkCommandBuffer commands = host_begin(&f->host);
     fill_green(&image, commands);
     host_finish(&f->host, commands);
+    return image;
+}
+
+static void what_the_host_drew_is_kept(void **state) {
+    fixture *f = *state;
+    host_image image = green_picture(f);
     lobe_graph_begin(f->graph);
     lobe_vulkan_image lent = lend(&image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     draw_half(f, lobe_graph_import_image(f->graph, &lent), LOBE_LOAD_KEEP, 0.5f);
@@ -135,10 +141,7 @@ static void what_the_host_drew_is_kept(void **state) {
 /// A copy of the host's image, by a shader that cannot write it.
 static void a_frame_reads_the_hosts_image(void **state) {
     fixture *f = *state;
-    host_image image = picture(f);
-    VkCommandBuffer commands = host_begin(&f->host);
-    fill_green(&image, commands);
-    host_finish(&f->host, commands);
+    host_image image = green_picture(f);
     for (int i = 0; i < 2; i++) {
         lobe_graph_begin(f->graph);
         lobe_vulkan_image lent = lend(&image, i ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
@@ -165,10 +168,7 @@ static void a_frame_reads_the_hosts_image(void **state) {
 /// Returned in the final layout although no pass uses it.
 static void an_unused_image_changes_its_layout(void **state) {
     fixture *f = *state;
-    host_image image = picture(f);
-    VkCommandBuffer commands = host_begin(&f->host);
-    fill_green(&image, commands);
-    host_finish(&f->host, commands);
+    host_image image = green_picture(f);
     lobe_graph_begin(f->graph);
     lobe_vulkan_image lent = lend(&image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     lobe_graph_import_image(f->graph, &lent);

@@ -168,13 +168,19 @@ static void a_finished_frame_keeps_none(void **state) {
     lobe_graph_destroy(&graph);
 }
 
-/// A frame that could not be recorded needs no pipeline, even if its graph never begins another.
-static void a_failed_frame_keeps_none(void **state) {
-    (void)state;
-    lobe_graph *graph = create_graph(), *other = create_graph();
+/// A graph whose frame is declared, with more pipelines than are kept, and compiled.
+static lobe_graph *create_compiled_graph(void) {
+    lobe_graph *graph = create_graph();
     lobe_graph_begin(graph);
     (void)declare_many(graph, 0);
     assert_int_equal(lobe_graph_compile(graph), LOBE_OK);
+    return graph;
+}
+
+/// A frame that could not be recorded needs no pipeline, even if its graph never begins another.
+static void a_failed_frame_keeps_none(void **state) {
+    (void)state;
+    lobe_graph *graph = create_compiled_graph(), *other = create_graph();
     faults.calls = 0;
     faults.failing = 1;
     faults.fault = VK_ERROR_OUT_OF_HOST_MEMORY;
@@ -190,10 +196,7 @@ static void a_failed_frame_keeps_none(void **state) {
 /// A frame that is declared and given up holds nothing for ever.
 static void a_destroyed_graph_keeps_none(void **state) {
     (void)state;
-    lobe_graph *graph = create_graph(), *other = create_graph();
-    lobe_graph_begin(graph);
-    (void)declare_many(graph, 0);
-    assert_int_equal(lobe_graph_compile(graph), LOBE_OK);
+    lobe_graph *graph = create_compiled_graph(), *other = create_graph();
     assert_int_equal(made_by(other, MANY), 1);
     assert_int_equal(faults.pipelines_alive, MANY + 1);
     lobe_graph_destroy(&graph);

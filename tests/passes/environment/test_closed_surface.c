@@ -152,9 +152,9 @@ static void check_suns(fixture *f, const lobe_material *material, double slope, 
 /// The bins of "moments" are Gaussian in the Lambert plane, and steep slopes are not; "leadr" has
 /// GGX only near its own lobe.
 static void filters_reflect_suns_as_their_texels_do(void **state) {
-    const lobe_material dielectric = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.8, 0);
-    const lobe_material metal = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.6, 1);
-    const lobe_material beckmann = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.6, 1);
+    const lobe_material dielectric = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.8, 0);
+    const lobe_material metal = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.6, 1);
+    const lobe_material beckmann = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.6, 1);
     check_suns(*state, &dielectric, 0.7, "moments", 0.02);
     check_suns(*state, &dielectric, 0.7, "leadr", 0.04);
     check_suns(*state, &metal, 0.4, "moments", 0.06);

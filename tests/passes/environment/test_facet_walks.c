@@ -130,7 +130,7 @@ static facet_pair make_pair(uint64_t *random, const double normal[3], double rou
 
 static double drawn(fixture *f, const lobe_image *normals, double roughness, const double viewer[3],
                     const double sun[3]) {
-    lobe_material metal = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, roughness, 1), mapped;
+    lobe_material metal = microfacet_material(LOBE_DISTRIBUTION_GGX, roughness, 1), mapped;
     for (int i = 0; i < 3; i++)
         metal.base_colour[i] = (float)f0;
     lobe_scene *scene = slope_plane(&metal, normals, viewer, &mapped);

@@ -76,7 +76,7 @@ static lobe_material two_lobes(void) {
 static void shading_is_that_of_the_moments(void **state) {
     lobe_image rough = random_normal_map(8, 8, 0.7, 271), leaning = slope_plane_leaning_map(272);
     for (int distribution = 0; distribution < 4; distribution++) {
-        lobe_material material = slope_plane_microfacets((lobe_distribution)distribution, 0.5, 0.3);
+        lobe_material material = microfacet_material((lobe_distribution)distribution, 0.5, 0.3);
         check_shading(*state, &material, &rough, &usual, NULL, "microfacets");
         check_shading(*state, &material, &leaning, &usual, NULL, "leaning microfacets");
     }
@@ -97,7 +97,7 @@ static void knobs_do_what_they_say(void **state) {
         {"height=4", {5, 2.2, 4, false}}, {"base_plane=surface", {5, 2.2, 1, true}},
     };
     lobe_image leaning = slope_plane_leaning_map(273);
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.5, 0.3);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.5, 0.3);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_shading(*state, &material, &leaning, &cases[i].knobs, cases[i].setting,
                       cases[i].setting);
@@ -108,7 +108,7 @@ static void knobs_do_what_they_say(void **state) {
 static void lights_add_up(void **state) {
     enum { LIGHTS = 7 };
     lobe_image rough = random_normal_map(8, 8, 0.7, 274);
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.7, 0), mapped;
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.7, 0), mapped;
     double outgoing[3], incoming[3], sum[3] = {0}, moments[8];
     slope_plane_direction(50, 0.4, outgoing);
     moments_of(&material, &rough, moments);
@@ -161,7 +161,7 @@ static void a_flat_footprint_is_the_base_material(void **state) {
     static const double roughnesses[] = {0.2, 0.5, 1};
     for (int i = 0; i < 3; i++) {
         lobe_material material =
-            slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, roughnesses[i], 0.5);
+            microfacet_material(LOBE_DISTRIBUTION_BECKMANN, roughnesses[i], 0.5);
         double difference = difference_to_direct(*state, &material, flat);
         if (!(difference <= 1e-3))
             fail_msg("roughness %g: %.4g apart", roughnesses[i], difference);
@@ -181,7 +181,7 @@ static void tilted_lambert_is_lambert(void **state) {
 /// Lights about the mirror direction of a leaning normal, up to two widths of the lobe apart from
 /// it; the largest difference of `leadr` from `direct` there, as a part of the peak.
 static double difference_about_mirror(fixture *f, double roughness, double view) {
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, roughness, 1);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, roughness, 1);
     lobe_image image = constant_map(8, 8, tilted[0], tilted[1], tilted[2]);
     const double alpha = roughness * roughness, axes[2][3] = {{0.96, 0, -0.28}, {0, 1, 0}};
     double worst = 0, peak = 0;
@@ -282,7 +282,7 @@ static void no_energy_is_gained(void **state) {
         lobe_image image =
             i % 3 == 2 ? slope_plane_leaning_map(276) : random_normal_map(8, 8, tilts[i % 3], 277);
         lobe_material material =
-            slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, i % 2 ? 0.4 : 0.9, i < 6 ? 1 : 0);
+            microfacet_material(LOBE_DISTRIBUTION_BECKMANN, i % 2 ? 0.4 : 0.9, i < 6 ? 1 : 0);
         for (int j = 0; j < 4; j++) {
             double reflected =
                 slope_plane_furnace(*state, &material, &image, "leadr", NULL, angles[j]);
@@ -302,7 +302,7 @@ static void no_energy_is_gained(void **state) {
 /// Both parts, over the cosine to the mean normal (or, the same for both, the height above it).
 static void light_and_viewer_may_change_places(void **state) {
     lobe_image grounds[2] = {random_normal_map(8, 8, 0.7, 278), slope_plane_leaning_map(279)};
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.6, 0.5);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.6, 0.5);
     for (int i = 0; i < 32; i += 5) {
         double a[3], b[3], moments[8];
         float there[3], back[3];

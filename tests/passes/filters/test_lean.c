@@ -44,7 +44,7 @@ static void shading_is_that_of_the_moments(void **state) {
     lobe_image rough = random_normal_map(8, 8, 0.7, 261);
     lobe_image leaning = slope_plane_leaning_map(262);
     for (int distribution = 0; distribution < 4; distribution++) {
-        lobe_material material = slope_plane_microfacets((lobe_distribution)distribution, 0.5, 0.3);
+        lobe_material material = microfacet_material((lobe_distribution)distribution, 0.5, 0.3);
         check_shading(*state, &material, &rough, "microfacets");
         check_shading(*state, &material, &leaning, "leaning microfacets");
     }
@@ -65,7 +65,7 @@ static void one_normal_is_the_base_material(void **state) {
     static const double roughnesses[] = {0.2, 0.5, 1};
     for (int i = 0; i < 9; i++) {
         lobe_material material =
-            slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, roughnesses[i % 3], 0.5);
+            microfacet_material(LOBE_DISTRIBUTION_BECKMANN, roughnesses[i % 3], 0.5);
         lobe_image image = constant_map(8, 8, texels[i / 3][0], texels[i / 3][1], texels[i / 3][2]);
         for (int j = 0; j < 16; j++) {
             double outgoing[3], incoming[3];
@@ -98,7 +98,7 @@ static void no_energy_is_gained(void **state) {
         lobe_image image =
             i % 3 == 2 ? slope_plane_leaning_map(264) : random_normal_map(8, 8, tilts[i % 3], 263);
         lobe_material material =
-            slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, i % 2 ? 0.4 : 0.9, i < 6 ? 1 : 0);
+            microfacet_material(LOBE_DISTRIBUTION_BECKMANN, i % 2 ? 0.4 : 0.9, i < 6 ? 1 : 0);
         for (int j = 0; j < 4; j++) {
             double reflected =
                 slope_plane_furnace(*state, &material, &image, "lean", NULL, angles[j]);

@@ -63,16 +63,6 @@ static double draw_one_pixel(fixture *f, lobe_scene *scene, const char *filter) 
     return value;
 }
 
-static lobe_material microfacets(lobe_distribution distribution, double roughness,
-                                 double metallic) {
-    lobe_material material;
-    lobe_material_default(&material);
-    material.distribution = distribution;
-    material.roughness = (float)roughness;
-    material.metallic = (float)metallic;
-    return material;
-}
-
 // ---------------------------------------------------------------------------------------------
 // White furnace
 
@@ -148,7 +138,7 @@ static void a_white_plane_reflects_no_more_than_it_gets(void **state) {
     for (int distribution = 0; distribution < 4; distribution++) {
         for (int i = 0; i < 9; i++) {
             lobe_material material =
-                microfacets((lobe_distribution)distribution, roughnesses[i % 3], 1);
+                microfacet_material((lobe_distribution)distribution, roughnesses[i % 3], 1);
             check_furnace(*state, &material, angles[i / 3]);
         }
     }
@@ -158,7 +148,7 @@ static void a_white_plane_reflects_no_more_than_it_gets(void **state) {
 static void a_white_dielectric_reflects_no_more_than_it_gets(void **state) {
     static const double angles[] = {0, 50, 80};
     for (int i = 0; i < 3; i++) {
-        lobe_material material = microfacets(LOBE_DISTRIBUTION_GGX, 1, 0);
+        lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 0);
         check_furnace(*state, &material, angles[i]);
     }
 }
@@ -191,7 +181,7 @@ static void a_rough_surface_reflects_no_more_than_it_gets(void **state) {
     static const double angles[] = {0, 50, 80}, tilts[] = {0.2, 0.7};
     for (int distribution = 0; distribution < 4; distribution++) {
         for (int i = 0; i < 6; i++) {
-            lobe_material material = microfacets((lobe_distribution)distribution, 0.3, 1);
+            lobe_material material = microfacet_material((lobe_distribution)distribution, 0.3, 1);
             check_rough_surface(*state, &material, tilts[i / 3], angles[i % 3]);
         }
     }
@@ -317,7 +307,7 @@ static void light_and_viewer_may_change_places(void **state) {
     for (int distribution = 0; distribution < 4; distribution++) {
         for (size_t i = 0; i < lobe_filter_count(); i++) {
             const char *filter = lobe_filter_name(lobe_filter_get(i));
-            lobe_material material = microfacets((lobe_distribution)distribution, 0.5, 0.5);
+            lobe_material material = microfacet_material((lobe_distribution)distribution, 0.5, 0.5);
             check_reciprocity(*state, &material, filter, flat);
             check_reciprocity(*state, &material, filter, tilted);
         }

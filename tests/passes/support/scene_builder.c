@@ -179,3 +179,13 @@ lobe_material half_vector_material(lobe_distribution distribution, float width) 
         material.base_colour[i] = 0;
     return material;
 }
+
+lobe_material microfacet_material(lobe_distribution distribution, double roughness,
+                                  double metallic) {
+    lobe_material material;
+    lobe_material_default(&material);
+    material.distribution = distribution;
+    material.roughness = (float)roughness;
+    material.metallic = (float)metallic;
+    return material;
+}

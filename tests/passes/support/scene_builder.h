@@ -54,5 +54,8 @@ void scene_end_with_square(lobe_scene *scene, const lobe_material *material);
 
 /// A half-vector material with one white lobe along the normal and no diffuse part.
 lobe_material half_vector_material(lobe_distribution distribution, float width);
+/// A white microfacet material.
+lobe_material microfacet_material(lobe_distribution distribution, double roughness,
+                                  double metallic);
 
 #endif

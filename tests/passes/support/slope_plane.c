@@ -6,16 +6,6 @@
 #include "passes/context/sample_pattern.h"
 #include "tests/reference/vector.h"
 
-lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
-                                      double metallic) {
-    lobe_material material;
-    lobe_material_default(&material);
-    material.distribution = distribution;
-    material.roughness = (float)roughness;
-    material.metallic = (float)metallic;
-    return material;
-}
-
 lobe_image slope_plane_leaning_map(uint64_t seed) {
     lobe_image image = random_normal_map(8, 8, 0.4, seed);
     float *texel = image.texels;

@@ -9,8 +9,6 @@
 /// how a filter shades the means of the whole map, from any direction and under any light.
 /// Directions are in the tangent frame.
 
-lobe_material slope_plane_microfacets(lobe_distribution distribution, double roughness,
-                                      double metallic);
 /// Normals about a tilted one, in a map of 8 x 8 texels.
 lobe_image slope_plane_leaning_map(uint64_t seed);
 /// Slopes at random, Gaussian with a standard deviation of `slope`, in a square map.

@@ -60,11 +60,8 @@ static void check_all(const float *texel, const moment_map *map, const reference
     check_reduced_levels(&map->map, texel, texels, request->tolerance, request->rounding);
 }
 
-static lobe_material microfacet_material(int distribution) {
-    lobe_material material;
-    lobe_material_default(&material);
-    material.distribution = (lobe_distribution)distribution;
-    material.metallic = 0.7f;
+static lobe_material purple_metal(lobe_distribution distribution) {
+    lobe_material material = microfacet_material(distribution, 1, 0.7);
     material.base_colour[1] = 0.5f;
     return material;
 }
@@ -104,7 +101,7 @@ enum { SIZES = sizeof sizes / sizeof *sizes, KINDS = 3 };
 
 static void microfacets_of_any_size(void **state) {
     for (int i = 0; i < SIZES * KINDS; i++) {
-        lobe_material material = microfacet_material(i % 4);
+        lobe_material material = purple_metal((lobe_distribution)(i % 4));
         lobe_scene *scene = mapped_scene(&material, sizes[i / KINDS][0], sizes[i / KINDS][1], i % 2,
                                          301 + (uint64_t)i);
         map_request request = usual;
@@ -136,7 +133,7 @@ static void lobes_of_any_size(void **state) {
 /// Without a normal map every texel is upright, and only widths distinguish bins.
 static void widths_alone(void **state) {
     for (uint32_t kind = 0; kind < KINDS; kind++) {
-        lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX);
+        lobe_material material = purple_metal(LOBE_DISTRIBUTION_GGX);
         lobe_scene *scene = scene_begin();
         material.metallic_roughness_map = scene_add_map(scene, random_map(9, 12, 0.1, 1, 341));
         map_request request = usual;
@@ -155,7 +152,7 @@ static void sixteen_bits_are_within_a_step(void **state) {
                    {LOBE_FORMAT_RGBA16_FLOAT, 1e-7, 3e-3}};
     for (int i = 0; i < 2 * KINDS; i++) {
         lobe_material material =
-            i % 2 ? microfacet_material(i / 2) : leaning_lobes(LOBE_DISTRIBUTION_VMF);
+            i % 2 ? purple_metal((lobe_distribution)(i / 2)) : leaning_lobes(LOBE_DISTRIBUTION_VMF);
         lobe_scene *scene = mapped_scene(&material, 23, 14, true, 351 + (uint64_t)i);
         map_request request = usual;
         request.kind = (uint32_t)(i / 2);

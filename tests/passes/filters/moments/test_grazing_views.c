@@ -51,13 +51,13 @@ static void check_material(fixture *f, const lobe_material *material, double slo
 }
 
 static void dielectrics_reflect_what_their_texels_do(void **state) {
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.8, 0);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.8, 0);
     check_material(*state, &material, 0.5, 0.1);
     check_material(*state, &material, 0.25, 0.1);
 }
 
 static void metals_reflect_what_their_texels_do(void **state) {
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.6, 1);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.6, 1);
     // Widest where the light is behind the viewer: only the tails of GGX are seen.
     check_material(*state, &material, 0.4, 0.3);
 }

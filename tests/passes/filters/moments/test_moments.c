@@ -184,7 +184,7 @@ static void microfacets_are_shaded_by_their_moments(void **state) {
         static const lobe_distribution distributions[] = {LOBE_DISTRIBUTION_BECKMANN,
                                                           LOBE_DISTRIBUTION_GGX};
         for (int j = 0; j < 2; j++) {
-            ground g = {.material = slope_plane_microfacets(distributions[j], 0.7, 0.4),
+            ground g = {.material = microfacet_material(distributions[j], 0.7, 0.4),
                         .normals = (i + j) % 2 ? slope_plane_leaning_map(401)
                                                : random_normal_map(8, 8, 0.7, 402),
                         .widths = roughness_map(ways[i]->colour, 403)};
@@ -223,7 +223,7 @@ static void lobes_are_shaded_by_their_moments(void **state) {
 /// More lights than are prepared at once.
 static void lights_add_up(void **state) {
     enum { LIGHTS = 6 };
-    ground g = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.7, 0.4),
+    ground g = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 0.4),
                 .normals = slope_plane_leaning_map(421),
                 .widths = roughness_map(true, 422)};
     lobe_material mapped;
@@ -319,7 +319,7 @@ static void two_sides_are_the_mean_of_both(void **state) {
     check_mean_of_two(*state, &lobes, 2, "vMF");
     lobe_material blinn_phong = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 60);
     check_mean_of_two(*state, &blinn_phong, 6, "Blinn-Phong");
-    lobe_material metal = slope_plane_microfacets(LOBE_DISTRIBUTION_BECKMANN, 0.35, 1);
+    lobe_material metal = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.35, 1);
     check_mean_of_two(*state, &metal, 4, "Beckmann");
     check_mean_of_two(*state, &metal, 2, "Beckmann");
 }
@@ -327,7 +327,7 @@ static void two_sides_are_the_mean_of_both(void **state) {
 /// Sides that overlap, with their own widths and metalness: the filter's result for both equals
 /// that of the weighted sum of each side's moments in the common bins.
 static void moments_of_two_sides_add_up(void **state) {
-    ground both = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1),
+    ground both = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1),
                    .normals = two_sides(2, 15),
                    .widths = constant_map(8, 8, 1, 0.4f, 1)};
     for (int i = 0; i < 64; i++) {
@@ -369,7 +369,7 @@ static const float side_colours[2][3] = {{0.9f, 0.1f, 0.1f}, {0.1f, 0.1f, 0.9f}}
 
 /// Red metal that leans to the left, blue metal that leans to the right.
 static ground two_coloured_sawtooth(double degrees) {
-    ground g = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 0.5, 1),
+    ground g = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 1),
                 .normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, 8, 8),
                 .colours = constant_map(8, 8, 0, 0, 0)};
     for (int i = 0; i < 64; i++) {
@@ -433,7 +433,7 @@ enum { WIDTH = 24, HEIGHT = 16 };
 /// A square of dielectric and metal, near and far at once.
 static lobe_scene *varied_square(void) {
     lobe_scene *scene = scene_begin();
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
     material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.5, 431));
     material.metallic_roughness_map = scene_add_map(scene, random_map(64, 64, 0.2, 1, 432));
     scene_add_square(scene, &material, 4, NULL);
@@ -503,7 +503,7 @@ static void knobs_at_their_ends_together(void **state) {
 static void small_shares_alone_are_passed_over(void **state) {
     static const char *const all[6] = {"bins=3", "colour=mean", "least_share=0"};
     static const char *const most[6] = {"bins=3", "colour=mean", "least_share=0.1"};
-    ground g = {.material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1),
+    ground g = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1),
                 .normals = random_normal_map(8, 8, 0.4, 441),
                 .widths = constant_map(8, 8, 1, 0.4f, 1)};
     ((float *)g.widths.texels)[1] = 1;

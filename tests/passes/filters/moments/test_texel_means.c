@@ -61,7 +61,7 @@ static lobe_scene *scene_of(const plane *p, const double outgoing[3]) {
     for (int i = 0; i < 3; i++)
         images[i] = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
     put_texels(p, images);
-    lobe_material material = slope_plane_microfacets(LOBE_DISTRIBUTION_GGX, 1, 1), mapped;
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1), mapped;
     lobe_scene *scene = slope_plane(&material, &images[0], outgoing, &mapped);
     lobe_image_free(&images[0]);
     scene->materials[0].metallic_roughness_map = scene_add_map(scene, images[1]);
@@ -88,8 +88,8 @@ static void mean_of_texels(const plane *p, const double outgoing[3], const doubl
     mean[0] = mean[1] = mean[2] = 0;
     for (uint32_t k = 0; k < p->kind_count; k++) {
         const texel_kind *kind = &p->kinds[k];
-        lobe_material material = slope_plane_microfacets(
-            LOBE_DISTRIBUTION_GGX, (double)kind->roughness, (double)kind->metallic);
+        lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, (double)kind->roughness,
+                                                     (double)kind->metallic);
         double normal[3], radiance[3];
         slope_plane_direction(kind->tilt, 0, normal);
         for (int i = 0; i < 3; i++)
