@@ -10,7 +10,6 @@
 #include "passes/maps/mask_coverage.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/knobs.h"
-#include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
 static const char *const storages[] = {"float32", "float16", NULL};
@@ -185,5 +184,5 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_LIKE_LOBES, like_lobes);
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));
-    passes_appearance_specialise(appearance, SPECIALISE_COLOUR_MAPS, filtered);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
 }

@@ -86,6 +86,6 @@ void passes_lobe_map_build(const filter_context *context, size_t instance,
         map = passes_lobe_map(context, index, kind);
     passes_lobe_map_bind(context, index, kind->binding, varies ? &map : NULL,
                          passes_filtered_map_format(context), appearance);
-    passes_appearance_specialise(appearance, kind->presence_id, varies);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, varies);
     passes_filtered_maps_build(context, index, appearance);
 }

@@ -1,15 +1,11 @@
 #include "passes/maps/parameter_averaging.h"
 
-#include "shaders/interface/mixture.h"
-#include "shaders/interface/specialisation.h"
-
 const lobe_map_kind passes_averaged_parameters = {
     .content = "averaged parameters",
     .pass = "parameter_averaging",
     .shader = "maps/parameter_averaging.comp",
     .binding = "parameter_map",
     .layers = 1,
-    .presence_id = SPECIALISE_MIXTURE,
 };
 
 void passes_parameter_averaging_build(const filter_context *context, size_t instance,

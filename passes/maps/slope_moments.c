@@ -8,7 +8,6 @@ const lobe_map_kind passes_slope_moments = {
     .shader = "maps/slope_moments.comp",
     .binding = "moment_map",
     .layers = SLOPE_LAYERS,
-    .presence_id = SPECIALISE_SLOPES,
 };
 
 void passes_slope_moments_build(const filter_context *context, size_t instance,

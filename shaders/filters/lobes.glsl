@@ -7,6 +7,7 @@
 // those it needs: first the base lobes if level 0 has a share, then the footprint's one lobe, then
 // each sector and its halves.
 
+#include "interface/mixture.h"
 #include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
@@ -16,7 +17,6 @@
 #include "environment/reflection.glsl"
 #endif
 
-layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
@@ -175,7 +175,8 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
     float complement = resultant_complement(moment.xyz, moment.w);
     float refine = 0.0;
     if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
-        refine = refinement(complement, fetched.base_complement, one ? filter_knobs.epsilon0 : filter_knobs.epsilon1);
+        refine = refinement(complement, fetched.base_complement,
+                            one ? filter_knobs.epsilon0 : filter_knobs.epsilon1);
     refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
     if (root_from_mean())
         refine = one ? at.root_share : refine;
@@ -219,7 +220,8 @@ walk start_walk(appearance fetched) {
     at.root_share = 1.0;
     at.sector_share = 0.0;
     if (root_from_mean()) {
-        at.root_share = refinement(fetched.complement, fetched.base_complement, filter_knobs.epsilon0);
+        at.root_share = refinement(fetched.complement, fetched.base_complement,
+                                   filter_knobs.epsilon0);
         if (fetched.base_share < 1.0 && at.root_share >= 1.0)
             at.sector = 0;
     }
@@ -255,7 +257,7 @@ void add_lobe(inout appearance fetched, lobe next, light_directions halfway) {
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return;
     light_directions halfway = light_directions(mixture_half_vector(fetched, surface, incoming[0]),
                                                 mixture_half_vector(fetched, surface, incoming[1]),
@@ -315,13 +317,13 @@ appearance fetch_appearance(surface_point surface) {
     result.base_share = 1.0;
     result.lobe_count = float(LOBE_COUNT);
     result.level = 0.0;
-    if (MIXTURE)
+    if (FILTERED_LOBES)
         enter_mixture(result, surface);
     else
         result.diffuse_normal = unfiltered_normal(surface);
     result.normal = mean_direction(result.diffuse_normal, vec3(0.0, 0.0, 1.0));
     result.filtered = filtered_material(surface, result.normal, result.area);
-    if (MIXTURE && MODEL == MODEL_MICROFACET)
+    if (FILTERED_LOBES && MODEL == MODEL_MICROFACET)
         result.filtered.width = base_lobe_of_concentration(
             DISTRIBUTION, concentration_from_complement(result.base_complement));
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
@@ -373,7 +375,7 @@ vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfw
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
@@ -422,7 +424,7 @@ vec3 reflect_mixture(inout appearance fetched, surface_point surface) {
 }
 
 vec3 reflect_environment(inout appearance fetched, surface_point surface) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     vec3 sum = reflect_mixture(fetched, surface);

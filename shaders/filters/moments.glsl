@@ -14,7 +14,6 @@
 #include "environment/reflection.glsl"
 #endif
 
-layout(constant_id = SPECIALISE_MIXTURE) const bool MIXTURE = false;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 
 layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
@@ -117,7 +116,7 @@ void add_exchange(inout appearance fetched, surface_point surface, plane_bin bin
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return;
     vec3 halfway[4];
     vec2 places[4];
@@ -151,7 +150,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 // Colours of the footprint. Where bins have their own, these are means of the texels' reflection,
 // not the reflection of mean parameters.
 base_material footprint_material(surface_point surface, vec3 normal, map_area area) {
-    if (!(MIXTURE && BIN_COLOUR))
+    if (!(FILTERED_LOBES && BIN_COLOUR))
         return filtered_material(surface, normal, area);
     base_material base;
     base.normal = normal;
@@ -171,7 +170,7 @@ appearance fetch_appearance(surface_point surface) {
     result.level = 0.0;
     result.normal = unfiltered_normal(surface);
     result.filtered = footprint_material(surface, result.normal, result.area);
-    if (MIXTURE) {
+    if (FILTERED_LOBES) {
         result.level = result.area.level;
         result.base_share =
             may_see_level_0(lobe_map()) ? clamp(1.0 - result.level, 0.0, 1.0) : 0.0;
@@ -306,7 +305,7 @@ vec3 evaluate_bin_lobes(appearance fetched, light_sum sum, vec3 halfway, vec3 in
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
@@ -379,7 +378,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
 }
 
 vec3 reflect_environment(inout appearance fetched, surface_point surface) {
-    if (!MIXTURE)
+    if (!FILTERED_LOBES)
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     vec3 sum = reflect_bins(fetched, surface);
     if (CLOSED)

@@ -12,7 +12,7 @@
 // A length of one widens nothing.
 base_material widened_material(appearance fetched) {
     base_material base = fetched.base;
-    if (AVERAGED)
+    if (FILTERED_LOBES)
         base.variance += variance_of_mean_normal(length(fetched.mean_normal));
     return base;
 }

@@ -19,17 +19,9 @@
 #define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 2) // uint, layer of the mean; 0: none
 #define SPECIALISE_SPACE       (SPECIALISE_FILTER + 3) // uint, SPACE_...
 #define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 4) // uint, THRESHOLD_...
-#define SPECIALISE_PROBES      (SPECIALISE_FILTER + 5) // uint, [1, 16]
-#define SPECIALISE_COLOUR_MAPS (SPECIALISE_FILTER + 6) // uint, bit MAP_...: filtered map exists
-#define SPECIALISE_MIXTURE     (SPECIALISE_FILTER + 7) // bool: there is a map of mixtures
-// uint, bit MAP_...: some pixel may use level 0 of the map.
-#define SPECIALISE_MAGNIFIED_MAPS (SPECIALISE_FILTER + 8)
-// uint, bit MAP_...: the map has the same size and coordinates as that of the lobes.
-#define SPECIALISE_LIKE_LOBES (SPECIALISE_FILTER + 9)
+#define SPECIALISE_CLUSTERS    (SPECIALISE_FILTER + 5) // uint, CLUSTERS_...
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
-#define SPECIALISE_ONE_HUE    (SPECIALISE_FILTER + 10)
-#define SPECIALISE_CLUSTERS   (SPECIALISE_FILTER + 11) // uint, CLUSTERS_...
-#define SPECIALISE_ANISOTROPY (SPECIALISE_FILTER + 12) // uint, [1, 16]
+#define SPECIALISE_ONE_HUE (SPECIALISE_FILTER + 6)
 
 // Numbers of the filter's knobs (see knobs.h).
 struct lobes_knobs {

@@ -17,10 +17,10 @@
 // [last]          where bins have colours: mean of the diffuse colour; of microfacets times 1 - F0
 #define MOMENT_MAXIMUM_BINS 6
 
-#define SPECIALISE_BINS       (SPECIALISE_FILTER + 32) // uint, [1, MOMENT_MAXIMUM_BINS]
-#define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 33) // uint, PARTITION_...
-#define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 34) // bool: bins have colours
-#define SPECIALISE_BIN_WIDTHS (SPECIALISE_FILTER + 35) // bool: base lobes differ in width
+#define SPECIALISE_BINS       (SPECIALISE_FILTER + 20) // uint, [1, MOMENT_MAXIMUM_BINS]
+#define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 21) // uint, PARTITION_...
+#define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 22) // bool: bins have colours
+#define SPECIALISE_BIN_WIDTHS (SPECIALISE_FILTER + 23) // bool: base lobes differ in width
 
 // Numbers of the filter's knobs (see knobs.h).
 struct moments_knobs {

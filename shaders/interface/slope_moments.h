@@ -20,11 +20,10 @@
 // would too.
 #define SLOPE_MAXIMUM 8.0
 
-#define SPECIALISE_SLOPES (SPECIALISE_FILTER + 20) // bool: there is a map of moments
 // uint, [0, 2], of `leadr`: 3, 5 or 7 slopes along each axis of a grid
-#define SPECIALISE_GRID (SPECIALISE_FILTER + 21)
+#define SPECIALISE_GRID (SPECIALISE_FILTER + 10)
 // uint, BASE_PLANE_..., of `leadr`: over which plane the base lobes' covariance is added
-#define SPECIALISE_BASE_PLANE (SPECIALISE_FILTER + 22)
+#define SPECIALISE_BASE_PLANE (SPECIALISE_FILTER + 11)
 
 #define BASE_PLANE_FACETS  0 // the plane of the mean normal
 #define BASE_PLANE_SURFACE 1 // the surface's, as in the paper

@@ -28,11 +28,18 @@
 #define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters process together
 // The knobs of all filters.
 #define SPECIALISE_VIEW              24 // uint, VIEW_...
-#define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes are turned into von Mises-Fisher lobes first
+#define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes become von Mises-Fisher lobes
 #define SPECIALISE_DEPTH_AS_COVERAGE 26 // bool: alpha is the depth, see sample_choice.comp
 #define SPECIALISE_CURVATURE         29 // bool: the knob `curvature` is not 0
-// The first of a filter's own, see shaders/filters.
-#define SPECIALISE_FILTER 32
+// Filtered maps, see shaders/shading/filtered_maps.glsl.
+#define SPECIALISE_PROBES         32 // uint, [1, 16]
+#define SPECIALISE_ANISOTROPY     33 // uint, [1, 16]
+#define SPECIALISE_FILTERED_LOBES 34 // bool: lobes vary, and there is a map of them
+#define SPECIALISE_FILTERED_MAPS  35 // uint, bit MAP_...: there is a filtered map
+#define SPECIALISE_MAGNIFIED_MAPS 36 // uint, bit MAP_...: some pixel may use level 0 of the map
+#define SPECIALISE_LIKE_LOBES     37 // uint, bit MAP_...: same size and coordinates as the lobes'
+// The first of the filters' own, which are in their headers; no two of any filters are the same.
+#define SPECIALISE_FILTER 40
 
 #define MODEL_MICROFACET        0
 #define MODEL_HALF_VECTOR_LOBES 1

@@ -12,8 +12,6 @@
 #include "environment/reflection.glsl"
 #endif
 
-layout(constant_id = SPECIALISE_MIXTURE) const bool AVERAGED = false;
-
 // xyz: mean normal; w: mean of the concentration of microfacets, or of the factor of the lobes'
 // widths (see parameter_averaging.comp).
 layout(set = 0, binding = 16) uniform sampler2D parameter_map;
@@ -55,17 +53,17 @@ vec4 fetch_averages(map_area area, surface_point surface) {
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     map_area area = lobe_area(surface);
-    vec4 averages = AVERAGED ? fetch_averages(area, surface) : vec4(0.0);
-    result.normal = AVERAGED ? mean_direction(averages.xyz, vec3(0.0, 0.0, 1.0))
-                             : unfiltered_normal(surface);
-    result.mean_normal = AVERAGED ? averages.xyz : result.normal;
+    vec4 averages = FILTERED_LOBES ? fetch_averages(area, surface) : vec4(0.0);
+    result.normal = FILTERED_LOBES ? mean_direction(averages.xyz, vec3(0.0, 0.0, 1.0))
+                                   : unfiltered_normal(surface);
+    result.mean_normal = FILTERED_LOBES ? averages.xyz : result.normal;
     result.base = filtered_material(surface, result.normal, area);
-    if (AVERAGED)
+    if (FILTERED_LOBES)
         result.base.width = width_from_average(averages.w);
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
     result.lobe_count = float(LOBE_COUNT);
-    result.level = AVERAGED ? area.level : 0.0;
+    result.level = FILTERED_LOBES ? area.level : 0.0;
     return result;
 }
 

@@ -4,13 +4,13 @@
 // Reading maps over a pixel's footprint. A filtered map holds levels 1 and up of its base map (its
 // own level 0 has half the base map's size); level 0 is the base map itself.
 
-#include "interface/mixture.h"
 #include "lib/map/footprint.glsl"
 #include "shading/unfiltered_maps.glsl"
 
 layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
 layout(constant_id = SPECIALISE_ANISOTROPY) const uint ANISOTROPY = 1; // of a probe, at most
-layout(constant_id = SPECIALISE_COLOUR_MAPS) const uint COLOUR_MAPS = 0;
+layout(constant_id = SPECIALISE_FILTERED_LOBES) const bool FILTERED_LOBES = false;
+layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
 
@@ -130,7 +130,7 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
                     map_area lobes) {
     if (!has_map(map))
         return filterable(map, vec4(1.0), surface);
-    if ((COLOUR_MAPS & (1u << map)) == 0u)
+    if ((FILTERED_MAPS & (1u << map)) == 0u)
         return filterable(
             map, textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0), surface);
     map_area area = lobes;

@@ -36,7 +36,7 @@ bool keeps_footprint(surface_point surface) {
     // Where even a texel of alpha 1 is cut away: the filtered map knows one alpha of all vertices.
     if (!is_kept(1.0, surface))
         return false;
-    if ((COLOUR_MAPS & (1u << MAP_BASE_COLOUR)) == 0u)
+    if ((FILTERED_MAPS & (1u << MAP_BASE_COLOUR)) == 0u)
         return is_kept(unfiltered_base_colour(surface).a, surface);
     float depth = dot(frame.axis.xyz, surface.world_position) - frame.axis.w;
     uint layer = uint(int(floor(DITHER_LAYERS * log2(max(depth, 1e-30)))));

@@ -44,7 +44,7 @@ appearance fetch_appearance(surface_point surface) {
     map_area area = lobe_area(surface);
     result.base_share = 1.0;
     result.level = 0.0;
-    if (SLOPES) {
+    if (FILTERED_LOBES) {
         result.level = area.level;
         result.base_share = may_see_level_0(lobe_map()) ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
         result.moments = fetch_moments(area, surface);
@@ -54,9 +54,9 @@ appearance fetch_appearance(surface_point surface) {
         result.normal = scaled_normal(unfiltered_normal(surface));
     }
     result.filtered = filtered_material(surface, result.normal, area);
-    if (SLOPES && may_see_level_0(lobe_map()))
+    if (FILTERED_LOBES && may_see_level_0(lobe_map()))
         fetch_base(result, surface);
-    if (SLOPES && MODEL == MODEL_MICROFACET)
+    if (FILTERED_LOBES && MODEL == MODEL_MICROFACET)
         result.filtered.width =
             base_lobe_of_concentration(DISTRIBUTION, 1.0 / result.moments.base_variance);
     result.gathered = vec4(0.0);
@@ -68,12 +68,12 @@ appearance fetch_appearance(surface_point surface) {
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (SLOPES)
+    if (FILTERED_LOBES)
         gather_footprint(fetched, surface, incoming);
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
-    if (!SLOPES)
+    if (!FILTERED_LOBES)
         return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
@@ -97,7 +97,7 @@ vec3 lobes_colour() {
 vec3 reflect_footprint(appearance fetched, surface_point surface);
 
 vec3 reflect_environment(appearance fetched, surface_point surface) {
-    if (!SLOPES)
+    if (!FILTERED_LOBES)
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     vec3 sum = reflect_footprint(fetched, surface);
     if (may_see_level_0(lobe_map()))

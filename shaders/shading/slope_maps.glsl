@@ -16,7 +16,6 @@
 #include "environment/reflection.glsl"
 #endif
 
-layout(constant_id = SPECIALISE_SLOPES) const bool SLOPES = false;
 
 // Factor of all slopes: defined by the filter.
 float height_scale();

@@ -230,7 +230,7 @@ static bool has_one_hue(const lobe_material *material) {
 
 static void specialise_mixture(const lobe_material *material, const mixture_map *mixture,
                                uint32_t coarsest, filtered_appearance *appearance) {
-    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, 1);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, 1);
     passes_appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
     passes_appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
     passes_appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);

@@ -8,7 +8,6 @@
 #include "passes/maps/lobe_map.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"
 
@@ -216,7 +215,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_lobe_map_bind(context, material, "moment_map", prepared ? &moments.map : NULL,
                          moments.format, appearance);
     passes_appearance_bind(appearance, "binning_block", moments.range, (lobe_sampler){0});
-    passes_appearance_specialise(appearance, SPECIALISE_MIXTURE, prepared != NULL);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, prepared != NULL);
     passes_filtered_maps_build(context, material, appearance);
 }
 

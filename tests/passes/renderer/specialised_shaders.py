@@ -75,7 +75,7 @@ def storage_accesses(text):
 BARE = {"MODEL": 1, "DISTRIBUTION": 3, "LOBE_COUNT": 1, "MAPS": 0, "DIFFUSE": "false",
         "ALPHA_MASK": "false", "EMISSION": "false", "VERTEX_COLOUR": "false",
         "NORMAL_CONCENTRATION": "false", "DIRECTIONAL_LIGHTS": "true", "POINT_LIGHTS": "false",
-        "SPOT_LIGHTS": "false", "LIGHTS_AT_ONCE": 1, "MIXTURE": "false"}
+        "SPOT_LIGHTS": "false", "LIGHTS_AT_ONCE": 1, "FILTERED_LOBES": "false"}
 
 
 class SpecialisedShaders(unittest.TestCase):
@@ -92,7 +92,7 @@ class SpecialisedShaders(unittest.TestCase):
             text = disassembly(self.folder, name, BARE)
             self.assertEqual(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
             # With a normal map there is something to count.
-            text = disassembly(self.folder, name, {**BARE, "MAPS": 2, "MIXTURE": "true"})
+            text = disassembly(self.folder, name, {**BARE, "MAPS": 2, "FILTERED_LOBES": "true"})
             self.assertGreater(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
 
     def test_what_is_absent_costs_instructions_only_where_present(self):
@@ -114,7 +114,7 @@ class SpecialisedShaders(unittest.TestCase):
             self.assertGreater(self.size_of(name, outputs=True), self.size_of(name))
 
     def test_fewer_clusters_are_less_code(self):
-        mixed = {"MAPS": 2, "MIXTURE": "true"}
+        mixed = {"MAPS": 2, "FILTERED_LOBES": "true"}
         one = self.size_of("lobes", **mixed, SUBDIVISION=0)
         eight = self.size_of("lobes", **mixed, SUBDIVISION=2)
         self.assertLess(one, eight)

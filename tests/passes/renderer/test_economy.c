@@ -11,7 +11,7 @@
 #include "engine/graph/state.h"
 #include "passes/maps/level_reduction.h"
 #include "scenes/scene/scene.h"
-#include "shaders/interface/mixture.h"
+#include "shaders/interface/specialisation.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
