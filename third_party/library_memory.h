@@ -9,7 +9,7 @@ typedef struct library_memory {
     /// Like realloc: resizes a block, or allocates one if `memory` is NULL. Aligned for any type.
     /// NULL if out of memory; the old block is then unchanged.
     void *(*resize)(void *user, void *memory, size_t size);
-    void (*release)(void *memory); ///< NULL is fine
+    void (*release)(void *memory); ///< NULL is allowed
     void *user;                    ///< handed to `resize`
     bool failed; ///< `resize` returned NULL; libraries report this in various ways
 } library_memory;

@@ -208,7 +208,7 @@ typedef struct gltf_source {
 const gltf_document *third_party_gltf_document_parse(const gltf_source *source, char *message,
                                                      size_t message_size);
 
-/// NULL is fine.
+/// NULL is allowed.
 void third_party_gltf_document_free(const gltf_document *document);
 
 #ifdef __cplusplus

@@ -112,7 +112,7 @@ static void forget_colours(struct material_constants *constants) {
         memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
 }
 
-/// Whether two sets of constants are equal but for what `forget` clears.
+/// Whether two sets of constants are equal except for what `forget` clears.
 static bool are_equal(const struct material_constants *a, const struct material_constants *b,
                       void (*forget)(struct material_constants *)) {
     struct material_constants left = *a, right = *b;

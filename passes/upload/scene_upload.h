@@ -11,7 +11,7 @@ lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *sc
 /// can only be destroyed.
 lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
                                        const lobe_scene_changes *changes, const lobe_host *host);
-/// Clears the pointer; NULL is fine.
+/// Clears the pointer; NULL is allowed.
 void passes_device_scene_destroy(device_scene **scene);
 
 #endif

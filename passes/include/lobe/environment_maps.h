@@ -70,7 +70,7 @@ typedef struct lobe_environment_maps_parameters {
 LOBE_API lobe_result lobe_environment_maps_create(
     lobe_device *device, const lobe_environment_maps_parameters *parameters,
     lobe_environment_maps **maps);
-/// Clears the pointer; NULL is fine. The device is not destroyed.
+/// Clears the pointer; NULL is allowed. The device is not destroyed.
 LOBE_API void lobe_environment_maps_destroy(lobe_environment_maps **maps);
 
 /// Replaces the environment with one of the same layout and extent (NULL: keeps it, for timing) and

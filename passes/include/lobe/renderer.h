@@ -24,7 +24,7 @@ typedef struct lobe_renderer lobe_renderer;
 /// lobe_device_allocator.
 LOBE_API lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
                                           lobe_renderer **renderer);
-/// Clears the pointer; NULL is fine. The device is not destroyed.
+/// Clears the pointer; NULL is allowed. The device is not destroyed.
 LOBE_API void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene, in place of the current one. The scene must live as long as it is set; NULL
