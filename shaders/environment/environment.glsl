@@ -65,8 +65,8 @@ vec3 mip_radiance(surface_point surface, half_vector_distribution lobe, vec3 axi
                       mip_level(environment_width(), exponent)).rgb;
 }
 
-// How much of a round lobe has the long tails of GGX. Microfacets that reflect broad lobes cut their
-// tails off at the horizon: these are von Mises-Fisher's.
+// How much of a round lobe has the long tails of GGX. Microfacets that reflect broad lobes cut
+// their tails off at the horizon: these are von Mises-Fisher's.
 float share_of_tails(uint kind, float concentration) {
     if (kind != DISTRIBUTION_GGX)
         return 0.0;

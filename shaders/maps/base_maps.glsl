@@ -56,7 +56,8 @@ float width_at(vec2 point) {
 float base_parameter(int i, float factor) {
     float parameter = MODEL == MODEL_MICROFACET
                           ? microfacet_parameter(DISTRIBUTION, material.roughness * factor)
-                          : base_lobe_parameter(DISTRIBUTION, material.lobe_direction[i].w * factor);
+                          : base_lobe_parameter(DISTRIBUTION,
+                                                material.lobe_direction[i].w * factor);
     if (NORMAL_CONCENTRATION)
         parameter = convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration);
     return parameter;

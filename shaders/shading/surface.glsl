@@ -107,7 +107,8 @@ surface_point read_surface() {
 vec2 map_coordinates(int map, vec4 both_sets, float one) {
     vec2 set = (SECOND_COORDINATES & (1u << map)) != 0u ? both_sets.zw : both_sets.xy;
     vec3 row = vec3(set, one);
-    return vec2(dot(material.transforms[2 * map].xyz, row), dot(material.transforms[2 * map + 1].xyz, row));
+    return vec2(dot(material.transforms[2 * map].xyz, row),
+                dot(material.transforms[2 * map + 1].xyz, row));
 }
 
 #endif

@@ -47,8 +47,8 @@ void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight
     sums.mean.w += weight * complement;
 }
 
-// 1 - |r| of each base lobe. If widths do not vary, it is constant over the dispatch, and the caller
-// hoists it out of its loop over texels.
+// 1 - |r| of each base lobe. If widths do not vary, it is constant over the dispatch, and the
+// caller hoists it out of its loop over texels.
 void base_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]) {
     for (int i = 0; i < LOBE_COUNT; ++i)
         complements[i] = mean_resultant_complement(base_concentration(i, width));

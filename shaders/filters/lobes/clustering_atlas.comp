@@ -46,8 +46,8 @@ void main() {
             if (surface_normal.w == 0.0 || faces_away(surface_normal.xyz, texel))
                 continue;
             vec4 tangent = texelFetch(atlas_tangent, texel, 0);
-            mat3 from_tangent = mat3(tangent.xyz, tangent.w * cross(surface_normal.xyz, tangent.xyz),
-                                     surface_normal.xyz);
+            vec3 bitangent = tangent.w * cross(surface_normal.xyz, tangent.xyz);
+            mat3 from_tangent = mat3(tangent.xyz, bitangent, surface_normal.xyz);
             mat3 to_mixture = rotation() * from_tangent;
             float weight = row_weights[y] * column_weights[x];
             add_texel(sums, texel, size, to_mixture, complements, weight);

@@ -4,16 +4,16 @@
 #include "lib/number/constants.glsl"
 #include "lib/lobe/von_mises_fisher.glsl"
 
-// Which level of an environment's cubes to read. `width`: texels along a face of the cube's level 0.
+// Which level of an environment's cubes to read. `width`: texels along a face of level 0.
 
-// The level of the radiance's MIP chain whose texels cover a solid angle, in steradian: at level m, of
-// the 6 w^2/4^m texels all around, each covers 4 pi 4^m/(6 w^2) on average.
+// The level of the radiance's MIP chain whose texels cover a solid angle, in steradian: at level m,
+// each of the 6 w^2/4^m texels all around covers 4 pi 4^m/(6 w^2) on average.
 float solid_angle_level(float width, float solid_angle) {
     return clamp(0.5 * log2(solid_angle * (1.5 * INVERSE_PI) * width * width), 0.0, log2(width));
 }
 
-// McGuire et al., 2013, Plausible Blinn-Phong Reflection of Standard Cube MIP-Maps, Eq. 12: the same
-// for a Blinn-Phong lobe, whose integral over the hemisphere is 2 pi/(s + 1),
+// McGuire et al., 2013, Plausible Blinn-Phong Reflection of Standard Cube MIP-Maps, Eq. 12: the
+// same for a Blinn-Phong lobe, whose integral over the hemisphere is 2 pi/(s + 1),
 //   m = log2(w sqrt 3) - log2(s + 1)/2.
 float mip_level(float width, float exponent) {
     return clamp(log2(width * sqrt(3.0)) - 0.5 * log2(exponent + 1.0), 0.0, log2(width));
@@ -27,19 +27,19 @@ float prefiltered_concentration(float width, float level) {
     return texels > 1.5 ? texels * texels / 16.0 : 0.0;
 }
 
-// Integral over the sphere of the product of two von Mises-Fisher lobes about the same axis: that of
-// exp(a (c - 1)) exp(b (c - 1)) is the inverse of the peak of the lobe a + b.
+// Integral over the sphere of the product of two von Mises-Fisher lobes about the same axis: that
+// of exp(a (c - 1)) exp(b (c - 1)) is the inverse of the peak of the lobe a + b.
 float lobe_product(float first, float second) {
     return von_mises_fisher_peak(first) * von_mises_fisher_peak(second) /
            von_mises_fisher_peak(first + second);
 }
 
-// The share w of the sharper of two lobes, a and b, with which w a + (1 - w) b is nearest to a lobe c
-// in between, in the least squares over the sphere:
+// The share w of the sharper of two lobes, a and b, with which w a + (1 - w) b is nearest to a
+// lobe c in between, in least squares over the sphere:
 //   w = <c - b, a - b> / <a - b, a - b>.
-// For narrow lobes it depends on ratios alone: 0.41 half way (in log kappa) between lobes four times
-// as concentrated as one another, where the blend is 13 % off the lobe (its relative L2), which is
-// the visible error if all light comes from one point.
+// For narrow lobes it depends on ratios alone: 0.41 half way (in log kappa) between lobes four
+// times as concentrated as one another, where the blend is 13 % off the lobe (its relative L2),
+// which is the visible error if all light comes from one point.
 float sharper_share(float sharper, float broader, float concentration) {
     float across = lobe_product(sharper, broader), square = lobe_product(broader, broader);
     float part = lobe_product(concentration, sharper) - lobe_product(concentration, broader) -

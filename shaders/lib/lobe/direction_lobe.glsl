@@ -40,8 +40,8 @@ float lobe_variance(direction_lobe lobe) {
 //   i = 2 <o, h> h - o,   di = 2 <o, dh> h + 2 <o, h> dh.
 // It is twice as broad in the plane of reflection, and across it 2 <o, h> times, which is what
 // makes reflections at grazing angles long. Wang, Ren, Gong, Snyder, Guo, 2009, All-Frequency
-// Rendering of Dynamic, Spatially-Varying Reflectance, section 4.2, keep the area, 4 <o, h>, and let
-// the lobe be round.
+// Rendering of Dynamic, Spatially-Varying Reflectance, section 4.2, keep the area, 4 <o, h>, and
+// let the lobe be round.
 direction_lobe reflected_lobe(direction_lobe half_vectors, vec3 outgoing) {
     float cosine = dot(outgoing, half_vectors.axis);
     direction_lobe incoming;

@@ -11,8 +11,8 @@
 // texel; two on a diagonal give the same means of values and of products of two values over any
 // area much larger than a texel. Of four values between centres, the point (g, g) has the weights
 // (1-g)^2, (1-g)g, (1-g)g, g^2; summed over the plane, products of texels at every distance then
-// have the weights of the integral: 4/9 for a texel with itself, 1/9 with a neighbour, 1/36 with one
-// across. Where texels are independent, this leaves 4/9 of their variance.
+// have the weights of the integral: 4/9 for a texel with itself, 1/9 with a neighbour, 1/36 with
+// one across. Where texels are independent, this leaves 4/9 of their variance.
 
 // In texels, from the centre.
 vec2 texel_point(int index) {

@@ -4,8 +4,8 @@
 #include "interface/directional_albedo.h"
 #include "interface/specialisation.h"
 
-// The table that shaders/environment/directional_albedo.comp fills for one distribution, and what it
-// is for.
+// The table that shaders/environment/directional_albedo.comp fills for one distribution, and what
+// it is for.
 
 // Roughness [0, 1] with this parameter: the inverse of microfacet_parameter
 // (lib/lobe/base_lobe.glsl).

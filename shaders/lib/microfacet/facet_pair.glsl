@@ -5,10 +5,11 @@
 #include "lib/number/constants.glsl"
 
 // Schuessler, Heitz, Hanika, Dachsbacher, 2017, Microfacet-based Normal Mapping for Robust Monte
-// Carlo Path Tracing: a texel's facet p, of normal w_p, is tilted out of the surface, and an upright
-// facet t, of normal w_t, closes the gap: a_p w_p + a_t w_t is the surface's normal. They hide each
-// other and exchange light. With the texel's slope s (lib/microfacet/slope_distribution.glsl), of
-// angle theta, a_p = 1/cos(theta) and a_t = tan(theta), and for a direction u
+// Carlo Path Tracing: a texel's facet p, of normal w_p, is tilted out of the surface, and an
+// upright facet t, of normal w_t, closes the gap: a_p w_p + a_t w_t is the surface's normal. They
+// hide each other and exchange light. With the texel's slope s
+// (lib/microfacet/slope_distribution.glsl), of angle theta, a_p = 1/cos(theta) and
+// a_t = tan(theta), and for a direction u
 //   a_p <w_p, u> = u_z - <s, u_xy>,   a_t <w_t, u> = <s, u_xy>, neither below 0.
 //
 // t is Lambert's, of p's albedo: light that meets t leaves it evenly, so that all orders of
@@ -37,8 +38,8 @@ float facet_pair_masking(vec2 slope, vec3 direction) {
     return clamp(direction.z / max(heights.x + heights.y, 1e-20), 0.0, 1.0);
 }
 
-// lambda_p G_1 over <w_p, o>, 0 where p faces away from either: what remains of the factors by which
-// facets mask what p's microfacets reflect, F D G_2/(4 <w_p, o>).
+// lambda_p G_1 over <w_p, o>, 0 where p faces away from either: what remains of the factors by
+// which facets mask what p's microfacets reflect, F D G_2/(4 <w_p, o>).
 float facet_pair_visibility(vec2 slope, vec3 outgoing, vec3 incoming) {
     vec2 seen = facet_pair_heights(slope, outgoing), lit = facet_pair_heights(slope, incoming);
     float area = sqrt(1.0 + dot(slope, slope));
