@@ -11,8 +11,10 @@
 #include "shaders/interface/irradiance_harmonics.h"
 
 /// Maximum number of texels along a face that the exact integral sums. Lavapipe silently ends the
-/// loops of a shader after 65535 iterations in total, and filters have loops of their own.
-#define EXACT_WIDTH 64
+/// loops of a shader after 65535 iterations in total, and filters have loops of their own: a closed
+/// surface, for instance, two dozen for each texel.
+#define EXACT_WIDTH        64
+#define EXACT_WIDTH_CLOSED 16
 
 static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                        LOBE_WRAP_CLAMP, 0};
@@ -24,10 +26,13 @@ static uint32_t method_of(const filter_context *context) {
                                                                         : method;
 }
 
+static bool closes_surfaces(const filter_context *context) {
+    return passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
+}
+
 /// Whether light is reflected more than once: by microfacets, or by the facets of texels.
 static bool scatters(const filter_context *context) {
-    return passes_knob_choice(context, &passes_knob_scattering) > 0 ||
-           passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
+    return passes_knob_choice(context, &passes_knob_scattering) > 0 || closes_surfaces(context);
 }
 
 /// Whether lobes between two levels are blended from two cubes.
@@ -157,6 +162,18 @@ static void build_maps(const filter_context *context, const environment_work *wo
                                  : no_harmonics(context->graph);
 }
 
+lobe_result passes_environment_light_check(const filter_context *context) {
+    const bool exact =
+        method_of(context) == ENVIRONMENT_EXACT && context->scene->scene->environment;
+    if (exact && closes_surfaces(context) && context->filter->build)
+        return lobe_host_fail(context->host, LOBE_ERROR_UNSUPPORTED,
+                              "filter '%s': knob 'env' must not be exact where 'normal_mapping' is "
+                              "microfacet: sums of all facets for each of the environment's texels "
+                              "exceed what a device computes",
+                              lobe_filter_name(context->filter));
+    return LOBE_OK;
+}
+
 lobe_result passes_environment_light_load(const filter_context *context,
                                           const environment_work *work, lobe_device *device) {
     if (!work->cache || !context->scene->environment)
@@ -223,8 +240,9 @@ static struct environment_constants constants_of(const filter_context *context,
 static lobe_range levels_read(const environment_light *light, const filter_context *context) {
     if (light->method != ENVIRONMENT_EXACT)
         return (lobe_range){0};
+    const uint32_t width = closes_surfaces(context) ? EXACT_WIDTH_CLOSED : EXACT_WIDTH;
     uint32_t level = 0;
-    while (environment_width(context) >> level > EXACT_WIDTH)
+    while (environment_width(context) >> level > width)
         ++level;
     return (lobe_range){.first_level = level, .level_count = 1};
 }

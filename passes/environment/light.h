@@ -44,6 +44,10 @@ typedef struct environment_light {
     lobe_resource albedo[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];
 } environment_light;
 
+/// LOBE_ERROR_UNSUPPORTED, with one line, for a method that the filter cannot combine with its
+/// other knobs.
+lobe_result passes_environment_light_check(const filter_context *context);
+
 /// Loads the maps that this frame needs from the cache, if there is one. Call it before the frame
 /// begins. Errors: LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 lobe_result passes_environment_light_load(const filter_context *context,

@@ -99,9 +99,10 @@ static lobe_result prepare(rendering *r) {
     lobe_result result = check(r);
     if (result == LOBE_OK)
         result = choose_filter(r, &filter);
-    if (result == LOBE_OK)
-        fill_context(r, filter);
-    return result;
+    if (result != LOBE_OK)
+        return result;
+    fill_context(r, filter);
+    return passes_environment_light_check(&r->context);
 }
 
 /// Saves the cubes that the last submitted frame read back, if that has not been done, and loads

@@ -115,6 +115,49 @@ static void a_closed_white_surface_loses_nothing(void **state) {
     check_furnace(*state, &dielectric, 0.7, 75);
 }
 
+/// However many texels the environment has: lavapipe ends the loops of a shader that takes too
+/// many.
+static void exact_light_is_all_light(void **state) {
+    fixture *f = *state;
+    const lobe_material metal = white_material(0.5, 1);
+    lobe_scene *scene = bumpy_plane(&metal, 0.7, 50);
+    scene_surround(scene, 16, white);
+    scene_end(scene);
+    const picture_request request = {.filter = "direct",
+                                     .settings = {closed, "scattering=multiple", "env=exact"},
+                                     .width = 4,
+                                     .height = 4};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    for (uint32_t i = 0; i < 16; i++) {
+        const float found = pixel_at(&frame.radiance, i % 4, i / 4)[1];
+        if (!(fabsf(found - 1) <= 0.1f))
+            fail_msg("texel %u reflects %g of the light", i, (double)found);
+    }
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+}
+
+/// Filters that sum over many facets would need more than a device computes.
+static void filters_with_maps_refuse_exact_light(void **state) {
+    fixture *f = *state;
+    const lobe_material metal = white_material(0.5, 1);
+    lobe_scene *scene = bumpy_plane(&metal, 0.7, 50);
+    scene_surround(scene, 16, white);
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    const lobe_filter *filter = filter_named("moments");
+    const lobe_settings settings =
+        settings_of(filter, (const char *const[]){closed, "env=exact", NULL});
+    const lobe_render_parameters parameters = {
+        .filter = filter, .settings = &settings, .width = 4, .height = 4};
+    lobe_frame frame;
+    fixture_forget_messages(f);
+    assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
+                   LOBE_ERROR_UNSUPPORTED, "exact");
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 /// The surface that classic normal mapping means is darker.
 static void a_classic_white_surface_loses_light(void **state) {
     const lobe_material metal = white_material(0.2, 1);
@@ -202,6 +245,8 @@ static void light_and_viewer_may_change_places(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_closed_white_surface_loses_nothing),
+        cmocka_unit_test(exact_light_is_all_light),
+        cmocka_unit_test(filters_with_maps_refuse_exact_light),
         cmocka_unit_test(a_classic_white_surface_loses_light),
         cmocka_unit_test(filters_reflect_suns_as_their_texels_do),
         cmocka_unit_test(light_and_viewer_may_change_places),
