@@ -132,32 +132,58 @@ slope_distribution slopes_of_matrix(vec2 mean, mat2 covariance) {
     return slope_distribution_of(mean, vec3(covariance[0][0], covariance[1][1], covariance[0][1]));
 }
 
-// The mean over all texels of D times their visibility. Its nodes are texels that reflect: if their
-// slopes were of covariance C and their base lobes in the plane of B, they would be
+// The mean over all texels of D times their visibility. Half of the nodes are texels that reflect: if
+// their slopes were of covariance C and their base lobes in the plane of B, they would be
 //   at mean + C (C + B)^-1 (slope - mean), of covariance C - C (C + B)^-1 C,
-// and they weigh D over that Gaussian of B. Tilting a texel broadens its base lobe, so that B is
-// taken broader than the base lobe: too broad costs little accuracy, too narrow misses texels.
-const int REFLECTING_NODES = 40;
+// and as dense as texels times that Gaussian of B over its mean. Tilting a texel broadens its base
+// lobe, so that B is taken broader than the base lobe: too broad costs little accuracy, too narrow
+// misses texels. The tails of GGX reflect where that Gaussian has none: the other nodes are any
+// texels, and both are weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining
+// Sampling Techniques for Monte Carlo Rendering, Eq. 14).
+struct mirroring {
+    slope_distribution texels, reflecting;
+    slope_distribution base; // about the half vector
+    vec2 distance; // of the half vector from the mean, in deviations of texels and base together
+    float peak;    // of the density of both together, over that of base
+};
 
-float mirroring_texels(footprint_lobe lobe, float width, vec3 halfway, vec3 outgoing,
-                       vec3 incoming) {
-    vec2 slope_of_half = slope_of_normal(halfway);
+mirroring mirroring_of(footprint_lobe lobe, vec2 slope_of_half) {
     mat2 texels = covariance_matrix(lobe.facets);
     mat2 base = 2.0 * (1.0 + 2.0 * (texels[0][0] + texels[1][1])) *
                 (covariance_matrix(lobe.slopes) - texels);
     mat2 gain = texels * inverse(texels + base);
-    slope_distribution reflecting = slopes_of_matrix(
-        lobe.facets.mean + gain * (slope_of_half - lobe.facets.mean), texels - gain * texels);
-    slope_distribution expected = slopes_of_matrix(slope_of_half, base);
+    vec2 mean = lobe.facets.mean;
+    slope_distribution both = slopes_of_matrix(mean, texels + base);
+    mirroring result;
+    result.texels = lobe.facets;
+    result.reflecting =
+        slopes_of_matrix(mean + gain * (slope_of_half - mean), texels - gain * texels);
+    result.base = slopes_of_matrix(slope_of_half, base);
+    result.distance = standardised_slope(both, slope_of_half);
+    result.peak = result.base.root.x * result.base.root.y / (both.root.x * both.root.y);
+    return result;
+}
+
+// The density of all texels, over the sum of both densities.
+float balance_of_texels(mirroring nodes, vec2 slope) {
+    vec2 from_half = standardised_slope(nodes.base, slope);
+    float exponent = 0.5 * (dot(nodes.distance, nodes.distance) - dot(from_half, from_half));
+    return nodes.peak / (nodes.peak + exp(min(exponent, 80.0)));
+}
+
+float mirroring_texels(footprint_lobe lobe, float width, vec3 halfway, vec3 outgoing,
+                       vec3 incoming) {
+    mirroring nodes = mirroring_of(lobe, slope_of_normal(halfway));
     float sum = 0.0;
-    for (int i = 0; i < REFLECTING_NODES; ++i) {
-        vec2 slope = slope_at(reflecting, slope_node(i, REFLECTING_NODES));
-        sum += normal_distribution(DISTRIBUTION, normal_of_slope(slope), halfway, width) *
-               visibility_of_texel(slope, width, outgoing, incoming) /
-               max(slope_density(expected, slope), 1e-20);
+    for (int i = 0; i < 2 * SLOPE_NODES; ++i) {
+        vec2 node = slope_node(i % SLOPE_NODES);
+        vec2 slope = i < SLOPE_NODES ? slope_at(nodes.reflecting, node)
+                                     : slope_at(nodes.texels, node);
+        sum += balance_of_texels(nodes, slope) *
+               normal_distribution(DISTRIBUTION, normal_of_slope(slope), halfway, width) *
+               visibility_of_texel(slope, width, outgoing, incoming);
     }
-    return slope_density(slopes_of_matrix(lobe.facets.mean, texels + base), slope_of_half) * sum /
-           float(REFLECTING_NODES);
+    return sum / float(SLOPE_NODES);
 }
 
 vec3 mirror_closed_facets(appearance fetched, vec3 halfway, vec3 outgoing, vec3 incoming) {

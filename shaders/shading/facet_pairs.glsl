@@ -37,15 +37,11 @@ const float TURN_OF_FACET = 0.4;
 // wrong by up to half at grazing angles; this is at most 5 % off (slopes up to 0.8).
 const int SLOPE_NODES = 20;
 
-vec2 slope_node(int i, int count) {
-    vec2 point = lattice_point(i, count, 0.0);
-    float variance = 1.0 - 0.3466 / float(count); // of a lattice without this factor
+vec2 slope_node(int i) {
+    vec2 point = lattice_point(i, SLOPE_NODES, 0.0);
+    float variance = 1.0 - 0.3466 / float(SLOPE_NODES); // of a lattice without this factor
     float radius = sqrt(-2.0 / variance * log(1.0 - point.x)), angle = 2.0 * PI * point.y;
     return radius * vec2(cos(angle), sin(angle));
-}
-
-vec2 slope_node(int i) {
-    return slope_node(i, SLOPE_NODES);
 }
 
 // Nodes differ in the microfacets that stand for all.
