@@ -316,8 +316,9 @@ vec3 reflect_closed_facets(appearance fetched, surface_point surface) {
         add_facet(sum, surface, facet_of_footprint(fetched, i));
     if (sampled_by_grid()) // samples are masked one by one
         return sum.reflected + reflect_slopes(fetched, surface);
-    return reflect_facets(surface, sum, DISTRIBUTION_BECKMANN, fetched.filtered.specular,
-                          fetched.filtered.width);
+    float width = fetched.filtered.width;
+    uint kind = base_half_vectors(SURFACE_NORMAL, width, surface.outgoing).kind;
+    return reflect_facets(surface, sum, kind, fetched.filtered.specular, width);
 }
 
 vec3 reflect_footprint(appearance fetched, surface_point surface) {

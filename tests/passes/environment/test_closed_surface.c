@@ -169,6 +169,25 @@ static void a_classic_white_surface_loses_light(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Texels that are all alike reflect the sky with a lobe of their own distribution: of GGX, whose
+/// black dielectric shows no light but that of its tails.
+static void texels_keep_their_distribution(void **state) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = white_material(1, 0);
+    for (int i = 0; i < 3; i++)
+        material.base_colour[i] = 0;
+    material.normal_map = scene_add_map(scene, constant_map(4, 4, 0.5f, 0.5f, 1));
+    scene_add_square(scene, &material, 32, NULL);
+    double towards[3];
+    direction_at(60, 0.3, towards);
+    scene_look_from(scene, towards, 0.15);
+    scene_surround(scene, 16, white);
+    scene_end(scene);
+    const double truth = mean_radiance(*state, scene, "direct", closed, 1);
+    check_filter(*state, scene, "leadr", truth, 0.03, "a flat black dielectric");
+    lobe_scene_destroy(&scene);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Suns
 
@@ -248,6 +267,7 @@ int main(void) {
         cmocka_unit_test(exact_light_is_all_light),
         cmocka_unit_test(filters_with_maps_refuse_exact_light),
         cmocka_unit_test(a_classic_white_surface_loses_light),
+        cmocka_unit_test(texels_keep_their_distribution),
         cmocka_unit_test(filters_reflect_suns_as_their_texels_do),
         cmocka_unit_test(light_and_viewer_may_change_places),
     };
