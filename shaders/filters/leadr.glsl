@@ -132,8 +132,8 @@ slope_distribution slopes_of_matrix(vec2 mean, mat2 covariance) {
     return slope_distribution_of(mean, vec3(covariance[0][0], covariance[1][1], covariance[0][1]));
 }
 
-// The mean over all texels of D times their visibility. Half of the nodes are texels that reflect: if
-// their slopes were of covariance C and their base lobes in the plane of B, they would be
+// The mean over all texels of D times their visibility. Half of the nodes are texels that reflect:
+// if their slopes were of covariance C and their base lobes in the plane of B, they would be
 //   at mean + C (C + B)^-1 (slope - mean), of covariance C - C (C + B)^-1 C,
 // and as dense as texels times that Gaussian of B over its mean. Tilting a texel broadens its base
 // lobe, so that B is taken broader than the base lobe: too broad costs little accuracy, too narrow

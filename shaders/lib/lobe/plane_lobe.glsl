@@ -29,11 +29,12 @@ float plane_variance(uint distribution, float parameter) {
     return min(1.0 / base_lobe_concentration(distribution, parameter), PLANE_VARIANCE_MAXIMUM);
 }
 
-// The parameter of the base lobe with a given variance.
+// The parameter of the base lobe with a given variance, which may have been rounded to 0: an
+// infinite concentration has no mass.
 float parameter_of_plane_variance(uint distribution, float variance) {
     if (distribution == DISTRIBUTION_GGX)
         return sqrt(2.0 * variance / (1.0 + 2.0 * variance));
-    return base_lobe_of_concentration(distribution, 1.0 / variance);
+    return base_lobe_of_concentration(distribution, 1.0 / max(variance, 1e-12));
 }
 
 float plane_mass(uint model, uint distribution, float parameter) {

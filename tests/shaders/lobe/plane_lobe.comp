@@ -4,7 +4,7 @@
 #include "support/harness.glsl"
 #include "lib/lobe/plane_lobe.glsl"
 
-// a: parameter, or how much widths vary; b: model, distribution.
+// a: parameter, how much widths vary, or variance; b: model, distribution.
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     uint model = uint(b.x), distribution = uint(b.y);
     float variance = plane_variance(distribution, a.x);
@@ -14,7 +14,9 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
                     parameter_of_plane_variance(distribution, variance), 0.0);
     case 1:
         return tail_weight(a.x);
-    default:
+    case 2:
         return tail_spread(a.x);
+    default:
+        return vec4(plane_mass(model, distribution, parameter_of_plane_variance(distribution, a.x)));
     }
 }

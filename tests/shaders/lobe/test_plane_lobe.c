@@ -13,7 +13,7 @@
 #include "tests/shaders/support/samples.h"
 
 static const char shader[] = "lobe/plane_lobe.comp";
-enum { LOBE, TAIL_WEIGHT, TAIL_SPREAD };
+enum { LOBE, TAIL_WEIGHT, TAIL_SPREAD, MASS_OF_VARIANCE };
 
 enum { COUNT = 2000 };
 static harness_arguments arguments[COUNT];
@@ -75,6 +75,19 @@ static void test_microfacets(void **state) {
 static void test_half_vector_lobes(void **state) {
     check_distribution(state, LOBE_MATERIAL_HALF_VECTOR_LOBES, LOBE_DISTRIBUTION_BLINN_PHONG);
     check_distribution(state, LOBE_MATERIAL_HALF_VECTOR_LOBES, LOBE_DISTRIBUTION_VMF);
+}
+
+/// Maps hold variances in few bits, which round the smallest to 0.
+static void test_no_variance(void **state) {
+    harness_arguments at[4] = {0};
+    harness_result mass[4];
+    for (int distribution = 0; distribution < 4; distribution++) {
+        at[distribution].b[0] = LOBE_MATERIAL_MICROFACET;
+        at[distribution].b[1] = (float)distribution;
+    }
+    harness_evaluate(state, shader, MASS_OF_VARIANCE, at, 4, mass);
+    for (int distribution = 0; distribution < 4; distribution++)
+        check_relative("plane_mass", &at[distribution], mass[distribution].value[0], 1, 1e-5);
 }
 
 /// Sum of Gaussians at x, in units of alpha, as a part of what the exact bell has at 0.
@@ -143,6 +156,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_microfacets),
         cmocka_unit_test(test_half_vector_lobes),
+        cmocka_unit_test(test_no_variance),
         cmocka_unit_test(test_tail),
     };
     return cmocka_run_group_tests_name("plane_lobe", tests, harness_set_up, harness_tear_down);
