@@ -17,6 +17,7 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     case 2:
         return tail_spread(a.x);
     default:
-        return vec4(plane_mass(model, distribution, parameter_of_plane_variance(distribution, a.x)));
+        float parameter = parameter_of_plane_variance(distribution, a.x);
+        return vec4(plane_mass(model, distribution, parameter));
     }
 }
