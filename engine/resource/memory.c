@@ -6,8 +6,10 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/resource/range_allocator.h"
 
-/// Large enough to keep blocks few, small enough not to waste memory on a small scene.
-#define BLOCK_SIZE ((VkDeviceSize)32 << 20)
+/// Each block of a kind of memory is as large as all others together, within these bounds: blocks
+/// stay few, and a small scene takes little.
+#define SMALLEST_BLOCK ((VkDeviceSize)1 << 20)
+#define LARGEST_BLOCK  ((VkDeviceSize)32 << 20)
 
 struct engine_memory_block {
     engine_memory_block *next;
@@ -156,17 +158,34 @@ static lobe_result fail_without_room(const engine_memory *memory,
                           (unsigned long long)room, memory->limit ? " (limited)" : "");
 }
 
+/// Blocks for host access are mapped as a whole, so the two uses of one type are kept apart.
+static bool block_serves(const engine_memory_block *block, uint32_t type, bool linear,
+                         engine_memory_place place) {
+    return block->type == type && block->linear == linear &&
+           (block->mapped != NULL) == (place != ENGINE_MEMORY_DEVICE);
+}
+
+static VkDeviceSize usual_block_size(const engine_memory *memory, uint32_t type, bool linear,
+                                     engine_memory_place place) {
+    VkDeviceSize sum = 0;
+    for (const engine_memory_block *block = memory->blocks; block; block = block->next)
+        if (block_serves(block, type, linear, place))
+            sum += block->size;
+    return minimum(maximum(sum, SMALLEST_BLOCK), LARGEST_BLOCK);
+}
+
 /// Chooses the usual size, or that of a larger request. When the heap is nearly full it takes only
 /// an eighth of the rest, because other memory types need blocks too.
 static lobe_result choose_block_size(const engine_memory *memory,
                                      const engine_memory_request *request, uint32_t type,
-                                     VkDeviceSize *size) {
+                                     bool linear, VkDeviceSize *size) {
     const uint32_t heap = memory->properties.memoryTypes[type].heapIndex;
     const uint64_t room =
         minimum(minimum(heap_room(memory, heap), limit_room(memory)), memory->maximum_allocation);
     if (request->requirements.size > room)
         return fail_without_room(memory, request, room);
-    *size = maximum(request->requirements.size, minimum(BLOCK_SIZE, room / 8));
+    const VkDeviceSize usual = usual_block_size(memory, type, linear, request->place);
+    *size = maximum(request->requirements.size, minimum(usual, room / 8));
     return LOBE_OK;
 }
 
@@ -202,7 +221,7 @@ static lobe_result fail_host_memory(const engine_memory *memory,
 static lobe_result add_block(engine_memory *memory, const engine_memory_request *request,
                              uint32_t type, bool linear, engine_memory_block **added) {
     VkDeviceSize size = 0;
-    lobe_result result = choose_block_size(memory, request, type, &size);
+    lobe_result result = choose_block_size(memory, request, type, linear, &size);
     if (result != LOBE_OK)
         return result;
     const lobe_allocator *allocator = memory->device->host.allocator;
@@ -244,13 +263,6 @@ static bool take_from_block(engine_memory *memory, engine_memory_block *block,
     memory->used += requirements->size;
     memory->peak = maximum(memory->peak, memory->used);
     return true;
-}
-
-/// Blocks for host access are mapped as a whole, so the two uses of one type are kept apart.
-static bool block_serves(const engine_memory_block *block, uint32_t type, bool linear,
-                         engine_memory_place place) {
-    return block->type == type && block->linear == linear &&
-           (block->mapped != NULL) == (place != ENGINE_MEMORY_DEVICE);
 }
 
 static lobe_result allocate(engine_memory *memory, const engine_memory_request *request,

@@ -137,6 +137,30 @@ static void small_pieces_share_blocks(void **state) {
     lobe_device_destroy(&device);
 }
 
+/// A small scene takes little, a large one few blocks.
+static void blocks_grow_with_use(void **state) {
+    (void)state;
+    enum { PIECES = 96 };
+    lobe_device *device = open_device(0);
+    engine_allocation pieces[PIECES];
+    assert_int_equal(allocate(device, 4096, 1, ENGINE_MEMORY_DEVICE, true, &pieces[0]), LOBE_OK);
+    assert_int_equal(query(device).allocated_bytes, MEBIBYTE);
+    size_t blocks = 1;
+    for (size_t i = 1; i < PIECES; i++) {
+        const uint64_t before = query(device).allocated_bytes;
+        assert_int_equal(allocate(device, MEBIBYTE / 2, 1, ENGINE_MEMORY_DEVICE, true, &pieces[i]),
+                         LOBE_OK);
+        blocks += query(device).allocated_bytes > before;
+    }
+    assert_in_range(blocks, 5, 8);
+    assert_in_range(query(device).allocated_bytes, PIECES / 2 * MEBIBYTE,
+                    (PIECES / 2 + 32) * MEBIBYTE);
+    for (size_t i = 0; i < PIECES; i++)
+        engine_memory_free(device->memory, &pieces[i]);
+    assert_int_equal(query(device).allocated_bytes, 0);
+    lobe_device_destroy(&device);
+}
+
 static void peak_is_the_most_used_at_once(void **state) {
     (void)state;
     lobe_device *device = open_device(0);
@@ -215,6 +239,7 @@ int main(void) {
         cmocka_unit_test(mapped_memory_is_the_pieces_own),
         cmocka_unit_test(buffers_and_tiled_images_share_no_page),
         cmocka_unit_test(small_pieces_share_blocks),
+        cmocka_unit_test(blocks_grow_with_use),
         cmocka_unit_test(peak_is_the_most_used_at_once),
         cmocka_unit_test(limit_is_kept_to_the_byte),
         cmocka_unit_test(little_memory_serves_several_kinds),
