@@ -96,6 +96,23 @@ static void grooves_of_any_pitch(void **state) {
     }
 }
 
+/// Independent texels, of which interpolation leaves 4/9 of the variance.
+static void interpolated_noise(void **state) {
+    enum { WIDTH = 128 };
+    static const double slopes[] = {0.2, 0.45};
+    for (int i = 0; i < 2; i++) {
+        random_sequence sequence = scenes_random_start(5);
+        lobe_scene *scene = scene_begin();
+        lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTH, WIDTH);
+        for (uint32_t texel = 0; texel < WIDTH * WIDTH; texel++)
+            put_slope(&normals, texel, scenes_random_between(&sequence, -slopes[i], slopes[i]));
+        lobe_material material = metal(0.3f);
+        material.normal_map = scene_add_map(scene, normals);
+        finish(scene, &material, 4, 0.5f);
+        check(*state, scene, 0.15, 0.05, 0.15);
+    }
+}
+
 /// One texel in 500 is a deep scratch.
 static void scratched_polish(void **state) {
     enum { WIDTH = 128 };
@@ -152,9 +169,8 @@ static void tinted_stripes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grooves_of_any_pitch),
-        cmocka_unit_test(scratched_polish),
-        cmocka_unit_test(coloured_facets),
+        cmocka_unit_test(grooves_of_any_pitch), cmocka_unit_test(interpolated_noise),
+        cmocka_unit_test(scratched_polish),     cmocka_unit_test(coloured_facets),
         cmocka_unit_test(tinted_stripes),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
