@@ -8,7 +8,9 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/material_specialisation.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
+#include "passes/renderer/light_parts.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
@@ -19,6 +21,14 @@
 enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
 
 #define SHADER_NAME_SIZE 80
+
+/// What the passes of one picture share.
+typedef struct shading {
+    const filter_context *context;
+    const filtered_appearance *appearances;
+    const shading_sample *sample;
+    const shading_selection *selection; ///< NULL: all pixels
+} shading;
 
 /// What the draws of one pass share.
 typedef struct drawing {
@@ -58,13 +68,6 @@ shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width
             declare_target(graph, "lobes and level", LOBE_FORMAT_RG32_FLOAT, width, height);
     }
     return targets;
-}
-
-static uint32_t count_lights(const lobe_scene *scene, lobe_light_type type) {
-    uint32_t count = 0;
-    for (size_t i = 0; i < scene->light_count; i++)
-        count += scene->lights[i].type == type;
-    return count;
 }
 
 static void fill_light(const lobe_light *source, struct light *light) {
@@ -114,14 +117,15 @@ shading_light passes_shading_light_prepare(const filter_context *context,
 }
 
 static lobe_resource upload_frame(const filter_context *context, const shading_sample *sample,
-                                  const shading_targets *targets) {
+                                  light_part lights, const shading_targets *targets) {
     const lobe_scene *scene = context->scene->scene;
     struct frame_constants frame = {
-        .directional_count = count_lights(scene, LOBE_LIGHT_DIRECTIONAL),
-        .point_count = count_lights(scene, LOBE_LIGHT_POINT),
-        .spot_count = count_lights(scene, LOBE_LIGHT_SPOT),
+        .directional_count = passes_light_part_count(scene, lights, LOBE_LIGHT_DIRECTIONAL),
+        .point_count = passes_light_part_count(scene, lights, LOBE_LIGHT_POINT),
+        .spot_count = passes_light_part_count(scene, lights, LOBE_LIGHT_SPOT),
         .footprint = sample->footprint,
         .dither = sample->dither,
+        .first_light = lights.first,
     };
     mat4 matrix;
     passes_camera_projection(context->view.camera, targets->width, targets->height,
@@ -191,9 +195,10 @@ static void specialise_draw(const drawing *d, size_t instance,
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS,
-                      count_lights(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
-    passes_specialise(list, SPECIALISE_POINT_LIGHTS, count_lights(scene, LOBE_LIGHT_POINT) > 0);
-    passes_specialise(list, SPECIALISE_SPOT_LIGHTS, count_lights(scene, LOBE_LIGHT_SPOT) > 0);
+                      passes_light_count(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
+    passes_specialise(list, SPECIALISE_POINT_LIGHTS,
+                      passes_light_count(scene, LOBE_LIGHT_POINT) > 0);
+    passes_specialise(list, SPECIALISE_SPOT_LIGHTS, passes_light_count(scene, LOBE_LIGHT_SPOT) > 0);
     uint32_t lights = (uint32_t)scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
                       passes_environment_light_lights_at_once(d->light, lights));
@@ -312,29 +317,103 @@ static void draw_background(const drawing *d, const shading_sample *sample, bool
     passes_background(d->pass, d->context, d->light->cube, sample, aov, &draw);
 }
 
-void passes_shading(const filter_context *context, const filtered_appearance *appearances,
-                    const shading_light *light, const shading_sample *sample,
-                    const shading_selection *selection, shading_targets *targets) {
+/// Draws one part of the lights.
+static void draw_part(const shading *s, light_part lights, const shading_light *light,
+                      shading_targets *targets) {
+    const filter_context *context = s->context;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER,
-                                          selection ? "sample_shading" : "shading");
-    lobe_resource frame = upload_frame(context, sample, targets);
+                                          s->selection ? "sample_shading" : "shading");
+    lobe_resource frame = upload_frame(context, s->sample, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     passes_knobs_bind(context, pass);
-    passes_environment_light_bind(&light->environment, context, pass, sample);
+    passes_environment_light_bind(&light->environment, context, pass, s->sample);
     bool aov = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
     drawing d = {.context = context,
                  .light = &light->environment,
-                 .selection = selection,
+                 .selection = s->selection,
                  .depth_as_coverage = targets->depth_as_coverage,
                  .aov = aov,
                  .pass = pass};
-    if (selection)
+    if (s->selection)
         draw_mask(&d);
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
-        draw_background(&d, sample, aov);
+        draw_background(&d, s->sample, aov);
     for (size_t i = 0; i < context->scene->scene->instance_count; i++)
-        draw_instance(&d, i, &appearances[i]);
+        draw_instance(&d, i, &s->appearances[i]);
+}
+
+// ---------------------------------------------------------------------------------------------
+// More lights than one pass draws
+
+static lobe_resource copy_depth(lobe_graph *graph, lobe_resource from, lobe_resource to) {
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "depth_copy");
+    return lobe_pass_copy(pass, from, (lobe_range){0}, to, (lobe_range){0});
+}
+
+/// What the host drew hides surfaces in every pass. Drawing the first part overwrites it.
+static lobe_resource keep_depth(lobe_graph *graph, const shading_targets *targets) {
+    return targets->keep_depth
+               ? copy_depth(graph, targets->depth,
+                            declare_target(graph, "host's depth", LOBE_FORMAT_D32_FLOAT,
+                                           targets->width, targets->height))
+               : (lobe_resource){0};
+}
+
+/// The lights from `first` on, in a picture of their own. `depth`: the host's, if it is kept.
+static lobe_resource draw_further(const shading *s, const shading_light *light, uint32_t first,
+                                  const shading_targets *targets, lobe_resource depth) {
+    lobe_graph *graph = s->context->graph;
+    const uint32_t width = targets->width, height = targets->height;
+    shading_light punctual = *light;
+    punctual.environment.present = false;
+    shading_targets one = passes_shading_targets_declare(graph, width, height, false);
+    one.without_background = true;
+    one.keep_depth = targets->keep_depth;
+    lobe_pass *clear = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
+    lobe_resource sum = lobe_pass_fill(
+        clear, declare_target(graph, "further lights", LOBE_FORMAT_RGBA32_FLOAT, width, height),
+        (lobe_range){0}, (float[4]){0});
+    while (first < s->context->scene->scene->light_count) {
+        const light_part part = passes_light_part(s->context, first);
+        if (one.keep_depth)
+            one.depth = copy_depth(graph, depth, one.depth);
+        draw_part(s, part, &punctual, &one);
+        sum = passes_accumulation(graph, one.radiance, sum, width, height);
+        first += part.count;
+    }
+    return sum;
+}
+
+static void add_light(lobe_graph *graph, lobe_resource sum, shading_targets *targets) {
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "light_addition");
+    const lobe_binding binding = {.name = "sum", .resource = sum};
+    targets->radiance = lobe_pass_colour(
+        pass, 0, &(lobe_attachment){.resource = targets->radiance, .load = LOBE_LOAD_KEEP});
+    lobe_pass_draw(pass, &(lobe_draw){.vertex_shader = "shading/background.vert",
+                                      .fragment_shader = "shading/lights/light_addition.frag",
+                                      .index_count = 3,
+                                      .blend = LOBE_BLEND_ADD,
+                                      .bindings = &binding,
+                                      .binding_count = 1});
+}
+
+/// Views of lobes and levels are the same for all lights.
+static bool shows_light(const filter_context *context) {
+    const uint32_t view = passes_knob_choice(context, &passes_knob_view);
+    return view == VIEW_RADIANCE || view == VIEW_SAMPLES;
+}
+
+void passes_shading(const filter_context *context, const filtered_appearance *appearances,
+                    const shading_light *light, const shading_sample *sample,
+                    const shading_selection *selection, shading_targets *targets) {
+    const shading s = {context, appearances, sample, selection};
+    const light_part first = passes_light_part(context, 0);
+    const bool several = shows_light(context) && first.count < context->scene->scene->light_count;
+    const lobe_resource depth = several ? keep_depth(context->graph, targets) : (lobe_resource){0};
+    draw_part(&s, first, light, targets);
+    if (several)
+        add_light(context->graph, draw_further(&s, light, first.count, targets, depth), targets);
 }

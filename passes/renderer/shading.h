@@ -40,7 +40,8 @@ typedef struct shading_light {
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 
-/// Adds a pass that draws all instances with the filter's shader. `appearances`: one per instance.
+/// Adds the passes that draw all instances with the filter's shader: one, unless there are many
+/// lights (passes/renderer/light_parts.h). `appearances`: one per instance.
 /// `selection`: NULL: all pixels.
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,
                     const shading_light *light, const shading_sample *sample,

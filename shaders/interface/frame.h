@@ -12,11 +12,11 @@ struct frame_constants {
     uint directional_count;   // lights are sorted: directional, point, spot
     uint point_count;
     uint spot_count;
-    float footprint; // side of the square that a sample stands for, pixels
-    float dither;    // [0, 1): added to the thresholds of masks, another one for each sample
+    float footprint;  // side of the square that a sample stands for, pixels
+    float dither;     // [0, 1): added to the thresholds of masks, another one for each sample
+    uint first_light; // of this pass
     uint padding_0;
     uint padding_1;
-    uint padding_2;
 };
 INTERFACE_SIZE(frame_constants, 192)
 INTERFACE_OFFSET(frame_constants, world_to_camera, 64)
@@ -27,5 +27,6 @@ INTERFACE_OFFSET(frame_constants, point_count, 164)
 INTERFACE_OFFSET(frame_constants, spot_count, 168)
 INTERFACE_OFFSET(frame_constants, footprint, 172)
 INTERFACE_OFFSET(frame_constants, dither, 176)
+INTERFACE_OFFSET(frame_constants, first_light, 180)
 
 #endif

@@ -19,7 +19,7 @@
 //   float fetch_occlusion(surface_point)        fraction of it that reaches the footprint
 
 #include "filter.glsl"
-#include "shading/punctual_lights.glsl"
+#include "shading/lights/punctual_lights.glsl"
 #ifdef ENVIRONMENT
 #include "environment/integral.glsl"
 #endif
@@ -79,7 +79,7 @@ void main() {
 #ifdef ENVIRONMENT
     value += environment_light(fetched, surface);
 #endif
-    if (EMISSION)
+    if (EMISSION && frame.first_light == 0u)
         value += material.emissive.rgb * fetched.emission;
     if (VIEW == VIEW_LOBES)
         value = vec3(fetched.lobe_count);

@@ -151,10 +151,10 @@ static void other_outputs_are_still_delivered(void **state) {
 }
 
 /// The host's colour stays where nothing is hit, and where the host's depth is nearer.
-static void lobe_draws_over_what_the_host_drew(void **state) {
+static void check_over_what_the_host_drew(host_fixture *f, const lobe_settings *settings) {
     static const float green[4] = {0, 0.5f, 0, 1};
-    host_fixture *f = *state;
-    lobe_frame expected = delivered(f, NULL);
+    lobe_render_parameters parameters = {.settings = settings, .width = SIZE, .height = SIZE};
+    lobe_frame expected = render(f, &parameters);
     for (int nearer = 0; nearer < 2; nearer++) {
         fill(f, green, nearer ? 1 : 0);
         lobe_vulkan_image colour =
@@ -162,7 +162,8 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
         lobe_vulkan_image depth =
             lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const lobe_render_target target = {.radiance = &colour, .depth = &depth, .keep = true};
-        lobe_frame frame = render(f, &(lobe_render_parameters){.host.target = &target});
+        parameters.host.target = &target;
+        lobe_frame frame = render(f, &parameters);
         lobe_image image = host_texels(f, &f->colour);
         unsigned covered = 0;
         for (uint32_t n = 0; n < SIZE * SIZE; n++) {
@@ -176,6 +177,22 @@ static void lobe_draws_over_what_the_host_drew(void **state) {
         lobe_frame_free(&frame);
     }
     lobe_frame_free(&expected);
+}
+
+static void lobe_draws_over_what_the_host_drew(void **state) {
+    check_over_what_the_host_drew(*state, NULL);
+}
+
+/// More than one pass draws.
+static void many_lights_are_drawn_over_what_the_host_drew(void **state) {
+    static const char *const closed[] = {"normal_mapping=microfacet", NULL};
+    host_fixture *f = *state;
+    const size_t before = f->scene->light_count;
+    const lobe_settings settings = settings_of(filter_named("moments"), closed);
+    for (int i = 0; i < 20; i++)
+        scene_add_sun(f->scene, (const double[]){0.1 * i, 1, 0.2}, 0.1);
+    check_over_what_the_host_drew(f, &settings);
+    f->scene->light_count = before;
 }
 
 /// Further samples (knob samples) are blended by the part of the pixel that they cover, once.
@@ -512,6 +529,7 @@ int main(void) {
         cmocka_unit_test(the_hosts_image_gets_the_same_bits),
         cmocka_unit_test(other_outputs_are_still_delivered),
         cmocka_unit_test(lobe_draws_over_what_the_host_drew),
+        cmocka_unit_test(many_lights_are_drawn_over_what_the_host_drew),
         cmocka_unit_test(several_samples_are_drawn_over_what_the_host_drew),
         cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
         cmocka_unit_test(formats_of_displays_are_encoded),

@@ -1,13 +1,17 @@
 #ifndef PUNCTUAL_LIGHTS_GLSL
 #define PUNCTUAL_LIGHTS_GLSL
 
-// The scene's lights, sorted: directional, point, spot.
+// The scene's lights, sorted: directional, point, spot. A pass draws those from `first_light` on.
 
 #include "interface/light.h"
 #include "lib/light/light.glsl"
 #include "shading/surface.glsl"
 
 layout(set = 0, binding = 2, std430) readonly buffer light_block { light lights[]; };
+
+light light_at(uint i) {
+    return lights[frame.first_light + i];
+}
 
 uint light_count() {
     return (DIRECTIONAL_LIGHTS ? frame.directional_count : 0u) +
@@ -26,25 +30,25 @@ bool is_spot(uint i) {
 // Unit direction from a point to light `i`, in the world; of no length at the light itself.
 vec3 light_direction(uint i, vec3 position) {
     if (!POINT_LIGHTS && !SPOT_LIGHTS)
-        return lights[i].direction.xyz;
-    vec3 offset = lights[i].position.xyz - position;
+        return light_at(i).direction.xyz;
+    vec3 offset = light_at(i).position.xyz - position;
     vec3 towards = offset * inversesqrt(max(dot(offset, offset), LIGHT_DISTANCE_SQUARED_MINIMUM));
-    return is_directional(i) ? lights[i].direction.xyz : towards;
+    return is_directional(i) ? light_at(i).direction.xyz : towards;
 }
 
 // Irradiance of light `i` at a point, perpendicular to `direction`, which points to it.
 vec3 light_irradiance(uint i, vec3 position, vec3 direction) {
     float attenuation = 1.0;
     if (POINT_LIGHTS || SPOT_LIGHTS) {
-        vec3 offset = lights[i].position.xyz - position;
+        vec3 offset = light_at(i).position.xyz - position;
         attenuation = is_directional(i)
                           ? 1.0
-                          : distance_attenuation(dot(offset, offset), lights[i].position.w);
+                          : distance_attenuation(dot(offset, offset), light_at(i).position.w);
     }
     if (SPOT_LIGHTS && is_spot(i))
-        attenuation *= cone_attenuation(direction, lights[i].direction.xyz, lights[i].cone.x,
-                                        lights[i].cone.y);
-    return lights[i].intensity.rgb * attenuation;
+        attenuation *= cone_attenuation(direction, light_at(i).direction.xyz, light_at(i).cone.x,
+                                        light_at(i).cone.y);
+    return light_at(i).intensity.rgb * attenuation;
 }
 
 #endif
