@@ -61,6 +61,7 @@ struct lobe_filter {
     const char *shading;
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
+    bool fetches_for_lights; ///< the shader fetches maps for each four lights
     filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material and the current values of the knobs that decide slots;

@@ -7,6 +7,7 @@
 #include "passes/environment/directional_albedo.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
+#include "passes/maps/filtered_maps.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/irradiance_harmonics.h"
 
@@ -162,15 +163,21 @@ static void build_maps(const filter_context *context, const environment_work *wo
                                  : no_harmonics(context->graph);
 }
 
+static lobe_result refuse_exact(const filter_context *context, const char *where,
+                                const char *cause) {
+    return lobe_host_fail(context->host, LOBE_ERROR_UNSUPPORTED,
+                          "filter '%s': knob 'env' must not be exact where %s: %s for each of the "
+                          "environment's texels exceed what a device computes",
+                          lobe_filter_name(context->filter), where, cause);
+}
+
 lobe_result passes_environment_light_check(const filter_context *context) {
-    const bool exact =
-        method_of(context) == ENVIRONMENT_EXACT && context->scene->scene->environment;
-    if (exact && closes_surfaces(context) && context->filter->build)
-        return lobe_host_fail(context->host, LOBE_ERROR_UNSUPPORTED,
-                              "filter '%s': knob 'env' must not be exact where 'normal_mapping' is "
-                              "microfacet: sums of all facets for each of the environment's texels "
-                              "exceed what a device computes",
-                              lobe_filter_name(context->filter));
+    if (method_of(context) != ENVIRONMENT_EXACT || !context->scene->scene->environment)
+        return LOBE_OK;
+    if (closes_surfaces(context) && context->filter->build)
+        return refuse_exact(context, "'normal_mapping' is microfacet", "sums of all facets");
+    if (context->filter->fetches_for_lights && passes_knob_choice(context, &passes_knob_probes) > 1)
+        return refuse_exact(context, "'probes' is above 1", "fetches");
     return LOBE_OK;
 }
 

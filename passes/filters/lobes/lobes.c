@@ -285,6 +285,7 @@ const lobe_filter passes_filter_lobes = {
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
     .shading = "lobes",
     .knobs = knobs,
+    .fetches_for_lights = true,
     .prepare = prepare,
     .forget = lobe_release,
     .for_each_instance = for_each_instance,

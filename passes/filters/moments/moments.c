@@ -225,6 +225,7 @@ const lobe_filter passes_filter_moments = {
     .paper = "",
     .shading = "moments",
     .knobs = knobs,
+    .fetches_for_lights = true,
     .prepare = prepare,
     .forget = lobe_release,
     .build = build,

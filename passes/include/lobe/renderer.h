@@ -201,7 +201,8 @@ LOBE_API void lobe_frame_free(lobe_frame *frame);
 /// another part of the scene that is read in every frame, as for lobe_renderer_set_scene),
 /// LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with the host's passes,
 /// with a target's depth, or with a submission but no target; a knob that needs a feature which the
-/// device lacks; env=exact with normal_mapping=microfacet in a filter that has maps),
+/// device lacks; env=exact in a filter that has maps with normal_mapping=microfacet, or in one that
+/// fetches them for each light with probes above 1),
 /// LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
                                           const lobe_render_parameters *parameters,

@@ -137,7 +137,19 @@ static void exact_light_is_all_light(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// Filters that sum over many facets would need more than a device computes.
+static void check_refused(fixture *f, const char *filter, const char *setting) {
+    const lobe_settings settings =
+        settings_of(filter_named(filter), (const char *const[]){setting, "env=exact", NULL});
+    const lobe_render_parameters parameters = {
+        .filter = filter_named(filter), .settings = &settings, .width = 4, .height = 4};
+    lobe_frame frame;
+    fixture_forget_messages(f);
+    assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
+                   LOBE_ERROR_UNSUPPORTED, "exact");
+}
+
+/// Filters that sum over many facets, or fetch from many places, for each light would need more
+/// than a device computes.
 static void filters_with_maps_refuse_exact_light(void **state) {
     fixture *f = *state;
     const lobe_material metal = white_material(0.5, 1);
@@ -145,15 +157,9 @@ static void filters_with_maps_refuse_exact_light(void **state) {
     scene_surround(scene, 16, white);
     scene_end(scene);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    const lobe_filter *filter = filter_named("moments");
-    const lobe_settings settings =
-        settings_of(filter, (const char *const[]){closed, "env=exact", NULL});
-    const lobe_render_parameters parameters = {
-        .filter = filter, .settings = &settings, .width = 4, .height = 4};
-    lobe_frame frame;
-    fixture_forget_messages(f);
-    assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
-                   LOBE_ERROR_UNSUPPORTED, "exact");
+    check_refused(f, "moments", closed);
+    check_refused(f, "moments", "probes=2");
+    check_refused(f, "lobes", "probes=16");
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
 }
