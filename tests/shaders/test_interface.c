@@ -71,6 +71,7 @@ static known_member known[] = {
     MEMBER(frame_constants, spot_count, 6),
     MEMBER(frame_constants, footprint, 7),
     MEMBER(frame_constants, dither, 8),
+    MEMBER(frame_constants, first_light, 9),
     MEMBER(instance_constants, rows, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),
     MEMBER(irradiance_harmonics_constants, size, 0),
