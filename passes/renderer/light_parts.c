@@ -3,9 +3,10 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 
-/// "moments" with six bins takes up to 1850 iterations for each light of a closed surface, and 80
-/// for footprints of sixteen probes, which four lights share.
-enum { LIGHTS_PER_PASS = 512, LIGHTS_PER_PASS_CLOSED = 16 };
+/// The most iterations are taken by "moments": with six bins up to 1850 for each light of a closed
+/// surface, and about 30 for footprints of sixteen probes. Filters that do not fetch for lights
+/// take about 15 at most ("leadr").
+enum { LIGHTS_PER_PASS = 2560, LIGHTS_PER_FETCHING_PASS = 512, LIGHTS_PER_PASS_CLOSED = 16 };
 
 static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
@@ -18,11 +19,15 @@ uint32_t passes_light_count(const lobe_scene *scene, lobe_light_type type) {
     return count;
 }
 
+static uint32_t most_lights(const filter_context *context) {
+    if (passes_knob_choice(context, &passes_knob_normal_mapping) > 0)
+        return LIGHTS_PER_PASS_CLOSED;
+    return context->filter->fetches_for_lights ? LIGHTS_PER_FETCHING_PASS : LIGHTS_PER_PASS;
+}
+
 light_part passes_light_part(const filter_context *context, uint32_t first) {
-    const bool closed = passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
     const uint32_t count = (uint32_t)context->scene->scene->light_count;
-    return (light_part){first,
-                        least(count - first, closed ? LIGHTS_PER_PASS_CLOSED : LIGHTS_PER_PASS)};
+    return (light_part){first, least(count - first, most_lights(context))};
 }
 
 uint32_t passes_light_part_count(const lobe_scene *scene, light_part part, lobe_light_type type) {
