@@ -70,6 +70,10 @@ uint32_t passes_knob_choice(const filter_context *context, const filter_knob *kn
     return (uint32_t)passes_knob_value(context, knob);
 }
 
+bool passes_closes_surfaces(const filter_context *context) {
+    return passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
+}
+
 // ---------------------------------------------------------------------------------------------
 // The shading pass
 

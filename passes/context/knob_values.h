@@ -12,6 +12,9 @@ double passes_knob_value(const filter_context *context, const filter_knob *knob)
 /// The same for a choice or an integer.
 uint32_t passes_knob_choice(const filter_context *context, const filter_knob *knob);
 
+/// Whether normal maps are those of closed surfaces: the knob `normal_mapping`.
+bool passes_closes_surfaces(const filter_context *context);
+
 /// Sets the constant that a knob feeds, for passes that prepare maps.
 void passes_knob_specialise(const filter_context *context, const filter_knob *knob,
                             specialisation_list *list);

@@ -27,13 +27,10 @@ static uint32_t method_of(const filter_context *context) {
                                                                         : method;
 }
 
-static bool closes_surfaces(const filter_context *context) {
-    return passes_knob_choice(context, &passes_knob_normal_mapping) > 0;
-}
-
 /// Whether light is reflected more than once: by microfacets, or by the facets of texels.
 static bool scatters(const filter_context *context) {
-    return passes_knob_choice(context, &passes_knob_scattering) > 0 || closes_surfaces(context);
+    return passes_knob_choice(context, &passes_knob_scattering) > 0 ||
+           passes_closes_surfaces(context);
 }
 
 /// Whether lobes between two levels are blended from two cubes.
@@ -174,7 +171,7 @@ static lobe_result refuse_exact(const filter_context *context, const char *where
 lobe_result passes_environment_light_check(const filter_context *context) {
     if (method_of(context) != ENVIRONMENT_EXACT || !context->scene->scene->environment)
         return LOBE_OK;
-    if (closes_surfaces(context) && context->filter->build)
+    if (passes_closes_surfaces(context) && context->filter->build)
         return refuse_exact(context, "'normal_mapping' is microfacet", "sums of all facets");
     if (context->filter->fetches_for_lights && passes_knob_choice(context, &passes_knob_probes) > 1)
         return refuse_exact(context, "'probes' is above 1", "fetches");
@@ -247,7 +244,7 @@ static struct environment_constants constants_of(const filter_context *context,
 static lobe_range levels_read(const environment_light *light, const filter_context *context) {
     if (light->method != ENVIRONMENT_EXACT)
         return (lobe_range){0};
-    const uint32_t width = closes_surfaces(context) ? EXACT_WIDTH_CLOSED : EXACT_WIDTH;
+    const uint32_t width = passes_closes_surfaces(context) ? EXACT_WIDTH_CLOSED : EXACT_WIDTH;
     uint32_t level = 0;
     while (environment_width(context) >> level > width)
         ++level;

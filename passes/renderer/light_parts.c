@@ -1,7 +1,6 @@
 #include "passes/renderer/light_parts.h"
 
 #include "passes/context/knob_values.h"
-#include "passes/context/shared_knobs.h"
 
 /// The most iterations are taken by "moments": with six bins up to 1850 for each light of a closed
 /// surface, and about 30 for footprints of sixteen probes. Filters that do not fetch for lights
@@ -12,15 +11,15 @@ static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
 }
 
-uint32_t passes_light_count(const lobe_scene *scene, lobe_light_type type) {
-    uint32_t count = 0;
+light_counts passes_light_counts(const lobe_scene *scene) {
+    light_counts counts = {{0}};
     for (size_t i = 0; i < scene->light_count; i++)
-        count += scene->lights[i].type == type;
-    return count;
+        counts.of_type[scene->lights[i].type]++;
+    return counts;
 }
 
 static uint32_t most_lights(const filter_context *context) {
-    if (passes_knob_choice(context, &passes_knob_normal_mapping) > 0)
+    if (passes_closes_surfaces(context))
         return LIGHTS_PER_PASS_CLOSED;
     return context->filter->fetches_for_lights ? LIGHTS_PER_FETCHING_PASS : LIGHTS_PER_PASS;
 }
@@ -30,11 +29,11 @@ light_part passes_light_part(const filter_context *context, uint32_t first) {
     return (light_part){first, least(count - first, most_lights(context))};
 }
 
-uint32_t passes_light_part_count(const lobe_scene *scene, light_part part, lobe_light_type type) {
+uint32_t passes_light_part_count(const light_counts *all, light_part part, lobe_light_type type) {
     uint32_t begin = 0;
     for (uint32_t earlier = 0; earlier < (uint32_t)type; earlier++)
-        begin += passes_light_count(scene, (lobe_light_type)earlier);
-    const uint32_t end = begin + passes_light_count(scene, type), last = part.first + part.count;
+        begin += all->of_type[earlier];
+    const uint32_t end = begin + all->of_type[type], last = part.first + part.count;
     const uint32_t from = begin > part.first ? begin : part.first, to = least(end, last);
     return to > from ? to - from : 0;
 }

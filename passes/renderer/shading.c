@@ -28,12 +28,14 @@ typedef struct shading {
     const filtered_appearance *appearances;
     const shading_sample *sample;
     const shading_selection *selection; ///< NULL: all pixels
+    light_counts lights;                ///< of the scene
 } shading;
 
 /// What the draws of one pass share.
 typedef struct drawing {
     const filter_context *context;
     const environment_light *light;
+    const light_counts *lights;         ///< of the scene
     const shading_selection *selection; ///< NULL: all pixels
     bool depth_as_coverage;
     bool aov;
@@ -116,13 +118,15 @@ shading_light passes_shading_light_prepare(const filter_context *context,
                            .environment = passes_environment_light_build(context, work)};
 }
 
-static lobe_resource upload_frame(const filter_context *context, const shading_sample *sample,
-                                  light_part lights, const shading_targets *targets) {
+static lobe_resource upload_frame(const shading *s, light_part lights,
+                                  const shading_targets *targets) {
+    const filter_context *context = s->context;
+    const shading_sample *sample = s->sample;
     const lobe_scene *scene = context->scene->scene;
     struct frame_constants frame = {
-        .directional_count = passes_light_part_count(scene, lights, LOBE_LIGHT_DIRECTIONAL),
-        .point_count = passes_light_part_count(scene, lights, LOBE_LIGHT_POINT),
-        .spot_count = passes_light_part_count(scene, lights, LOBE_LIGHT_SPOT),
+        .directional_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_DIRECTIONAL),
+        .point_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_POINT),
+        .spot_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_SPOT),
         .footprint = sample->footprint,
         .dither = sample->dither,
         .first_light = lights.first,
@@ -194,11 +198,10 @@ static void specialise_draw(const drawing *d, size_t instance,
     passes_material_specialise(&context->scene->materials[drawn->material], list);
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
-    passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS,
-                      passes_light_count(scene, LOBE_LIGHT_DIRECTIONAL) > 0);
-    passes_specialise(list, SPECIALISE_POINT_LIGHTS,
-                      passes_light_count(scene, LOBE_LIGHT_POINT) > 0);
-    passes_specialise(list, SPECIALISE_SPOT_LIGHTS, passes_light_count(scene, LOBE_LIGHT_SPOT) > 0);
+    const uint32_t *of_type = d->lights->of_type;
+    passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
+    passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);
+    passes_specialise(list, SPECIALISE_SPOT_LIGHTS, of_type[LOBE_LIGHT_SPOT] > 0);
     uint32_t lights = (uint32_t)scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
                       passes_environment_light_lights_at_once(d->light, lights));
@@ -239,7 +242,7 @@ static size_t bind_draw(const filter_context *context, const environment_light *
 /// Whether a material's normal map is that of a closed surface. Half-vector lobes include their own
 /// masking.
 static bool closes_surface(const filter_context *context, const device_material *material) {
-    return passes_knob_choice(context, &passes_knob_normal_mapping) > 0 &&
+    return passes_closes_surfaces(context) &&
            material->material->model == LOBE_MATERIAL_MICROFACET &&
            material->map_bits & 1u << MAP_NORMAL;
 }
@@ -323,7 +326,7 @@ static void draw_part(const shading *s, light_part lights, const shading_light *
     const filter_context *context = s->context;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER,
                                           s->selection ? "sample_shading" : "shading");
-    lobe_resource frame = upload_frame(context, s->sample, lights, targets);
+    lobe_resource frame = upload_frame(s, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     passes_knobs_bind(context, pass);
@@ -332,6 +335,7 @@ static void draw_part(const shading *s, light_part lights, const shading_light *
     attach(pass, context, targets);
     drawing d = {.context = context,
                  .light = &light->environment,
+                 .lights = &s->lights,
                  .selection = s->selection,
                  .depth_as_coverage = targets->depth_as_coverage,
                  .aov = aov,
@@ -409,7 +413,8 @@ static bool shows_light(const filter_context *context) {
 void passes_shading(const filter_context *context, const filtered_appearance *appearances,
                     const shading_light *light, const shading_sample *sample,
                     const shading_selection *selection, shading_targets *targets) {
-    const shading s = {context, appearances, sample, selection};
+    const shading s = {context, appearances, sample, selection,
+                       passes_light_counts(context->scene->scene)};
     const light_part first = passes_light_part(context, 0);
     const bool several = shows_light(context) && first.count < context->scene->scene->light_count;
     const lobe_resource depth = several ? keep_depth(context->graph, targets) : (lobe_resource){0};
