@@ -2,10 +2,10 @@
 
 #include "passes/context/knob_values.h"
 
-/// The most iterations are taken by "moments": with six bins up to 1850 for each light of a closed
-/// surface, and about 30 for footprints of sixteen probes. Filters that do not fetch for lights
-/// take about 15 at most ("leadr").
-enum { LIGHTS_PER_PASS = 2560, LIGHTS_PER_FETCHING_PASS = 512, LIGHTS_PER_PASS_CLOSED = 16 };
+/// By the iterations that each light takes: of closed surfaces, up to 1850 in "moments" with six
+/// bins, and about 27 in filters that have no footprints; otherwise about 30 where sixteen probes
+/// are fetched for lights, and at most 15 ("leadr") where none are.
+enum { LIGHTS_PER_PASS = 2560, LIGHTS_OF_MANY_LOOPS = 512, LIGHTS_OF_CLOSED_FOOTPRINTS = 16 };
 
 static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
@@ -19,9 +19,10 @@ light_counts passes_light_counts(const lobe_scene *scene) {
 }
 
 static uint32_t most_lights(const filter_context *context) {
-    if (passes_closes_surfaces(context))
-        return LIGHTS_PER_PASS_CLOSED;
-    return context->filter->fetches_for_lights ? LIGHTS_PER_FETCHING_PASS : LIGHTS_PER_PASS;
+    const bool closed = passes_closes_surfaces(context);
+    if (closed && context->filter->build)
+        return LIGHTS_OF_CLOSED_FOOTPRINTS;
+    return closed || context->filter->fetches_for_lights ? LIGHTS_OF_MANY_LOOPS : LIGHTS_PER_PASS;
 }
 
 light_part passes_light_part(const filter_context *context, uint32_t first) {
