@@ -27,6 +27,7 @@ VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
 # pass arguments, lavapipe creates a shading pipeline in half the time. Bindings and specialisation
 # constants stay, also those that no code uses.
 OPTIMISATIONS = ("--preserve-bindings", "--preserve-spec-constants",
+                 "--eliminate-dead-branches", "--eliminate-dead-functions",
                  "--inline-entry-points-exhaustive", "--eliminate-dead-functions",
                  "--eliminate-local-single-block", "--eliminate-local-single-store",
                  "--eliminate-dead-code-aggressive")
