@@ -62,31 +62,34 @@ static lobe_result make_page(const report_request *request, char **text, size_t 
 // ---------------------------------------------------------------------------------------------
 // Writing
 
-/// The folder may exist. One created here is removed again if the page cannot be written.
 static lobe_result write_page(const report_request *request, const char *text, size_t size) {
-    bool made = mkdir(request->folder, 0777) == 0;
-    if (!made && errno != EEXIST)
-        return lobe_host_fail(&request->host, LOBE_ERROR_WRITE, "%s: cannot be made: %s",
-                              request->folder, strerror(errno));
     char *path = malloc(strlen(request->folder) + sizeof "/index.html");
     if (!path)
         return lobe_host_fail(&request->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                               request->folder);
     sprintf(path, "%s/index.html", request->folder);
     lobe_result result = lobe_file_write(path, text, size, &request->host);
-    if (result != LOBE_OK && made)
-        rmdir(request->folder);
     free(path);
     return result;
 }
 
+/// The folder may exist. One created here, before the work starts, is removed again if there is no
+/// page to put in it.
 static int make_report(const report_request *request) {
+    const bool made = mkdir(request->folder, 0777) == 0;
+    if (!made && errno != EEXIST) {
+        (void)lobe_host_fail(&request->host, LOBE_ERROR_WRITE, "%s: cannot be made: %s",
+                             request->folder, strerror(errno));
+        return 1;
+    }
     char *text;
     size_t size;
     lobe_result result = make_page(request, &text, &size);
     if (result == LOBE_OK)
         result = write_page(request, text, size);
     free(text);
+    if (result != LOBE_OK && made)
+        rmdir(request->folder);
     return result == LOBE_OK ? 0 : 1;
 }
 
