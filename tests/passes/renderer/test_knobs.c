@@ -1,5 +1,5 @@
 // Every knob of every filter, at both ends of its range or with each of its choices, gives a finite
-// picture that is not empty.
+// picture that is not empty, and no message of the validation layer.
 
 #include "tests/passes/support/fixture.h"
 
@@ -40,6 +40,8 @@ static void draw_with(fixture *f, const char *filter, const char *assignment) {
         fail_msg("%s, %s: not finite", filter, assignment);
     if (!view && !(largest_value(&frame.radiance) > 0.01))
         fail_msg("%s, %s: black", filter, assignment);
+    if (lobe_device_validation_count(f->device) != 0)
+        fail_msg("%s, %s: %s", filter, assignment, f->error);
     lobe_frame_free(&frame);
 }
 
@@ -118,5 +120,5 @@ int main(void) {
         cmocka_unit_test(every_knob_draws_at_both_ends),
         cmocka_unit_test(views_show_what_they_say),
     };
-    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }

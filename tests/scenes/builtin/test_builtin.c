@@ -17,6 +17,29 @@ static lobe_scene *build(const char *name) {
     return scene;
 }
 
+enum { MOST_SCENES = 16 };
+
+/// The scenes that cases have looked at, which takes seconds to build.
+static lobe_scene *kept[MOST_SCENES];
+
+/// Belongs to all cases.
+static const lobe_scene *built(const char *name) {
+    size_t i = 0;
+    while (i < MOST_SCENES && kept[i] && strcmp(kept[i]->name, name) != 0)
+        i++;
+    assert_true(i < MOST_SCENES);
+    if (!kept[i])
+        kept[i] = build(name);
+    return kept[i];
+}
+
+static int free_scenes(void **state) {
+    (void)state;
+    for (int i = 0; i < MOST_SCENES; i++)
+        lobe_scene_destroy(&kept[i]);
+    return 0;
+}
+
 static const lobe_image *image_of(const lobe_scene *scene, const lobe_texture_use *use) {
     assert_in_range(use->image, 0, scene->image_count - 1);
     return &scene->images[use->image].image;
@@ -57,21 +80,19 @@ static void every_scene_is_sound(void **state) {
     (void)state;
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
         const char *name = lobe_builtin_scene_get(i)->name;
-        lobe_scene *scene = build(name);
+        const lobe_scene *scene = built(name);
         assert_string_equal(scene->name, name);
         assert_true(scene->light_count >= 2 && scene->light_count <= 4);
         scene_check(scene);
-        lobe_scene_destroy(&scene);
     }
 }
 
 static void building_twice_gives_the_same_bytes(void **state) {
     (void)state;
     for (size_t i = 0; i < lobe_builtin_scene_count(); i++) {
-        lobe_scene *first = build(lobe_builtin_scene_get(i)->name);
+        const lobe_scene *first = built(lobe_builtin_scene_get(i)->name);
         lobe_scene *second = build(lobe_builtin_scene_get(i)->name);
         scene_check_equal(first, second);
-        lobe_scene_destroy(&first);
         lobe_scene_destroy(&second);
     }
 }
@@ -90,19 +111,18 @@ static void every_machine_makes_these_bytes(void **state) {
     };
     int different = 0;
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
-        lobe_scene *scene = build(expected[i].name);
+        const lobe_scene *scene = built(expected[i].name);
         uint64_t hash = scene_check_hash(scene);
         different += hash != expected[i].hash;
         if (hash != expected[i].hash)
             print_error("%s: 0x%016llx\n", expected[i].name, (unsigned long long)hash);
-        lobe_scene_destroy(&scene);
     }
     assert_int_equal(different, 0);
 }
 
 static void checkerboard_has_two_widths_in_equal_parts(void **state) {
     (void)state;
-    lobe_scene *scene = build("checkerboard");
+    const lobe_scene *scene = built("checkerboard");
     const lobe_material *material = &scene->materials[0];
     assert_int_equal(material->model, LOBE_MATERIAL_HALF_VECTOR_LOBES);
     assert_int_equal(material->distribution, LOBE_DISTRIBUTION_VMF);
@@ -130,7 +150,6 @@ static void checkerboard_has_two_widths_in_equal_parts(void **state) {
     // Squares of a few texels, so 127 edges in each row; the map repeats without a seam.
     assert_int_equal(changes, 1024 * 127);
     assert_true(texel[1023] != texel[0] && texel[1024 * 1023] != texel[0]);
-    lobe_scene_destroy(&scene);
 }
 
 // Counts the texels, and sums the squared differences of neighbours, within a map and across its
@@ -159,7 +178,7 @@ static void assert_tiles(const lobe_image *image) {
 
 static void bumps_are_packed_hemispheres_of_many_metals(void **state) {
     (void)state;
-    lobe_scene *scene = build("bumps");
+    const lobe_scene *scene = built("bumps");
     const lobe_material *material = &scene->materials[0];
     assert_int_equal(material->model, LOBE_MATERIAL_MICROFACET);
     assert_int_equal(material->distribution, LOBE_DISTRIBUTION_GGX);
@@ -186,13 +205,12 @@ static void bumps_are_packed_hemispheres_of_many_metals(void **state) {
     assert_true(distinct > 60);
     // Bumps cover most of the plane.
     assert_true(values[128] < 1024 * 1024 / 4);
-    lobe_scene_destroy(&scene);
 }
 
 // On a sphere, the normal's x grows with the column as fast as its -y grows with the row.
 static void bumps_are_round(void **state) {
     (void)state;
-    lobe_scene *scene = build("bumps");
+    const lobe_scene *scene = built("bumps");
     const lobe_image *normals = image_of(scene, &scene->materials[0].normal_map);
     const uint8_t *texel = normals->texels;
     int inside = 0, round = 0;
@@ -209,12 +227,11 @@ static void bumps_are_round(void **state) {
         }
     assert_true(inside > 400000);
     assert_true(round > inside * 9 / 10);
-    lobe_scene_destroy(&scene);
 }
 
 static void tablecloth_has_two_lobes_at_45_degrees(void **state) {
     (void)state;
-    lobe_scene *scene = build("tablecloth");
+    const lobe_scene *scene = built("tablecloth");
     const lobe_material *material = &scene->materials[0];
     assert_int_equal(material->model, LOBE_MATERIAL_HALF_VECTOR_LOBES);
     assert_int_equal(material->distribution, LOBE_DISTRIBUTION_VMF);
@@ -235,7 +252,6 @@ static void tablecloth_has_two_lobes_at_45_degrees(void **state) {
     assert_true(found.mean_tilt > 8 && found.mean_tilt < 20);
     assert_true(found.greatest_tilt > 25 && found.greatest_tilt < 45);
     assert_tiles(normals);
-    lobe_scene_destroy(&scene);
 }
 
 static double distance(const float a[3], const float b[3]) {
@@ -244,7 +260,7 @@ static double distance(const float a[3], const float b[3]) {
 
 static void tablecloth_lies_on_its_table(void **state) {
     (void)state;
-    lobe_scene *scene = build("tablecloth");
+    const lobe_scene *scene = built("tablecloth");
     const lobe_mesh *mesh = &scene->meshes[0];
     assert_in_range(mesh->index_count / 3, 20000, 60000);
     size_t flat = 0;
@@ -269,7 +285,6 @@ static void tablecloth_lies_on_its_table(void **state) {
             assert_true(ratio > 0.3 && ratio < 1.25);
         }
     assert_true(mesh->vertices[mesh->vertex_count - 1].texture_coordinates[0][0] > 2);
-    lobe_scene_destroy(&scene);
 }
 
 typedef struct projection {
@@ -341,16 +356,15 @@ static coverage measure_texels(const lobe_scene *scene, const lobe_instance *ins
 
 static void tablecloth_fills_the_picture_with_small_texels(void **state) {
     (void)state;
-    lobe_scene *scene = build("tablecloth");
+    const lobe_scene *scene = built("tablecloth");
     coverage found = measure_texels(scene, &scene->instances[0], 1024, 1024, 2, 16);
     assert_true(found.seen > 0.6 * 1280 * 720);
     assert_true(found.fitting > 0.9 * found.seen);
-    lobe_scene_destroy(&scene);
 }
 
 static void pillow_is_woven_of_sharp_and_broad_threads(void **state) {
     (void)state;
-    lobe_scene *scene = build("pillow");
+    const lobe_scene *scene = built("pillow");
     const lobe_material *material = &scene->materials[0];
     assert_int_equal(material->model, LOBE_MATERIAL_HALF_VECTOR_LOBES);
     assert_int_equal(material->distribution, LOBE_DISTRIBUTION_BLINN_PHONG);
@@ -382,12 +396,11 @@ static void pillow_is_woven_of_sharp_and_broad_threads(void **state) {
     tilts[0] /= (double)(2048 * 1024 - sharp);
     tilts[1] /= (double)sharp;
     assert_true(tilts[0] > 0.25 && tilts[0] < 0.45 && tilts[1] > 0.06 && tilts[1] < 0.15);
-    lobe_scene_destroy(&scene);
 }
 
 static void pillow_is_a_closed_cushion_on_the_ground(void **state) {
     (void)state;
-    lobe_scene *scene = build("pillow");
+    const lobe_scene *scene = built("pillow");
     const lobe_mesh *upper = &scene->meshes[0], *lower = &scene->meshes[1];
     assert_int_equal(upper->vertex_count, lower->vertex_count);
     size_t side = (size_t)(sqrt((double)upper->vertex_count) + 0.5), seam = 0;
@@ -404,16 +417,14 @@ static void pillow_is_a_closed_cushion_on_the_ground(void **state) {
     assert_true(upper->maximum[1] > 0.08f && upper->maximum[0] < 0.25f);
     float ground = scene->instances[0].transform[13] + lower->minimum[1];
     assert_true(ground > -0.005f && ground < 0.002f);
-    lobe_scene_destroy(&scene);
 }
 
 static void pillow_has_several_texels_under_a_pixel(void **state) {
     (void)state;
-    lobe_scene *scene = build("pillow");
+    const lobe_scene *scene = built("pillow");
     coverage found = measure_texels(scene, &scene->instances[0], 2048, 1024, 3, 10);
     assert_true(found.seen > 0.25 * 1280 * 720);
     assert_true(found.fitting > 0.9 * found.seen);
-    lobe_scene_destroy(&scene);
 }
 
 static void hall_has_five_materials(void **state) {
@@ -426,7 +437,7 @@ static void hall_has_five_materials(void **state) {
                     {"marble", 512, 512},
                     {"bronze", 512, 512},
                     {"cloth", 512, 512}};
-    lobe_scene *scene = build("hall");
+    const lobe_scene *scene = built("hall");
     assert_int_equal(scene->material_count, 5);
     for (size_t i = 0; i < 5; i++) {
         const lobe_material *material = &scene->materials[i];
@@ -448,12 +459,11 @@ static void hall_has_five_materials(void **state) {
         assert_extent(image_of(scene, width),
                       cloth ? LOBE_FORMAT_R32_FLOAT : LOBE_FORMAT_RGBA8_UNORM, expected[i].others);
     }
-    lobe_scene_destroy(&scene);
 }
 
 static void metals_of_the_hall(void **state) {
     (void)state;
-    lobe_scene *scene = build("hall");
+    const lobe_scene *scene = built("hall");
     double share[4];
     for (size_t i = 0; i < 4; i++) {
         const lobe_image *map = image_of(scene, &scene->materials[i].metallic_roughness_map);
@@ -472,12 +482,11 @@ static void metals_of_the_hall(void **state) {
     assert_true(share[3] > 0.5 && share[3] < 0.95);
     for (size_t i = 2; i < 5; i++)
         assert_tiles(image_of(scene, &scene->materials[i].normal_map));
-    lobe_scene_destroy(&scene);
 }
 
 static void hall_draws_more_than_100000_triangles(void **state) {
     (void)state;
-    lobe_scene *scene = build("hall");
+    const lobe_scene *scene = built("hall");
     size_t triangles = 0, of_material[5] = {0};
     for (size_t i = 0; i < scene->instance_count; i++) {
         size_t count = scene->meshes[scene->instances[i].mesh].index_count / 3;
@@ -489,7 +498,6 @@ static void hall_draws_more_than_100000_triangles(void **state) {
         assert_true(of_material[i] > 0);
     assert_int_equal(scene->light_count, 4);
     assert_true(scene->minimum[1] == 0 && scene->maximum[1] > 7);
-    lobe_scene_destroy(&scene);
 }
 
 static const lobe_mesh *mesh_named(const lobe_scene *scene, const char *name) {
@@ -502,7 +510,7 @@ static const lobe_mesh *mesh_named(const lobe_scene *scene, const char *name) {
 
 static void arches_rest_on_columns(void **state) {
     (void)state;
-    lobe_scene *scene = build("hall");
+    const lobe_scene *scene = built("hall");
     const lobe_mesh *column = mesh_named(scene, "column"), *capital = mesh_named(scene, "capital");
     assert_true(capital->minimum[1] < column->maximum[1]);
     size_t arches = 0;
@@ -525,7 +533,6 @@ static void arches_rest_on_columns(void **state) {
         }
     }
     assert_int_equal(arches, 23);
-    lobe_scene_destroy(&scene);
 }
 
 int main(void) {
@@ -548,5 +555,5 @@ int main(void) {
         cmocka_unit_test(hall_draws_more_than_100000_triangles),
         cmocka_unit_test(arches_rest_on_columns),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, free_scenes);
 }

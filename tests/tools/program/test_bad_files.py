@@ -12,7 +12,7 @@ import tap
 from files import gltf_triangle, gltf_write, png_write
 from program import ASSETS, SMALL, check, error_lines, fails, fresh_folder, leaves, lobe, report
 
-OPTIONS = ["--filter", "direct", *SMALL]
+OPTIONS = ["--filter", "direct", "--set", "env_size=16", *SMALL]
 
 
 def refuses(name, content, says=()):

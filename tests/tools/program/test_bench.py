@@ -62,7 +62,7 @@ def measure(folder, *arguments):
 
 @functools.cache
 def every_filter():
-    return measure(fresh_folder("every_filter"), "tablecloth", *QUICK)
+    return measure(fresh_folder("every_filter"), "checkerboard", *QUICK)
 
 
 @functools.cache
@@ -79,7 +79,7 @@ def test_json_has_its_form():
     check(sorted(bench["device"]) == ["driver", "name", "type"], str(bench["device"]))
     check(bench["device"]["name"] in result.stdout, report(result))
     measured = [(one["scene"], one["filter"]) for one in bench["results"]]
-    check(measured == [("tablecloth", name) for name in filters()], str(measured))
+    check(measured == [("checkerboard", name) for name in filters()], str(measured))
     for one in bench["results"]:
         check_result(one)
 
@@ -134,7 +134,7 @@ def test_times_of_a_software_renderer_are_labelled():
 
 
 def test_knobs_are_set_and_recorded():
-    _, bench = measure(fresh_folder("knobs"), "tablecloth", "--filters", "direct,lobes", *QUICK,
+    _, bench = measure(fresh_folder("knobs"), "checkerboard", "--filters", "direct,lobes", *QUICK,
                        "--set", "epsilon0=0.5", "--set", "base=lobe")
     direct, lobes = bench["results"]
     check(lobes["knobs"]["epsilon0"] == 0.5 and lobes["knobs"]["threshold"] == "length", str(lobes))
