@@ -8,4 +8,11 @@
 #define LOBE_API
 #endif
 
+/// The type in front of the braces of a literal, which C and C++ write differently.
+#ifdef __cplusplus
+#define LOBE_LITERAL(type) type
+#else
+#define LOBE_LITERAL(type) (type)
+#endif
+
 #endif

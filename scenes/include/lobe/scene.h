@@ -46,7 +46,9 @@ typedef struct lobe_texture_use {
 } lobe_texture_use;
 
 /// No image, identity transform.
-#define LOBE_TEXTURE_NONE ((lobe_texture_use){-1, 0, 0, 0, false, {{1, 0, 0}, {0, 1, 0}}})
+#define LOBE_TEXTURE_NONE                                                                          \
+    (LOBE_LITERAL(lobe_texture_use){                                                               \
+        -1, 0, LOBE_SCENE_WRAP_REPEAT, LOBE_SCENE_WRAP_REPEAT, false, {{1, 0, 0}, {0, 1, 0}}})
 
 typedef enum lobe_material_model {
     /// glTF metal-rough: F D G2 / (4 cos) with a distribution of normals, and Lambert below it.
