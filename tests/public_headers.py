@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Compiles each public header on its own, with all values that it defines, as C17, C++11 and C++17,
-pedantically.
+pedantically; and checks that lobe/lobe.h includes them.
 
 Usage: public_headers.py ROOT C-COMPILER... -- C++-COMPILER..."""
 
@@ -13,6 +13,14 @@ from pathlib import Path
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 # A macro without parameters whose text is a value, not an attribute.
 VALUE = re.compile(r"^ *# *define (LOBE_\w+)[ \t]+(?!__attribute__)\S", re.MULTILINE)
+# Needs Vulkan's headers.
+SEPARATE = {"lobe/lobe.h", "lobe/vulkan.h"}
+
+
+def missing_headers(headers):
+    """Those that lobe/lobe.h should include and does not, or the other way round."""
+    included = set(re.findall(r"#include <(lobe/.*)>", headers["lobe/lobe.h"]))
+    return sorted(included ^ (set(headers) - SEPARATE))
 
 
 def program(header, text):
@@ -42,6 +50,9 @@ def main():
     includes = [f"-I{folder}" for folder in folders]
     headers = {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8")
                for folder in folders for path in sorted(folder.rglob("*.h"))}
+    missing = missing_headers(headers)
+    if missing:
+        print(f"lobe/lobe.h includes other headers than it should: {missing}")
     failed = 0
     with tempfile.TemporaryDirectory() as scratch:
         for header, text in headers.items():
@@ -52,7 +63,7 @@ def main():
                     failed += 1
                     print(f"{header} as {standard}:\n{complaints}")
     print(f"{len(headers)} headers, {failed} failures")
-    return 1 if failed or not headers else 0
+    return 1 if failed or missing or not headers else 0
 
 
 if __name__ == "__main__":

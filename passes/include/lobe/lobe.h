@@ -2,13 +2,15 @@
 #define LOBE_LOBE_H
 
 /// lobe: rendering whose appearance stays true at every distance. Includes all public headers
-/// except lobe/vulkan.h and lobe/environment_maps.h.
+/// except lobe/vulkan.h. That one needs Vulkan's headers, which a host without Vulkan may not have,
+/// and which others include in a way of their own (VK_NO_PROTOTYPES, volk) that must come first.
 
 #include <lobe/allocator.h>
 #include <lobe/api.h>
 #include <lobe/colour.h>
 #include <lobe/device.h>
 #include <lobe/environment.h>
+#include <lobe/environment_maps.h>
 #include <lobe/exr.h>
 #include <lobe/file.h>
 #include <lobe/filter.h>
