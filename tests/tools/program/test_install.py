@@ -46,6 +46,22 @@ int main(void) {
 }
 """
 
+CMAKE_SHARED_PROJECT = """
+cmake_minimum_required(VERSION 3.16)
+project(embedding C)
+find_package(lobe 0.1 REQUIRED)
+add_executable(embed embed.c)
+target_link_libraries(embed lobe::lobe)
+"""
+
+CMAKE_STATIC_PROJECT = """
+cmake_minimum_required(VERSION 3.16)
+project(embedding C CXX)
+find_package(lobe 0.1 REQUIRED COMPONENTS static)
+add_executable(embed embed.c)
+target_link_libraries(embed lobe::lobe_static)
+"""
+
 CMAKE_PROJECT = """
 cmake_minimum_required(VERSION 3.16)
 project(embedding C CXX)
@@ -73,10 +89,11 @@ def installed(pattern):
 
 
 def flags(folder, *options):
-    """The output of pkg-config for the library installed under another root."""
+    """The output of pkg-config for the library installed under another root, on a system without
+    any other package."""
     package = next(folder.rglob("lobe.pc"))
-    return run(["pkg-config", *options, "lobe"], PKG_CONFIG_PATH=str(package.parent),
-               PKG_CONFIG_SYSROOT_DIR=str(folder)).split()
+    return run(["pkg-config", *options, "lobe"], PKG_CONFIG_LIBDIR=str(package.parent),
+               PKG_CONFIG_PATH="", PKG_CONFIG_SYSROOT_DIR=str(folder)).split()
 
 
 def smallest_program():
@@ -234,10 +251,10 @@ def says_default(program):
     check(output.split()[1] == "0.95", output)
 
 
-def configure(project, *options):
+def configure(project, *options, folder=TARGET):
+    prefix = next(folder.rglob("lib")).parent
     return ["cmake", "-S", project, "-B", project / "build", f"-DCMAKE_C_COMPILER={C_COMPILER[-1]}",
-            f"-DCMAKE_CXX_COMPILER={CPP_COMPILER[-1]}", *options,
-            f"-DCMAKE_PREFIX_PATH={installed('lib').parent}"]
+            f"-DCMAKE_CXX_COMPILER={CPP_COMPILER[-1]}", *options, f"-DCMAKE_PREFIX_PATH={prefix}"]
 
 
 def test_programs_by_cmake():
@@ -252,6 +269,27 @@ def test_programs_by_cmake():
     for program in ("embed", "embed-static"):
         check((project / "build" / program).exists(), program)
     says_default(project / "build/settings")
+    return None
+
+
+def build_with(kind, gone, project_text, **environment):
+    """Builds a project against an installation that lacks some files."""
+    folder, project = FOLDER / f"only-{kind}", fresh_folder(f"cmake-only-{kind}")
+    shutil.copytree(TARGET, folder, symlinks=True)
+    for library in folder.rglob(gone):
+        library.unlink()
+    (project / "CMakeLists.txt").write_text(project_text)
+    (project / "embed.c").write_text(smallest_program())
+    run(configure(project, folder=folder), **environment)
+    run(["cmake", "--build", project / "build"])
+
+
+def test_either_library_alone():
+    """Distributions may package them apart. The shared one needs no other package."""
+    if not shutil.which("cmake"):
+        return "there is no cmake"
+    build_with("shared", "liblobe.a", CMAKE_SHARED_PROJECT, PKG_CONFIG_LIBDIR=str(FOLDER))
+    build_with("static", "liblobe.so*", CMAKE_STATIC_PROJECT)
     return None
 
 
