@@ -20,11 +20,15 @@ static lobe_pass_time *find_or_append(lobe_frame *frame, const char *name,
     return time;
 }
 
-bool passes_pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
-                           const lobe_allocator *allocator) {
-    frame->milliseconds += report->milliseconds;
+void passes_pass_times_add_submission(lobe_frame *frame, const lobe_graph_report *report) {
     frame->host_milliseconds += report->host_milliseconds;
     ++frame->submissions;
+}
+
+bool passes_pass_times_add(lobe_frame *frame, const lobe_graph_report *report,
+                           const lobe_allocator *allocator) {
+    passes_pass_times_add_submission(frame, report);
+    frame->milliseconds += report->milliseconds;
     for (size_t i = 0; i < report->pass_count; i++) {
         if (report->passes[i].state != LOBE_PASS_RUN)
             continue;

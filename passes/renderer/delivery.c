@@ -67,11 +67,14 @@ void passes_delivery_mark_output(const rendering *r, const frame_delivery *deliv
 
 lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
-    if (delivery->submission)
-        return lobe_graph_submit(graph, delivery->submission);
-    lobe_result result = lobe_graph_execute(graph);
+    lobe_result result = delivery->submission ? lobe_graph_submit(graph, delivery->submission)
+                                              : lobe_graph_execute(graph);
     if (result != LOBE_OK)
         return result;
+    if (delivery->submission) {
+        passes_pass_times_add_submission(frame, lobe_graph_describe(graph));
+        return LOBE_OK;
+    }
     passes_environment_light_save(&r->environment, graph, r->context.host);
     if (passes_pass_times_add(frame, lobe_graph_describe(graph), r->context.host->allocator))
         return LOBE_OK;

@@ -28,8 +28,8 @@ void passes_delivery_replace(const shading_targets *imported, shading_targets *t
 void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,
                                  lobe_resource resource);
 
-/// Executes the graph, or submits it as the host requests. If it waited for the frame, adds its
-/// times and saves maps of the environment that were read back.
+/// Executes the graph, or submits it as the host requests, and adds its times: the device's only if
+/// it waited for the frame. In that case it also saves maps of the environment that were read back.
 lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame);
 
 /// Copies an image that was read back. LOBE_ERROR_INVALID_ARGUMENT: the host's passes replaced it

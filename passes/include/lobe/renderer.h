@@ -180,13 +180,13 @@ typedef struct lobe_frame {
     /// RG32_FLOAT: lobes evaluated, and MIP level of the filtered maps (0: the maps themselves).
     /// Empty without `aov`.
     lobe_image lobes_level;
-    double milliseconds;      ///< device time of all submissions
+    double milliseconds;      ///< device time of all submissions that were waited for
     double host_milliseconds; ///< CPU time to compile and record them: see lobe_graph_report
     uint32_t submissions;     ///< how many frames of the graph it took
     /// Parts of the work on the environment's filtered maps that later frames still have to do. If
     /// not 0, later frames are lit differently. See `environment.parts`.
     uint32_t environment_parts_left;
-    lobe_pass_time *passes; ///< those that ran, in order of their first run
+    lobe_pass_time *passes; ///< those that ran and were waited for, in order of their first run
     size_t pass_count;
     /// Size of the maps that the filter built: bytes on the device, and texels of the base maps
     /// that they replace. Their ratio is the filter's memory per texel.

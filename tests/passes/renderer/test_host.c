@@ -315,6 +315,8 @@ static void frames_in_flight_are_those_delivered(void **state) {
                    .camera = &camera,
                    .host = {.target = &target, .submission = &submission, .frames_in_flight = 2}});
         assert_int_equal(frame.pass_count, 0);
+        assert_int_equal(frame.submissions, 1);
+        assert_true(frame.host_milliseconds > 0);
         lobe_frame_free(&frame);
     }
     assert_int_equal(lobe_graph_wait(lobe_renderer_graph(f->passes.renderer)), LOBE_OK);
