@@ -35,7 +35,7 @@ struct lobe_device {
     VkSemaphore timeline;           ///< reaches n when the n-th submission is done
     _Atomic uint64_t submitted;     ///< number of submissions; incremented with the queue locked
     _Atomic bool is_lost;           ///< found at the last submission or wait
-    pthread_mutex_t commands_mutex; ///< held from begin to finish of single-use commands
+    pthread_mutex_t commands_mutex; ///< held while single-use commands are recorded
     VkCommandPool commands;         ///< pool for single-use command buffers
     struct engine_memory *memory;   ///< see engine/resource/memory.h
     /// Protects shaders, pipelines and samplers; recursive, because making a pipeline looks up
@@ -63,8 +63,8 @@ static inline uint64_t engine_device_stamp(lobe_device *device) {
     return ++device->last_stamp;
 }
 
-/// Submits a finished command buffer. The timeline reaches `*value` when it has executed; `value`
-/// may be NULL. Only barriers order submissions. `host`: its semaphores; NULL: none.
+/// Submits a finished command buffer, or none. The timeline reaches `*value` when it has executed;
+/// `value` may be NULL. Only barriers order submissions. `host`: its semaphores; NULL: none.
 lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
                                  const lobe_vulkan_submission *host, uint64_t *value);
 /// The value that the timeline has reached, without waiting; 0 if the device does not say.
@@ -73,11 +73,12 @@ uint64_t engine_device_finished(lobe_device *device);
 lobe_result engine_device_wait(lobe_device *device, uint64_t value);
 /// Waits for all submissions.
 lobe_result engine_device_wait_all(lobe_device *device);
-/// Waits for everything submitted to the queue, including the host's work.
+/// Waits for everything submitted to the queue, including the host's work. Others may use the queue
+/// meanwhile.
 lobe_result engine_device_wait_queue(lobe_device *device);
 
 /// Begins a single-use command buffer. `purpose` is for the error line. Other threads' calls block
-/// until it is finished.
+/// until it is submitted.
 lobe_result engine_device_begin_commands(lobe_device *device, const char *purpose,
                                          VkCommandBuffer *commands);
 /// Ends, submits, waits for and frees the command buffer, even on failure.

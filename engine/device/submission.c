@@ -54,7 +54,7 @@ lobe_result engine_device_submit(lobe_device *device, VkCommandBuffer commands,
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
         .waitSemaphoreInfoCount = wait_count,
         .pWaitSemaphoreInfos = waits,
-        .commandBufferInfoCount = 1,
+        .commandBufferInfoCount = commands ? 1 : 0,
         .pCommandBufferInfos = &buffer,
         .signalSemaphoreInfoCount = signal_count + 1,
         .pSignalSemaphoreInfos = signals,
@@ -84,13 +84,6 @@ uint64_t engine_device_finished(lobe_device *device) {
     return result == VK_SUCCESS ? value : 0;
 }
 
-lobe_result engine_device_wait_queue(lobe_device *device) {
-    engine_device_lock_queue(device);
-    const VkResult waited = device->api.vkQueueWaitIdle(device->queue);
-    engine_device_unlock_queue(device);
-    return check(device, waited, "vkQueueWaitIdle", "waiting for the device");
-}
-
 lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
     const VkSemaphoreWaitInfo wait = {
         .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
@@ -100,6 +93,21 @@ lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
     };
     return check(device, device->api.vkWaitSemaphores(device->vulkan, &wait, UINT64_MAX),
                  "vkWaitSemaphores", "waiting for the device");
+}
+
+lobe_result engine_device_wait_queue(lobe_device *device) {
+    uint64_t value = 0;
+    // A signal comes after all earlier work of its queue.
+    const lobe_result result = engine_device_submit(device, VK_NULL_HANDLE, NULL, &value);
+    if (result == LOBE_OK)
+        return engine_device_wait(device, value);
+    if (result != LOBE_ERROR_DEVICE_LOST) {
+        // The caller is going to destroy what the queue uses. Meanwhile nobody can submit.
+        engine_device_lock_queue(device);
+        (void)device->api.vkQueueWaitIdle(device->queue);
+        engine_device_unlock_queue(device);
+    }
+    return result;
 }
 
 lobe_result engine_device_wait_all(lobe_device *device) {
@@ -147,8 +155,10 @@ lobe_result engine_device_finish_commands(lobe_device *device, const char *purpo
         VULKAN_CHECK(&device->host, device->api.vkEndCommandBuffer(commands), "%s", purpose);
     if (result == LOBE_OK)
         result = engine_device_submit(device, commands, NULL, &value);
+    pthread_mutex_unlock(&device->commands_mutex); // others may record while this one waits
     if (result == LOBE_OK)
         result = engine_device_wait(device, value);
+    pthread_mutex_lock(&device->commands_mutex);
     device->api.vkFreeCommandBuffers(device->vulkan, device->commands, 1, &commands);
     pthread_mutex_unlock(&device->commands_mutex);
     return result;

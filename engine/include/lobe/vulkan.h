@@ -116,8 +116,9 @@ struct lobe_vulkan_device {
     /// allocator of the host in the parameters.
     const VkAllocationCallbacks *allocation_callbacks;
     /// Called around each use of the queue, so that host and lobe can share it: nobody else may use
-    /// the queue in between. Called from any thread that calls lobe, never nested. Set both or
-    /// neither; NULL: the host never uses the queue during a call to lobe.
+    /// the queue in between. Called from any thread that calls lobe, never nested, and not held
+    /// while lobe waits for the device (unless a submission failed). Set both or neither; NULL: the
+    /// host never uses the queue during a call to lobe.
     void (*lock_queue)(void *user);
     void (*unlock_queue)(void *user);
     void *user; ///< passed to both

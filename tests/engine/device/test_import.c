@@ -3,9 +3,11 @@
 #include "tests/engine/support/cmocka_all.h"
 
 #include <malloc.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "tests/engine/support/host_device.h"
 
@@ -14,6 +16,12 @@ static host_device host;
 static int open_host(void **state) {
     (void)state;
     host_device_open(&host);
+    return 0;
+}
+
+static int open_unvalidated_host(void **state) {
+    (void)state;
+    host_device_open_unvalidated(&host);
     return 0;
 }
 
@@ -67,14 +75,14 @@ static void the_hosts_device_outlives_ours(void **state) {
 // The queue
 
 typedef struct lock_counter {
-    int locked, uses;
-    bool nested;
+    _Atomic int locked, uses;
+    _Atomic bool nested;
 } lock_counter;
 
 static void lock(void *user) {
     lock_counter *counter = user;
-    counter->nested |= counter->locked != 0;
-    counter->locked++;
+    if (counter->locked++ != 0)
+        counter->nested = true;
     counter->uses++;
 }
 
@@ -105,6 +113,80 @@ static void the_queue_is_used_under_the_hosts_lock(void **state) {
     assert_int_equal(counter.locked, 0);
     assert_int_equal(counter.uses, uses + 1);
     lobe_device_destroy(&device);
+}
+
+/// What the queue does from now on waits until the timeline reaches 1.
+static void stop_queue(VkSemaphore gate) {
+    const VkSemaphoreSubmitInfo wait = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                        .semaphore = gate,
+                                        .value = 1,
+                                        .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    const VkSubmitInfo2 submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                                  .waitSemaphoreInfoCount = 1,
+                                  .pWaitSemaphoreInfos = &wait};
+    assert_int_equal(vkQueueSubmit2(host.vulkan.queue, 1, &submit, VK_NULL_HANDLE), VK_SUCCESS);
+}
+
+static void start_queue(VkSemaphore gate) {
+    const VkSemaphoreSignalInfo signal = {
+        .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO, .semaphore = gate, .value = 1};
+    assert_int_equal(vkSignalSemaphore(host.vulkan.device, &signal), VK_SUCCESS);
+}
+
+/// Waits for up to ten seconds.
+static bool reaches(const _Atomic int *value, int wanted) {
+    for (int n = 0; *value < wanted && n < 10000; n++)
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    return *value >= wanted;
+}
+
+static void *destroy_buffer(void *buffer) {
+    lobe_buffer_destroy((lobe_buffer **)buffer);
+    return NULL;
+}
+
+static void *update_buffer(void *buffer) {
+    static const float data[64] = {2};
+    return lobe_buffer_update(*(lobe_buffer **)buffer, data) == LOBE_OK ? buffer : NULL;
+}
+
+/// While one thread waits for the device, the queue is free for others, and uploads are recorded.
+/// Without the validation layer, which gives up waiting for semaphores that the host signals.
+static void threads_that_wait_block_no_others(void **state) {
+    (void)state;
+    enum { THREADS = 4 };
+    void *(*const work[THREADS])(void *) = {destroy_buffer, update_buffer, update_buffer,
+                                            destroy_buffer};
+    lock_counter counter = {0};
+    host.vulkan.lock_queue = lock;
+    host.vulkan.unlock_queue = unlock;
+    host.vulkan.user = &counter;
+    lobe_device *device = host_device_import(&host);
+    VkSemaphore gate = host_semaphore(&host, true);
+    pthread_t threads[THREADS];
+    lobe_buffer *buffers[THREADS] = {NULL};
+    for (int n = 0; n < THREADS; n++)
+        assert_int_equal(
+            lobe_buffer_create(device, &(lobe_buffer_parameters){.size = 256}, &buffers[n]),
+            LOBE_OK);
+    stop_queue(gate);
+    bool blocked = false;
+    for (int n = 0; n < THREADS; n++) {
+        const int wanted = counter.uses + 1;
+        assert_int_equal(pthread_create(&threads[n], NULL, work[n], &buffers[n]), 0);
+        blocked = blocked || !reaches(&counter.uses, wanted);
+    }
+    start_queue(gate);
+    for (int n = 0; n < THREADS; n++) {
+        void *done = NULL;
+        assert_int_equal(pthread_join(threads[n], &done), 0);
+        assert_true(done || work[n] == destroy_buffer);
+        lobe_buffer_destroy(&buffers[n]);
+    }
+    assert_false(blocked);
+    lobe_device_destroy(&device);
+    assert_false(counter.nested);
+    vkDestroySemaphore(host.vulkan.device, gate, NULL);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -261,6 +343,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(the_hosts_device_outlives_ours, open_host, close_host),
         cmocka_unit_test_setup_teardown(the_queue_is_used_under_the_hosts_lock, open_host,
+                                        close_host),
+        cmocka_unit_test_setup_teardown(threads_that_wait_block_no_others, open_unvalidated_host,
                                         close_host),
         cmocka_unit_test_setup_teardown(the_driver_takes_the_hosts_memory, open_host, close_host),
         cmocka_unit_test_setup_teardown(recommended_features_are_turned_on, open_host, close_host),

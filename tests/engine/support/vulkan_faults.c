@@ -217,7 +217,11 @@ FALLIBLE(vkGetPipelineCacheData, (VkDevice device, VkPipelineCache cache, size_t
 WAITS(vkWaitSemaphores, (VkDevice device, const VkSemaphoreWaitInfo *wait, uint64_t timeout),
       (device, wait, timeout))
 WAITS(vkDeviceWaitIdle, (VkDevice device), (device))
-WAITS(vkQueueWaitIdle, (VkQueue queue), (queue))
+
+/// Called only where a submission has failed already.
+FUNCTION(VkResult, vkQueueWaitIdle, (VkQueue queue), false) {
+    return vkQueueWaitIdle(queue);
+}
 
 /// Its failure is no failure of lobe's: pipelines are kept for longer.
 FUNCTION(VkResult, vkGetSemaphoreCounterValue,
