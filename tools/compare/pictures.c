@@ -55,7 +55,7 @@ static lobe_result crop_image(const compare_job *job, const lobe_image *source,
 
 /// Text and images of a panel that the panel itself only refers to.
 typedef struct panel_content {
-    char caption[64], error_caption[64];
+    char caption[256], error_caption[64];
     lobe_image picture, errors;
 } panel_content;
 

@@ -9,12 +9,13 @@
 #include "tools/compare/bitmap_font.h"
 
 enum {
-    GAP = 8,                                          // between panels and around them
-    DOT = 2,                                          // texels a dot of the font is wide
-    BAR_PADDING = 6,                                  // above and below a caption
-    BAR = BITMAP_FONT_HEIGHT * DOT + 2 * BAR_PADDING, // height of a caption bar
-    SCALE = 3 * BITMAP_FONT_HEIGHT * DOT,             // height of the scale of errors
-    CHARACTER = (BITMAP_FONT_WIDTH + 1) * DOT,        // from one character to the next
+    GAP = 8,                               // between panels and around them
+    DOT = 2,                               // texels a dot of the font is wide
+    BAR_PADDING = 6,                       // around a caption
+    LINE = (BITMAP_FONT_HEIGHT + 2) * DOT, // from one line of a caption to the next
+    MAXIMUM_LINES = 4,
+    SCALE = 3 * BITMAP_FONT_HEIGHT * DOT,      // height of the scale of errors
+    CHARACTER = (BITMAP_FONT_WIDTH + 1) * DOT, // from one character to the next
 };
 
 static const uint8_t background[4] = {24, 24, 24, 255}, bar_colour[4] = {48, 48, 48, 255},
@@ -25,6 +26,7 @@ typedef struct side_by_side_layout {
     float magnification;
     bool with_errors;
     size_t cell_width, cell_height; ///< of a panel's picture, zoomed
+    size_t bar;                     ///< height of a caption bar
 } side_by_side_layout;
 
 static lobe_result fail(const lobe_host *host, lobe_result result, const char *message) {
@@ -51,6 +53,64 @@ static lobe_result check_panels(const side_by_side_panel *panels, size_t count,
     return LOBE_OK;
 }
 
+// ---------------------------------------------------------------------------------------------
+// Captions
+
+/// How many characters of a caption go on its next line: up to a comma, to another space, or as
+/// many as fit.
+static size_t line_length(const char *text, size_t characters) {
+    size_t at_space = 0, at_comma = 0;
+    if (strlen(text) <= characters)
+        return strlen(text);
+    for (size_t i = 1; i <= characters; i++) {
+        if (text[i] != ' ')
+            continue;
+        at_space = i;
+        if (text[i - 1] == ',')
+            at_comma = i;
+    }
+    return at_comma > 0 ? at_comma : at_space > 0 ? at_space : characters;
+}
+
+static size_t characters_per_line(const side_by_side_layout *layout) {
+    return layout->cell_width > BAR_PADDING ? (layout->cell_width - BAR_PADDING) / CHARACTER : 0;
+}
+
+/// The rest of a caption after a line of it.
+static const char *next_line(const char *text, size_t length) {
+    text += length;
+    return text + strspn(text, " ");
+}
+
+static size_t count_lines(const char *caption, size_t characters) {
+    size_t lines = 0;
+    while (caption != NULL && *caption != '\0' && characters > 0 && lines < MAXIMUM_LINES) {
+        caption = next_line(caption, line_length(caption, characters));
+        lines++;
+    }
+    return lines;
+}
+
+static void describe_scale(const side_by_side_layout *layout, char text[64]) {
+    snprintf(text, 64, "errors 0 to %.3g", 1.0 / (double)layout->magnification);
+}
+
+/// All bars are as high as the longest caption needs.
+static size_t bar_height(const side_by_side_panel *panels, size_t count,
+                         const side_by_side_layout *layout) {
+    const size_t characters = characters_per_line(layout);
+    char scale[64];
+    describe_scale(layout, scale);
+    size_t lines = layout->with_errors ? count_lines(scale, characters) : 0;
+    for (size_t index = 0; index < count; index++) {
+        const size_t captions[] = {count_lines(panels[index].caption, characters),
+                                   count_lines(panels[index].error_caption, characters)};
+        for (int i = 0; i < 2; i++)
+            lines = captions[i] > lines ? captions[i] : lines;
+    }
+    return (lines > 1 ? lines - 1 : 0) * LINE + BITMAP_FONT_HEIGHT * DOT + 2 * BAR_PADDING;
+}
+
 static side_by_side_layout arrange(const side_by_side_panel *panels, size_t count,
                                    const side_by_side_parameters *parameters) {
     static const side_by_side_parameters defaults = {0};
@@ -68,11 +128,12 @@ static side_by_side_layout arrange(const side_by_side_panel *panels, size_t coun
         layout.with_errors |= panels[index].errors != NULL;
     layout.cell_width = (size_t)layout.zoom * panels[0].picture->width;
     layout.cell_height = (size_t)layout.zoom * panels[0].picture->height;
+    layout.bar = bar_height(panels, count, &layout);
     return layout;
 }
 
 static size_t row_height(const side_by_side_layout *layout) {
-    return (layout->with_errors ? 2 : 1) * (BAR + layout->cell_height) + GAP;
+    return (layout->with_errors ? 2 : 1) * (layout->bar + layout->cell_height) + GAP;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -99,13 +160,18 @@ static void draw_character(lobe_image *picture, size_t left, size_t top, char ch
     }
 }
 
-static void draw_bar(lobe_image *picture, size_t left, size_t top, size_t width,
-                     const char *caption) {
-    fill(picture, left, top, width, BAR, bar_colour);
-    size_t end = left + width;
-    for (size_t x = left + BAR_PADDING; caption != NULL && *caption != '\0' && x + CHARACTER <= end;
-         x += CHARACTER)
-        draw_character(picture, x, top + BAR_PADDING, *caption++);
+static void draw_bar(lobe_image *picture, size_t left, size_t top,
+                     const side_by_side_layout *layout, const char *caption) {
+    const size_t characters = characters_per_line(layout);
+    const size_t lines = count_lines(caption, characters);
+    fill(picture, left, top, layout->cell_width, layout->bar, bar_colour);
+    for (size_t line = 0; line < lines; line++) {
+        const size_t length = line_length(caption, characters);
+        for (size_t i = 0; i < length; i++)
+            draw_character(picture, left + BAR_PADDING + i * CHARACTER,
+                           top + BAR_PADDING + line * LINE, caption[i]);
+        caption = next_line(caption, length);
+    }
 }
 
 static void draw_picture(lobe_image *picture, size_t left, size_t top,
@@ -135,25 +201,25 @@ static void draw_errors(lobe_image *picture, size_t left, size_t top,
 static void draw_scale(lobe_image *picture, size_t left, size_t top,
                        const side_by_side_layout *layout) {
     char caption[64];
-    snprintf(caption, sizeof caption, "errors 0 to %.3g", 1.0 / (double)layout->magnification);
-    draw_bar(picture, left, top, layout->cell_width, caption);
+    describe_scale(layout, caption);
+    draw_bar(picture, left, top, layout, caption);
     size_t height = layout->cell_height < SCALE ? layout->cell_height : SCALE;
     for (size_t x = 0; x < layout->cell_width; x++) {
         uint8_t colour[4] = {0, 0, 0, 255};
         lobe_heat_colour(((float)x + 0.5f) / (float)layout->cell_width, colour);
-        fill(picture, left + x, top + BAR, 1, height, colour);
+        fill(picture, left + x, top + layout->bar, 1, height, colour);
     }
 }
 
 static void draw_panel(lobe_image *picture, size_t left, size_t top,
                        const side_by_side_layout *layout, const side_by_side_panel *panel) {
-    draw_bar(picture, left, top, layout->cell_width, panel->caption);
-    top += BAR;
+    draw_bar(picture, left, top, layout, panel->caption);
+    top += layout->bar;
     draw_picture(picture, left, top, layout, panel->picture);
     top += layout->cell_height;
     if (panel->errors != NULL) {
-        draw_bar(picture, left, top, layout->cell_width, panel->error_caption);
-        draw_errors(picture, left, top + BAR, layout, panel->errors);
+        draw_bar(picture, left, top, layout, panel->error_caption);
+        draw_errors(picture, left, top + layout->bar, layout, panel->errors);
     } else if (layout->with_errors) {
         draw_scale(picture, left, top, layout);
     }

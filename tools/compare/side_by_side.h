@@ -11,7 +11,7 @@
 /// map under another caption bar (otherwise the scale of the heat maps).
 
 typedef struct side_by_side_panel {
-    const char *caption;       ///< cut off at the end of the panel
+    const char *caption;       ///< in at most four lines, by the width of the panel
     const lobe_image *picture; ///< RGBA8_SRGB
     const char *error_caption;
     const lobe_image *errors; ///< R32_FLOAT of the picture's extent; NULL: none
