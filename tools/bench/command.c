@@ -7,6 +7,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/cli/closest_name.h"
 #include "tools/cli/console.h"
 #include "tools/cli/device_options.h"
 #include "tools/cli/output_file.h"
@@ -151,12 +152,22 @@ static bool is_known_knob(const char *name) {
     return strcmp(name, "none") == 0;
 }
 
+static int unknown_knob(const option_table *table, const char *name) {
+    closest_name closest = {.name = name, .length = strlen(name)};
+    char hint[CLOSEST_NAME_HINT_SIZE];
+    for (size_t i = 0; i < lobe_filter_count(); i++)
+        for (size_t j = 0; j < lobe_filter_knob_count(lobe_filter_get(i)); j++)
+            closest_name_offer(&closest, lobe_filter_knob(lobe_filter_get(i), j)->name);
+    return options_usage_error(table, "--knobs: no filter has a knob '%s'%s", name,
+                               closest_name_hint(&closest, "", hint));
+}
+
 static int check_knobs(const option_table *table, const char *knobs) {
     for (const char *rest = knobs; rest; rest = strchr(rest, ',') ? strchr(rest, ',') + 1 : NULL) {
         char name[64];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(rest, ","), rest);
         if (!is_known_knob(name))
-            return options_usage_error(table, "--knobs: no filter has a knob '%s'", name);
+            return unknown_knob(table, name);
     }
     return 0;
 }

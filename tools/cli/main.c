@@ -5,6 +5,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/cli/closest_name.h"
 #include "tools/cli/subcommand.h"
 #include "tools/manual/option_form.h"
 
@@ -26,6 +27,13 @@ static int usage_error(const char *what, const char *text) {
     return 2;
 }
 
+static int unknown_subcommand(const char *name) {
+    char hint[CLOSEST_NAME_HINT_SIZE];
+    fprintf(stderr, "lobe: unknown subcommand '%s'%s (see 'lobe --help')\n", name,
+            subcommand_hint(name, hint));
+    return 2;
+}
+
 /// `lobe help`, `lobe help SUBCOMMAND`
 static int help(int argc, char **argv) {
     if (argc > 2)
@@ -36,7 +44,7 @@ static int help(int argc, char **argv) {
     }
     const subcommand *found = subcommand_find(argv[1]);
     if (!found)
-        return usage_error("unknown subcommand", argv[1]);
+        return unknown_subcommand(argv[1]);
     char option[] = "--help";
     return found->run(2, (char *[]){argv[1], option, NULL});
 }
@@ -55,7 +63,7 @@ static int run(int argc, char **argv) {
     if (argv[1][0] == '-')
         return usage_error("unknown option", argv[1]);
     const subcommand *found = subcommand_find(argv[1]);
-    return found ? found->run(argc - 1, argv + 1) : usage_error("unknown subcommand", argv[1]);
+    return found ? found->run(argc - 1, argv + 1) : unknown_subcommand(argv[1]);
 }
 
 int main(int argc, char **argv) {

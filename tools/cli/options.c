@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/closest_name.h"
+
 // ---------------------------------------------------------------------------------------------
 // Values
 
@@ -265,6 +267,16 @@ static int ask_for_help(parser *parser, const char *equals) {
                : options_usage_error(parser->table, "--help: there is no form '%s'", equals + 1);
 }
 
+static int unknown_option(const option_table *table, const char *name, size_t length) {
+    closest_name closest = {.name = name, .length = length};
+    char hint[CLOSEST_NAME_HINT_SIZE];
+    for (size_t index = 0; index < table->option_count; index++)
+        closest_name_offer(&closest, table->options[index].name);
+    closest_name_offer(&closest, option_help.name);
+    return options_usage_error(table, "unknown option --%.*s%s", (int)length, name,
+                               closest_name_hint(&closest, "--", hint));
+}
+
 static int parse_long(parser *parser, const char *text) {
     const char *equals = strchr(text, '=');
     size_t length = equals != NULL ? (size_t)(equals - text) : strlen(text);
@@ -272,7 +284,7 @@ static int parse_long(parser *parser, const char *text) {
         return ask_for_help(parser, equals);
     const option *option = find_by_name(parser->table, text, length);
     if (option == NULL)
-        return options_usage_error(parser->table, "unknown option --%.*s", (int)length, text);
+        return unknown_option(parser->table, text, length);
     return take_value(parser, option, equals != NULL ? equals + 1 : NULL);
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/closest_name.h"
 #include "tools/scenes/scene_list.h"
 
 option scene_option_assets(scene_options *options) {
@@ -135,6 +136,15 @@ lobe_result scene_options_light(const scene_options *options, const lobe_host *h
     return LOBE_OK;
 }
 
+/// After the line that says that there is no such scene.
+static void suggest_scene(const char *name, const lobe_host *host) {
+    closest_name closest = {.name = name, .length = strlen(name)};
+    for (size_t i = 0; i < scene_list_count(); i++)
+        closest_name_offer(&closest, scene_list_get(i).name);
+    if (closest.closest && closest.edits > 0)
+        lobe_host_log(host, LOBE_LOG_NOTICE, "%s: did you mean '%s'?", name, closest.closest);
+}
+
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result) {
     const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
@@ -142,6 +152,8 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
         assets = NULL;
     lobe_result status =
         scene_list_open(scene, assets, scene_options_give_light(options), host, result);
+    if (status == LOBE_ERROR_NOT_FOUND)
+        suggest_scene(scene, host);
     if (status == LOBE_OK && !(*result)->has_camera)
         lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
     if (status == LOBE_OK)

@@ -26,6 +26,9 @@ extern const subcommand completion_subcommand;
 extern const subcommand *const subcommands[];
 /// NULL if no subcommand has that name.
 const subcommand *subcommand_find(const char *name);
+/// What to add to the message that there is none: the name that may have been meant, or nothing.
+/// Returns `hint`, of CLOSEST_NAME_HINT_SIZE bytes.
+const char *subcommand_hint(const char *name, char *hint);
 /// Makes a subcommand print its option table in another form (option_form_find) on standard output.
 /// Returns the exit status.
 int subcommand_print(const subcommand *subcommand, const char *form);

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tools/cli/closest_name.h"
+
 const subcommand *const subcommands[] = {
     &render_subcommand,  &view_subcommand,        &bench_subcommand,      &report_subcommand,
     &compare_subcommand, &environment_subcommand, &scenes_subcommand,     &filters_subcommand,
@@ -15,6 +17,13 @@ const subcommand *subcommand_find(const char *name) {
             return subcommands[index];
     }
     return NULL;
+}
+
+const char *subcommand_hint(const char *name, char *hint) {
+    closest_name closest = {.name = name, .length = strlen(name)};
+    for (size_t index = 0; subcommands[index] != NULL; index++)
+        closest_name_offer(&closest, subcommands[index]->name);
+    return closest_name_hint(&closest, "", hint);
 }
 
 int subcommand_print(const subcommand *subcommand, const char *form) {

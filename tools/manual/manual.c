@@ -1,5 +1,6 @@
 #include <stdio.h>
 
+#include "tools/cli/closest_name.h"
 #include "tools/cli/options.h"
 #include "tools/cli/subcommand.h"
 #include "tools/manual/roff.h"
@@ -45,9 +46,11 @@ static int print(const option_table *table, const char *name) {
         print_program();
         return 0;
     }
+    char hint[CLOSEST_NAME_HINT_SIZE];
     const subcommand *found = subcommand_find(name);
     return found ? subcommand_print(found, "man")
-                 : options_usage_error(table, "unknown subcommand '%s'", name);
+                 : options_usage_error(table, "unknown subcommand '%s'%s", name,
+                                       subcommand_hint(name, hint));
 }
 
 static int run(int argc, char **argv) {

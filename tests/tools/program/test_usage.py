@@ -57,6 +57,26 @@ def test_unknown_option():
         is_wrong_usage(name, "-z", says="-z")
 
 
+def test_misspelt_names():
+    """The line says which name was probably meant."""
+    is_wrong_usage("rendr", says="did you mean 'render'?")
+    is_wrong_usage("help", "benhc", says="did you mean 'bench'?")
+    is_wrong_usage("manual", "veiw", says="did you mean 'view'?")
+    is_wrong_usage("render", "bumps", *OUTPUT, "--smaples", "4", says="did you mean '--samples'?")
+    is_wrong_usage("render", "bumps", *OUTPUT, "--sampels=4", says="did you mean '--samples'?")
+    is_wrong_usage("view", "bumps", "--exposre", "1", says="did you mean '--exposure'?")
+    is_wrong_usage("bench", "bumps", "--sweep", "--knobs", "prboes", "--json", "never.json",
+                   says="did you mean 'probes'?")
+    for misspelt, name in (("tablecloht", "tablecloth"), ("bnuny", "bunny")):
+        result = fails("render", misspelt, *OUTPUT, says=misspelt)
+        check(f"did you mean '{name}'?" in result.stderr, report(result))
+    result = fails("render", "bunny", *OUTPUT, LOBE_ASSETS="", says="bunny")  # has no mesh then
+    check("did you mean" not in result.stderr, report(result))
+    for arguments in (["--paint"], ["paint"], ["render", "--paint"], ["help", "paint"]):
+        result = lobe(*arguments)
+        check("did you mean" not in result.stderr, report(result))
+
+
 def test_unexpected_operands():
     for name in ("scenes", "filters", "info"):
         is_wrong_usage(name, "operand", says="operand")
