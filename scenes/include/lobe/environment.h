@@ -18,8 +18,35 @@ extern "C" {
 /// Light from all directions, from infinitely far away: an image of the sphere.
 
 /// The layout of the sphere of directions on an image, in the environment's own space: +Y is up.
-/// The six faces of a cube are squares of equal size; the orientation of each is documented in
-/// scenes/environment/direction.h.
+///
+/// Positions are in texels: x to the right, y downwards, (0, 0) is the image's top left corner and
+/// texel (i, j) covers [i, i + 1] x [j, j + 1], so that its middle is (i + 0.5, j + 0.5).
+///
+/// Latitude and longitude: longitude = atan2(x, z) = (1/2 - u) 2 pi and latitude = asin(y) =
+/// (1/2 - v) pi, where (u, v) = position / extent. (OpenEXR puts the middles of the outermost
+/// texels on the poles and on -Z; like most programs, lobe spreads the texels evenly instead.)
+///
+/// Cubes: on a face, the direction of the point (s, t), both in [-1, 1], s to the right and t
+/// downwards, is forward + s right + t down. Pictures are never mirrored: right = forward x up, as
+/// for someone inside the cube who looks at the face.
+///
+///     face  | column, row (as OpenEXR) | crosses, which fold along the edges that touch
+///           | right   down             | right   down
+///     +X    |  +Z      -Y              |  +Z      -Y
+///     -X    |  -Z      -Y              |  -Z      -Y
+///     +Y    |  +X      -Z              |  -X      +Z
+///     -Y    |  +X      +Z              |  -X      -Z
+///     +Z    |  -X      -Y              |  -X      -Y
+///     -Z    |  +X      -Y              |  +X      -Y (horizontal), -X  +Y (vertical)
+///
+/// Where the faces lie:
+///
+///     column: +X    row: +X -X +Y -Y +Z -Z    vertical cross:      +Y
+///             -X                                                +X +Z -X
+///             +Y    horizontal cross:    +Y                        -Y
+///             -Y                      +X +Z -X -Z                  -Z
+///             +Z                         -Y
+///             -Z
 typedef enum lobe_environment_layout {
     /// The top row is +Y, the centre looks to +Z, longitude grows to the left as seen from inside:
     /// u = 0 and 1 are -Z, u = 1/4 is +X, u = 3/4 is -X.

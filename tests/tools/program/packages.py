@@ -60,7 +60,7 @@ def test_each_file_is_where_it_belongs():
 
 def test_how_to_embed_comes_along():
     folder = UNPACKED / "usr/share/doc/liblobe-dev"
-    for name in ("embed.md.gz", "examples/host_device.c", "pictures/appearance.jpg"):
+    for name in ("docs/embed.md", "tools/examples/host_device.c", "docs/pictures/appearance.jpg"):
         check((folder / name).exists(), name)
 
 

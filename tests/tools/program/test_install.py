@@ -121,6 +121,37 @@ def test_every_public_header_is_installed():
         installed(f"lobe/{path.name}")
 
 
+def named_paths(text):
+    """What looks like a path from the top of the source or the build tree."""
+    return re.findall(r"\b(?:build|docs|engine|out|passes|scenes|shaders|tests|third_party|tools)"
+                      r"/[\w./-]*\w", text)
+
+
+def test_headers_name_what_is_installed():
+    folder, documents = installed("lobe/lobe.h").parent, installed("doc/lobe")
+    headers = {path.name: path.read_text() for path in folder.glob("*.h")}
+    code = re.sub(r"//[^\n]*", "", "".join(headers.values()))
+    declared = set(re.findall(r"\w+", code))
+    for name, text in headers.items():
+        missing = [path for path in named_paths(text) if not (documents / path).exists()]
+        missing += [path for path in re.findall(r"\blobe/(\w+\.h)", text) if path not in headers]
+        missing += set(re.findall(r"\b(?:lobe|engine|passes|scenes)_\w+", text)) - declared
+        missing += re.findall(r"\b(?:engine|passes|scenes)_\w+", text)
+        check(not missing, f"{name} names {missing}")
+
+
+def test_documents_name_what_is_installed():
+    documents = installed("doc/lobe")
+    found = sorted(documents.rglob("*.md"))
+    check("embed.md" in [path.name for path in found], found)
+    for path in found:
+        text = re.sub(r"<!--.*?-->", "", path.read_text(), flags=re.DOTALL)
+        links = re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text)
+        missing = [link for link in links if not (path.parent / link).exists()]
+        missing += [name for name in named_paths(text) if not (documents / name).exists()]
+        check(not missing, f"{path.name} names {missing}")
+
+
 def test_library_shows_its_public_names_alone():
     lines = run(["nm", "--dynamic", "--defined-only", installed("liblobe.so")]).splitlines()
     names = {line.split()[-1].split("@")[0] for line in lines}
