@@ -43,7 +43,8 @@ typedef struct lobe_device_parameters {
     /// as errors and counted. LOBE_ERROR_UNSUPPORTED if the layer is missing.
     bool validation;
     /// File that stores compiled pipelines between runs; written on destroy, replaced if it belongs
-    /// to another driver. NULL: no file is read or written.
+    /// to another driver. NULL: no file is read or written. (Filtered environments have a cache of
+    /// their own, see lobe_render_environment.)
     const char *pipeline_cache;
     /// Folder of the shader sources, used only by a build with -Dhot_reload=true.
     /// NULL: the source tree that lobe was built from.

@@ -117,7 +117,8 @@ typedef struct lobe_render_environment {
     /// makes that frame slower (with `host.submission`: in the next frame; with several frames in
     /// flight: never). A damaged or foreign file is replaced, with a notice. Logs a warning if the
     /// folder is not writable. Files may be removed at any time. Pictures do not depend on the
-    /// cache. Read during the call. NULL: none.
+    /// cache. Read during the call. NULL: none. (Compiled pipelines have a cache of their own, see
+    /// lobe_device_parameters.)
     const char *cache;
     /// With `rebuild`: keep the environment's maps, as if only the materials had changed.
     bool keep;

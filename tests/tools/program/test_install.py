@@ -228,6 +228,7 @@ def test_programs_of_the_document_on_embedding():
              program, *flags(TARGET, "--cflags", "--libs")])
         run([program], cwd=folder, LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
     check(len(list(folder.glob("frame*.exr"))) == 10, "not ten frames of an animation")
+    check((folder / "pipelines.cache").exists(), "no compiled pipelines are kept")
 
 
 def test_examples():
