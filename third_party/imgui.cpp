@@ -296,6 +296,12 @@ bool imgui_integer(const char *name, int minimum, int maximum, int *value) {
     return ImGui::SliderInt("##value", value, minimum, maximum, "%d", ImGuiSliderFlags_AlwaysClamp);
 }
 
+bool imgui_colour(const char *name, float colour[3]) {
+    show_name(name);
+    hidden_name id(name);
+    return ImGui::ColorEdit3("##value", colour);
+}
+
 void imgui_same_line(void) {
     ImGui::SameLine();
 }

@@ -89,6 +89,8 @@ bool imgui_checkbox(const char *name, bool *value);
 bool imgui_choice(const char *name, const char *const *choices, size_t count, size_t *index);
 bool imgui_number(const char *name, double minimum, double maximum, double *value);
 bool imgui_integer(const char *name, int minimum, int maximum, int *value);
+/// A colour as displayed, [0, 1] each.
+bool imgui_colour(const char *name, float colour[3]);
 /// Puts the next widget on the same line.
 void imgui_same_line(void);
 

@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 
 #include "tools/cli/output_file.h"
+#include "tools/viewer/lights.h"
 #include "tools/viewer/viewer.h"
 
 /// Panels need one frame to measure their text, and show it in the next.
@@ -80,7 +81,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
     v->view.scene = v->scene;
     v->view.camera = v->scene->camera;
     v->turned = v->opening.rotation;
-    return LOBE_OK;
+    return viewer_lights_open(v);
 }
 
 static lobe_result give_scene(viewer *v, const lobe_scene *scene) {
@@ -102,6 +103,7 @@ static lobe_result replace_scene(viewer *v, const char *name) {
     }
     lobe_scene_destroy(&v->scene);
     v->scene = scene;
+    (void)viewer_lights_open(v); // shows a message if it fails
     v->path_frame = 0;
     v->turned = v->opening.rotation;
     v->plays = v->records_path = false;

@@ -6,6 +6,7 @@
 #include "third_party/imgui.h"
 #include "tools/scenes/scene_list.h"
 #include "tools/viewer/keys.h"
+#include "tools/viewer/lights.h"
 #include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"
 #include "tools/viewer/window.h"
@@ -64,7 +65,7 @@ static void choose_environment(viewer *v) {
     else if (strcmp(environment->name, "sky") == 0)
         names[1] = names[2];
     const size_t count = environment && strcmp(environment->name, "sky") != 0 ? 3 : 2;
-    if (imgui_choice("light", names, count, &chosen))
+    if (imgui_choice("environment", names, count, &chosen))
         viewer_request_light(v, names[chosen]);
     imgui_tooltip("light from all around: drop an .hdr or .exr file onto the window");
     if (environment)
@@ -144,14 +145,14 @@ static void set_side(const char *group, viewer_side *side, bool has_environment)
 // Picture
 
 static void choose_output(viewer *v) {
-    static const char *const outputs[] = {"radiance", "normal", "depth"};
+    static const char *const outputs[] = {"picture", "normal", "depth"};
     size_t chosen = (size_t)v->sides[0].output;
     if (imgui_choice("show", outputs, 3, &chosen)) {
         for (int i = 0; i < 2; i++)
             v->sides[i].output = (viewer_output)chosen;
         viewer_redraw_scene(v);
     }
-    imgui_tooltip("radiance: or what the filter's knob 'view' asks for");
+    imgui_tooltip("picture: what the filter's knob 'view' asks for");
     imgui_number("exposure", -VIEWER_MAXIMUM_EXPOSURE, VIEWER_MAXIMUM_EXPOSURE, &v->look.exposure);
     imgui_tooltip("stops by which the picture is brightened");
 }
@@ -273,6 +274,7 @@ static void show_panel(viewer *v) {
     choose_output(v);
     choose_comparison(v);
     imgui_space();
+    viewer_lights_panel(v);
     if (imgui_section(compares ? "First filter" : "Filter", true))
         set_side("first", &v->sides[0], has_environment);
     if (compares && imgui_section("Second filter", true))

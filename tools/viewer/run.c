@@ -14,6 +14,7 @@
 #include "tools/viewer/camera.h"
 #include "tools/viewer/graphics/graphics.h"
 #include "tools/viewer/keys.h"
+#include "tools/viewer/lights.h"
 #include "tools/viewer/opening.h"
 #include "tools/viewer/panel.h"
 #include "tools/viewer/recording.h"
@@ -59,6 +60,7 @@ static void prepare(const viewer_request *request, const lobe_host *console, vie
 static void clean_up(viewer *v) {
     viewer_graphics_close(v);
     viewer_window_close(v);
+    viewer_lights_close(v);
     lobe_scene_destroy(&v->scene);
     free(v->wanted_scene);
     free(v->wanted_environment);

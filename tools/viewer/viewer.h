@@ -39,6 +39,16 @@ typedef enum viewer_drag {
     VIEWER_DRAG_DIVIDER,
 } viewer_drag;
 
+/// One of the scene's lights, as the panel shows it.
+typedef struct viewer_light {
+    bool on;
+    double intensity, initial; ///< of a channel at full colour: now, and the scene's own
+    float colour[3];           ///< as displayed: encoded for sRGB, [0, 1]
+    /// Where light comes from, in degrees: around +Y, from +Z towards +X, and above the horizon. Of
+    /// a point light its place, as seen from the middle of the scene.
+    double heading, height;
+} viewer_light;
+
 #define VIEWER_MESSAGE_SIZE 512
 
 /// Frames drawn after an input: panels need one to see the mouse, one to act, one to show the
@@ -61,6 +71,9 @@ typedef struct viewer {
     viewer_look look;
     viewer_side sides[2];
     lobe_scene *scene;
+    viewer_light *lights; ///< of the scene
+    size_t light_count;
+    size_t light;               ///< the one on the panel
     char *wanted_scene;         ///< to open before the next frame; NULL: none
     char *wanted_environment;   ///< the same
     unsigned frames_to_opening; ///< frames to draw before that

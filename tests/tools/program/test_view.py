@@ -343,12 +343,12 @@ def test_monitors_of_other_dots():
     check(panel_width() == width, f"{width} pixels have become {panel_width()}")
     radiance = colours()
     # The knob "view": its choices come down.
-    window().meets("unit 2", "mousemove", 200, 371)
-    for choice in (442, 394):
-        window().do("mousemove", 200, 371, "click", 1)
+    window().meets("unit 2", "mousemove", 200, 391)
+    for choice in (462, 414):
+        window().do("mousemove", 200, 391, "click", 1)
         window().do("mousemove", 150, choice, "click", 1)
         window().do("mousemove", 600, 100)  # no explanation then
-        expected = 1 if choice == 442 else len(radiance)
+        expected = 1 if choice == 462 else len(radiance)
         check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
     window().meets("unit 1", "mousemove", 630, 470)
     window().do("windowsize", window().number, *SIZE, "key", "Tab")
@@ -429,6 +429,59 @@ def test_closes():
     faults = [line for line in said.splitlines() if "error" in line and
               "/broken." not in line and "DEVICE_LOST" not in line]
     check(status == 0 and not faults and "Sanitizer" not in said, f"{status}: {said}")
+    return None
+
+
+# Rows of the panel's section "Lights", in pixels.
+LIGHTS, NUMBER, ON, INTENSITY, COLOUR, HEADING, HEIGHT = 131, 151, 187, 207, 227, 247, 267
+
+
+def type_into(panel, row, value, column=180):
+    """Sets a number of the panel from the keyboard."""
+    panel.do("mousemove", column, row, "keydown", "ctrl", "click", 1, "keyup", "ctrl")
+    panel.do("key", *({"-": "minus", ".": "period"}.get(c, c) for c in str(value)))
+    panel.do("key", "Return")
+
+
+def shows_lights(panel, size, *lights):
+    """Whether the window shows what `lobe render` draws with these lights."""
+    picture = fresh_folder("lit") / "picture.png"
+    options = [word for light in lights for word in ("--light", light)]
+    succeeds("render", "checkerboard", "--filter", "direct", "--size", f"{size[0]}x{size[1]}",
+             *options, "-o", picture)
+    panel.do("mousemove", size[0] - 5, size[1] - 5, "key", "Tab")
+    difference = largest_difference(seen(*size), png_rows(picture))
+    panel.do("key", "Tab")
+    check(difference <= 1, f"{lights}: differs by {difference} of 255")
+
+
+def test_lights_are_changed_on_the_panel():
+    if missing():
+        return missing()
+    size = (320, 300)
+    panel = Window(screen(), "checkerboard", "--filter", "direct", "--size", f"{size[0]}x{size[1]}",
+                   "--light", "directional:-1,-2,-1:3,3,3", "--light", "point:2,1,-4:8,8,8")
+    panel.do("mousemove", 100, LIGHTS, "click", 1)
+    for row, value in ((INTENSITY, 1.5), (HEADING, 90), (HEIGHT, 30)):
+        type_into(panel, row, value)
+    sun, lamp = "directional:-0.8660254,-0.5,0:1.5,1.5,1.5", "point:2,1,-4:8,8,8"
+    shows_lights(panel, size, sun, lamp)
+    type_into(panel, COLOUR, 0, 140)
+    shows_lights(panel, size, sun.replace(":1.5,", ":0,"), lamp)
+    type_into(panel, COLOUR, 255, 140)
+    type_into(panel, NUMBER, 2)
+    panel.do("mousemove", 124, ON, "click", 1)
+    shows_lights(panel, size, sun)
+    panel.do("mousemove", 124, ON, "click", 1)
+    shows_lights(panel, size, sun, lamp)
+    type_into(panel, HEIGHT, 90)  # above the middle of the scene
+    panel.do("mousemove", 300, 295, "key", "Tab")
+    above = seen(*size)
+    panel.do("key", "Tab")
+    type_into(panel, HEADING, 45)  # which then means nothing
+    panel.do("mousemove", 300, 295, "key", "Tab")
+    check(largest_difference(seen(*size), above) <= 1, "the lamp is not above the middle")
+    check(panel.close() == 0, panel.said())
     return None
 
 
