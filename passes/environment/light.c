@@ -187,6 +187,14 @@ lobe_result passes_environment_light_load(const filter_context *context,
                                     context->host);
 }
 
+uint32_t passes_environment_light_parts_left(const filter_context *context,
+                                             const environment_work *work) {
+    if (!context->scene->environment)
+        return 0;
+    const environment_maps_request request = request_of(context, work);
+    return passes_environment_maps_parts_left(&request, &work->state->progress);
+}
+
 void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,
                                    const lobe_host *host) {
     environment_state *state = work->state;

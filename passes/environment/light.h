@@ -53,6 +53,10 @@ lobe_result passes_environment_light_check(const filter_context *context);
 lobe_result passes_environment_light_load(const filter_context *context,
                                           const environment_work *work, lobe_device *device);
 
+/// Parts of the work on the maps that the next frames have to do.
+uint32_t passes_environment_light_parts_left(const filter_context *context,
+                                             const environment_work *work);
+
 /// Saves the maps that the last frame read back (`reads_back`) to the cache. The device must have
 /// finished that frame, and the next must not have begun.
 void passes_environment_light_save(const environment_work *work, const lobe_graph *graph,

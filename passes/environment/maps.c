@@ -159,11 +159,18 @@ static uint32_t parts_wanted(const environment_maps_request *request) {
                : kinds_wanted(request) * parts_of_cube(passes_prefiltered_width(request->size));
 }
 
+uint32_t passes_environment_maps_parts_left(const environment_maps_request *request,
+                                            const environment_maps_progress *progress) {
+    const uint32_t count = parts_wanted(request);
+    const uint32_t done = progress->size == request->size ? progress->done : 0;
+    return count > done ? count - done : 0;
+}
+
 static uint32_t advance(const environment_maps_request *request, uint32_t part_count,
                         environment_maps_progress *progress) {
     if (progress->size != request->size)
         *progress = (environment_maps_progress){.size = request->size};
-    uint32_t left = part_count > progress->done ? part_count - progress->done : 0;
+    const uint32_t left = passes_environment_maps_parts_left(request, progress);
     progress->done += request->parts > 0 && request->parts < left ? request->parts : left;
     return progress->done < part_count ? progress->done : part_count;
 }

@@ -47,6 +47,10 @@ environment_maps passes_environment_maps_declare(lobe_graph *graph,
                                                  const environment_maps_request *request,
                                                  environment_maps_progress *progress);
 
+/// Parts of the work on filtered cubes that the next frames have to do.
+uint32_t passes_environment_maps_parts_left(const environment_maps_request *request,
+                                            const environment_maps_progress *progress);
+
 /// Call it when the texture's content changes: from the next frame on, filtered cubes are rebuilt
 /// part by part; until they are complete, those of the last environment are used.
 void passes_environment_maps_invalidate(const environment_maps *last,

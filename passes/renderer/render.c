@@ -1,6 +1,7 @@
 #include "passes/context/camera.h"
 #include "passes/filters/settings.h"
 #include "passes/renderer/delivery.h"
+#include "passes/renderer/shading.h"
 #include "passes/upload/frame_check.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -120,6 +121,31 @@ static lobe_result update_environment(rendering *r) {
                : result;
 }
 
+/// One submission for each part of the environment's maps, reported to the host: `*stopped` if it
+/// wants no more. The maps of instances are declared, but not made, so that they are kept.
+static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *stopped) {
+    static const frame_delivery none = {0};
+    const lobe_render_host *host = &r->parameters->host;
+    const uint32_t count = passes_environment_light_parts_left(&r->context, &r->environment);
+    lobe_result result = LOBE_OK;
+    r->environment.parts = 1;
+    for (uint32_t done = 1; result == LOBE_OK && !*stopped && done <= count; done++) {
+        lobe_graph_begin(r->renderer->graph);
+        passes_instance_maps_build(r, frame);
+        (void)passes_shading_light_prepare(&r->context, &r->environment);
+        result = passes_delivery_run(r, &none, frame);
+        *stopped =
+            result == LOBE_OK && !host->environment_progress(host->user, done / (double)count);
+    }
+    r->environment.parts = 0;
+    return result;
+}
+
+static bool prepares_environment(const lobe_render_parameters *parameters) {
+    return parameters->host.environment_progress && !parameters->host.submission &&
+           parameters->environment.parts == 0;
+}
+
 static void invalidate_maps(const rendering *r) {
     if (r->parameters->rebuild && r->parameters->environment.keep)
         lobe_graph_invalidate_except(r->renderer->graph, ENVIRONMENT_MAP_PREFIX);
@@ -132,6 +158,13 @@ static void invalidate_maps(const rendering *r) {
 
 static lobe_result draw(rendering *r, lobe_frame *frame) {
     const frame_delivery delivery = passes_delivery_of(r->parameters);
+    bool stopped = false;
+    const lobe_result result =
+        prepares_environment(r->parameters) ? prepare_environment(r, frame, &stopped) : LOBE_OK;
+    if (stopped)
+        lobe_frame_free(frame);
+    if (result != LOBE_OK || stopped)
+        return result;
     return r->context.filter->supersamples ? passes_reference_render(r, &delivery, frame)
                                            : passes_frame_render(r, &delivery, frame);
 }

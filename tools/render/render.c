@@ -52,6 +52,8 @@ typedef struct render_state {
     lobe_frame frame;
     frame_times times;
     progress progress;
+    uint32_t frame_number, frame_count;
+    bool prepares;     ///< the environment, before the frame
     const char *cache; ///< cache folder for filtered environments; NULL: none
     char cache_folder[CACHE_FOLDER_SIZE];
 } render_state;
@@ -196,30 +198,57 @@ static uint32_t samples_of(const render_request *request) {
     return lobe_filter_supersamples(request->filter) ? request->samples : 1;
 }
 
+static void begin_frame(render_state *state) {
+    progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, state->frame_number,
+                  state->frame_count);
+}
+
+/// The environment is prepared before the frame is drawn.
+static bool report_environment(void *user, double part) {
+    render_state *state = user;
+    if (!state->prepares)
+        progress_step(&state->progress, "%s: preparing %s", state->scene->name,
+                      state->scene->environment->name);
+    state->prepares = part < 1;
+    progress_part(&state->progress, part);
+    if (!state->prepares)
+        begin_frame(state);
+    return true;
+}
+
+static bool report_samples(void *user, double part) {
+    return progress_part(&((render_state *)user)->progress, part);
+}
+
 static lobe_result render_frame(const render_request *request, render_state *state) {
     lobe_frame_free(&state->frame);
-    lobe_result result =
-        lobe_renderer_render(state->renderer,
-                             &(lobe_render_parameters){
-                                 .filter = request->filter,
-                                 .settings = &request->settings,
-                                 .width = request->size[0],
-                                 .height = request->size[1],
-                                 .reference.samples = request->samples,
-                                 .environment.cache = state->cache,
-                                 .aov = request->layers && writes(request, false),
-                                 .host = {.progress = progress_part, .user = &state->progress},
-                             },
-                             &state->frame);
+    // Only a terminal shows it, and the graph to write is that of all that made the picture.
+    const bool prepares = state->progress.terminal && !request->graph;
+    lobe_result result = lobe_renderer_render(
+        state->renderer,
+        &(lobe_render_parameters){
+            .filter = request->filter,
+            .settings = &request->settings,
+            .width = request->size[0],
+            .height = request->size[1],
+            .reference.samples = request->samples,
+            .environment.cache = state->cache,
+            .aov = request->layers && writes(request, false),
+            .host = {.progress = report_samples,
+                     .environment_progress = prepares ? report_environment : NULL,
+                     .user = state},
+        },
+        &state->frame);
     return result == LOBE_OK ? frame_times_add(&state->times, &state->frame, &state->host) : result;
 }
 
 /// The first frame builds the maps, later ones retain them.
 static lobe_result render_frames(const render_request *request, render_state *state) {
     lobe_result result = LOBE_OK;
+    state->frame_count = request->frames;
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames; i++) {
-        progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, i + 1,
-                      request->frames);
+        state->frame_number = i + 1;
+        begin_frame(state);
         result = render_frame(request, state);
     }
     progress_end(&state->progress);

@@ -129,12 +129,17 @@ typedef struct lobe_render_host {
     /// Called between submissions with the fraction done, [0, 1]; returning false stops the
     /// rendering with LOBE_OK and an empty frame. NULL: none.
     bool (*progress)(void *user, double part);
+    /// The same for the environment's filtered maps, if they have to be made: then that takes
+    /// submissions of its own, before those of the picture, with one part of the work in each.
+    /// Ignored with `submission`, and where `environment.parts` spreads the work over frames. NULL:
+    /// none, and the maps are made in the picture's first submission.
+    bool (*environment_progress)(void *user, double part);
     /// Called once for each stage while the frame's graph is declared; adds the host's passes to
     /// it. New versions of resources that they write go back into `resources`. Errors in their
     /// declaration are reported by the graph. NULL: none.
     void (*add_passes)(void *user, lobe_graph *graph, lobe_render_stage stage,
                        lobe_render_resources *resources);
-    void *user; ///< passed to both callbacks
+    void *user; ///< passed to all callbacks
     /// Images to draw into. NULL: an image of lobe's own, delivered in the frame. Otherwise no
     /// radiance is delivered, and `width` and `height` are 0 or the target's.
     const lobe_render_target *target;

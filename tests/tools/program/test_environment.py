@@ -1,10 +1,13 @@
 """The options that light a scene by an environment."""
 
+import json
+import re
 import sys
 
 import tap
 from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
-from program import SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report, succeeds
+from program import (SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report,
+                     said_to_terminal, succeeds)
 
 DIRECT = ["--filter", "direct", "--set", "env_size=16", *SMALL]
 
@@ -75,6 +78,21 @@ def test_what_is_no_environment():
     for option, value in (("rotation", "left"), ("rotation", "1e9"), ("intensity", "-1")):
         is_wrong_usage("render", "bumps", f"--environment-{option}", value, *output,
                        says=f"--environment-{option}")
+
+
+def test_preparing_light_shows_its_progress():
+    """On a terminal alone; the picture is the same."""
+    folder = fresh_folder("progress")
+    options = ["render", "bumps", *DIRECT, "--environment", "sky", "--no-cache", "-o"]
+    said = said_to_terminal(*options, folder / "shown.exr")
+    parts = [int(part) for part in re.findall(r"bumps: preparing sky: (\d+) %", said)]
+    check(len(parts) > 3 and parts == sorted(parts) and parts[-1] == 100, said)
+    check(said.rstrip().endswith("frame 1 of 1\x1b[K\r\x1b[K"), repr(said))
+    result = succeeds(*options, folder / "silent.exr")
+    check("preparing" not in result.stderr, report(result))
+    error = json.loads(succeeds("compare", folder / "shown.exr", folder / "silent.exr",
+                                "--json").stdout)
+    check(error["rmse"] == 0, error)
 
 
 def test_filtered_light_is_kept_for_the_next_time():

@@ -1,13 +1,10 @@
 """What `lobe render` writes and prints."""
 
-import os
-import pty
-import subprocess
 import sys
 
 import tap
 from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
-from program import FOLDER, PROGRAM, SMALL, check, fresh_folder, leaves, report, succeeds
+from program import FOLDER, SMALL, check, fresh_folder, leaves, report, said_to_terminal, succeeds
 
 DIRECT = ["--filter", "direct", *SMALL]
 SMALL_SKY = ["--set", "env_size=16"]  # prepared faster
@@ -180,14 +177,7 @@ def test_quiet_where_there_is_nothing_to_say():
 
 
 def test_progress_on_a_terminal():
-    terminal, end = pty.openpty()
-    command = [PROGRAM, "render", "bumps", "--filter", "reference", *SMALL, "-o", FOLDER / "a.png"]
-    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=end, check=False,
-                            env={**os.environ, "XDG_CACHE_HOME": str(FOLDER / "cache")})
-    os.close(end)
-    shown = os.read(terminal, 65536).decode()
-    os.close(terminal)
-    check(result.returncode == 0, shown)
+    shown = said_to_terminal("render", "bumps", "--filter", "reference", *SMALL, "-o", "a.png")
     check("frame 1 of 1: 50 %" in shown and "frame 1 of 1: 100 %" in shown, repr(shown))
     check(shown.endswith("\r\033[K"), repr(shown))
 

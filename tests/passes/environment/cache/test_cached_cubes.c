@@ -52,15 +52,25 @@ typedef struct drawing {
     lobe_renderer *renderer;
     uint32_t parts;
     const char *base; ///< an assignment
+    double stops_at;  ///< progress at which the host stops; 0: it does not listen
+    double heard;     ///< the last progress
+    unsigned calls;
 } drawing;
 
 static void start(fixture *f, const lobe_scene *scene, drawing *drawing) {
-    drawing->parts = 0;
-    drawing->base = "base=exact";
+    *drawing = (struct drawing){.base = "base=exact"};
     log_recorder_start(&drawing->recorder);
     assert_int_equal(lobe_renderer_create(f->device, &drawing->recorder.host, &drawing->renderer),
                      LOBE_OK);
     assert_int_equal(lobe_renderer_set_scene(drawing->renderer, scene), LOBE_OK);
+}
+
+static bool listen(void *user, double part) {
+    drawing *self = user;
+    assert_true(part > self->heard && part <= 1);
+    self->heard = part;
+    self->calls++;
+    return part < self->stops_at;
 }
 
 static void stop(drawing *drawing) {
@@ -88,12 +98,15 @@ static lobe_frame frame_of(drawing *drawing, const char *folder,
     lobe_frame frame;
     if (lobe_renderer_render(
             drawing->renderer,
-            &(lobe_render_parameters){.filter = filter,
-                                      .settings = &settings,
-                                      .width = SIZE,
-                                      .height = SIZE,
-                                      .environment = {.parts = drawing->parts, .cache = folder},
-                                      .host.submission = submission},
+            &(lobe_render_parameters){
+                .filter = filter,
+                .settings = &settings,
+                .width = SIZE,
+                .height = SIZE,
+                .environment = {.parts = drawing->parts, .cache = folder},
+                .host = {.submission = submission,
+                         .environment_progress = drawing->stops_at > 0 ? listen : NULL,
+                         .user = drawing}},
             &frame) != LOBE_OK)
         fail_msg("%s", drawing->recorder.last_error);
     return frame;
@@ -215,6 +228,34 @@ static void parts_are_saved_when_complete(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// The picture is the same, is stopped where the host wants, and maps that are there are not
+/// prepared.
+static void preparing_reports_its_progress(void **state) {
+    lobe_scene *scene = metal_square();
+    uint64_t expected = plain_picture(*state, scene);
+    drawing drawing;
+    start(*state, scene, &drawing);
+    drawing.stops_at = 0.5;
+    lobe_frame frame = frame_of(&drawing, test_folder.path, NULL);
+    assert_null(frame.radiance.texels);
+    assert_int_equal(frame.submissions, 0);
+    assert_true(drawing.heard >= 0.5 && drawing.heard < 1 && drawing.calls > 3);
+    const unsigned before = drawing.calls;
+    drawing =
+        (struct drawing){drawing.recorder, drawing.renderer, .base = drawing.base, .stops_at = 2};
+    frame = frame_of(&drawing, test_folder.path, NULL);
+    assert_true(image_hash(&frame.radiance) == expected);
+    assert_int_equal(frame.submissions, drawing.calls + 1);
+    assert_true(drawing.heard == 1 && drawing.calls > before / 2);
+    assert_int_equal(kept(), 2);
+    lobe_frame_free(&frame);
+    drawing.calls = 0;
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(drawing.calls, 0);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
 /// One kind of lobes first, then both.
 static void cubes_wanted_later_are_added(void **state) {
     lobe_scene *scene = metal_square();
@@ -295,6 +336,7 @@ int main(void) {
         IN_TEST_FOLDER(a_damaged_file_is_replaced),
         IN_TEST_FOLDER(another_environment_is_looked_up),
         IN_TEST_FOLDER(parts_are_saved_when_complete),
+        IN_TEST_FOLDER(preparing_reports_its_progress),
         IN_TEST_FOLDER(cubes_wanted_later_are_added),
         IN_TEST_FOLDER(submitted_frames_are_saved_by_the_next),
         cmocka_unit_test(an_unwritable_folder_is_warned_of_once),

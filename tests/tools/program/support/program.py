@@ -2,6 +2,7 @@
 
 import atexit
 import os
+import pty
 import shutil
 import subprocess
 import sys
@@ -21,12 +22,12 @@ os.environ.setdefault("MESA_SHADER_CACHE_DIR",
 SMALL = ["--size", "32x24"]
 
 
-def lobe(*arguments, timeout=300, stdout=subprocess.PIPE, **environment):
+def lobe(*arguments, timeout=300, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **environment):
     """Runs `lobe ARGUMENTS...` in a fresh folder. Keywords are environment variables."""
     settings = {**os.environ, "XDG_CACHE_HOME": str(FOLDER / "cache"),
                 **{name: str(value) for name, value in environment.items()}}
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=FOLDER, env=settings, text=True,
-                          stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                          stdout=stdout, stderr=stderr, stdin=subprocess.DEVNULL,
                           timeout=timeout, check=False, errors="replace")
 
 
@@ -52,6 +53,17 @@ def error_lines(result):
     lines = result.stderr.splitlines()
     return [line for line in lines if line.startswith("lobe: error: ") or
             not line.startswith("lobe: ")]
+
+
+def said_to_terminal(*arguments):
+    """What the program, which succeeds, writes to standard error if that is a terminal."""
+    terminal, end = pty.openpty()
+    result = lobe(*arguments, stderr=end)
+    os.close(end)
+    said = os.read(terminal, 65536).decode()
+    os.close(terminal)
+    check(result.returncode == 0, said)
+    return said
 
 
 def fails(*arguments, status=1, says=(), **keywords):
