@@ -21,7 +21,7 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     if (!created)
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "render graph: out of memory");
-    created->device = device;
+    created->device = created->kept.uploads.device = device;
     created->frame.arena.allocator = created->frame.dependencies.scratch.allocator = allocator;
     created->frame.nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = engine_graph_create_flights(created);
@@ -50,6 +50,7 @@ void lobe_graph_destroy(lobe_graph **graph) {
     engine_graph_free_retained(gone);
     engine_graph_free_transients(gone);
     engine_graph_free_flights(gone);
+    engine_uploads_free(&gone->kept.uploads);
     engine_dependency_graph_free(&gone->frame.dependencies);
     engine_arena_free(&gone->frame.arena);
     lobe_release(gone->frame.resources);

@@ -40,6 +40,12 @@ const char *lobe_format_name(lobe_format format) {
     return describe(format)->name;
 }
 
+bool lobe_rectangle_lies_within(const lobe_rectangle *rectangle, uint32_t width, uint32_t height) {
+    return rectangle && rectangle->width > 0 && rectangle->height > 0 && rectangle->x < width &&
+           rectangle->y < height && rectangle->width <= width - rectangle->x &&
+           rectangle->height <= height - rectangle->y;
+}
+
 lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t width,
                                 uint32_t height, const lobe_host *host) {
     if (!image)

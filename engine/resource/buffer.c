@@ -14,13 +14,16 @@ static VkDeviceSize whole_words(VkDeviceSize size) {
     return (size + 3) & ~(VkDeviceSize)3;
 }
 
-lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters *parameters,
-                               lobe_buffer **buffer) {
-    if (buffer)
-        *buffer = NULL;
-    if (!device || !parameters || !buffer)
-        return lobe_host_fail(device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
-                              "lobe_buffer_create: device, parameters and buffer must not be NULL");
+static lobe_result fill(lobe_buffer *buffer, const void *data) {
+    engine_uploads *queue = buffer->uploads.queue;
+    return engine_uploads_take(queue, buffer->size)
+               ? engine_uploads_add_buffer(queue, buffer, 0, buffer->size, data)
+               : engine_upload_buffer_now(buffer, data);
+}
+
+lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
+                                     const lobe_buffer_parameters *parameters,
+                                     lobe_buffer **buffer) {
     const char *name = parameters->name ? parameters->name : "buffer";
     if (parameters->size == 0)
         return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
@@ -35,15 +38,25 @@ lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
     (*buffer)->stamp = engine_device_stamp(device);
+    (*buffer)->uploads.queue = queue;
     lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
                                                      usage, ENGINE_MEMORY_DEVICE,
                                                      &(*buffer)->buffer, &(*buffer)->allocation);
     if (result == LOBE_OK)
-        result = engine_upload_buffer(device, name, (*buffer)->buffer, parameters->size,
-                                      parameters->data);
+        result = fill(*buffer, parameters->data);
     if (result != LOBE_OK)
         lobe_buffer_destroy(buffer);
     return result;
+}
+
+lobe_result lobe_buffer_create(lobe_device *device, const lobe_buffer_parameters *parameters,
+                               lobe_buffer **buffer) {
+    if (buffer)
+        *buffer = NULL;
+    if (!device || !parameters || !buffer)
+        return lobe_host_fail(device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_buffer_create: device, parameters and buffer must not be NULL");
+    return engine_buffer_create_for(device, NULL, parameters, buffer);
 }
 
 lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
@@ -53,16 +66,16 @@ lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
         return lobe_host_fail(&buffer->device->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "buffer '%s': no data given", buffer->name);
     buffer->stamp = engine_device_stamp(buffer->device);
-    return engine_upload_buffer(buffer->device, buffer->name, buffer->buffer, buffer->size, data);
+    return buffer->uploads.queue
+               ? engine_uploads_add_buffer(buffer->uploads.queue, buffer, 0, buffer->size, data)
+               : engine_upload_buffer_now(buffer, data);
 }
 
 void lobe_buffer_destroy(lobe_buffer **buffer) {
     if (!buffer || !*buffer)
         return;
-    lobe_device *device = (*buffer)->device;
-    // On failure the device is lost, and has finished too.
-    (void)engine_device_wait_all(device);
-    engine_buffer_destroy_placed(device, &(*buffer)->buffer, &(*buffer)->allocation);
+    engine_discarded object = {.buffer = (*buffer)->buffer, .allocation = (*buffer)->allocation};
+    engine_upload_target_destroy((*buffer)->device, &(*buffer)->uploads, &object);
     lobe_release((*buffer)->name);
     lobe_release(*buffer);
     *buffer = NULL;

@@ -10,9 +10,16 @@
 
 #include "engine/resource/memory.h"
 
+/// What a texture or buffer has in the queue of the graph that it belongs to.
+typedef struct engine_upload_state {
+    struct engine_uploads *queue; ///< NULL: it belongs to no graph, and is written at once
+    uint64_t bytes;               ///< of its copies in the queue
+    uint32_t last;                ///< of these copies; meaningless without any
+} engine_upload_state;
+
 /// Between the calls of lobe/device.h the image is in SHADER_READ_ONLY_OPTIMAL layout, its content
-/// visible to every later submission; code that changes the layout must restore it. Usage: sampled,
-/// transfer source and destination.
+/// visible to every later submission (of the graph that it belongs to, to that graph's next frame);
+/// code that changes the layout must restore it. Usage: sampled, transfer source and destination.
 struct lobe_texture {
     lobe_device *device;
     char *name;
@@ -23,9 +30,11 @@ struct lobe_texture {
     VkImageView array_view; ///< of one layer
     engine_allocation allocation;
     uint64_t stamp; ///< of the content, see engine_device_stamp; changes on create and update
+    bool filled;    ///< once; until then, the layout is UNDEFINED
+    engine_upload_state uploads;
 };
 
-/// Content is visible to every later submission. Usage: uniform, storage, index, transfer source
+/// Content is visible as that of a texture. Usage: uniform, storage, index, transfer source
 /// and destination.
 struct lobe_buffer {
     lobe_device *device;
@@ -34,7 +43,16 @@ struct lobe_buffer {
     VkBuffer buffer;
     engine_allocation allocation;
     uint64_t stamp; ///< as in lobe_texture
+    engine_upload_state uploads;
 };
+
+/// As lobe_texture_create and lobe_buffer_create, for the graph with this queue (NULL: for none).
+lobe_result engine_texture_create_for(lobe_device *device, struct engine_uploads *queue,
+                                      const lobe_texture_parameters *parameters,
+                                      lobe_texture **texture);
+lobe_result engine_buffer_create_for(lobe_device *device, struct engine_uploads *queue,
+                                     const lobe_buffer_parameters *parameters,
+                                     lobe_buffer **buffer);
 
 // ---------------------------------------------------------------------------------------------
 // Building blocks of textures, buffers and the graph's own resources

@@ -63,14 +63,19 @@ static lobe_result create_views(lobe_texture *texture) {
     return result;
 }
 
-lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
-                                lobe_texture **texture) {
-    if (texture)
-        *texture = NULL;
-    if (!device || !parameters || !texture)
-        return lobe_host_fail(
-            device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
-            "lobe_texture_create: device, parameters and texture must not be NULL");
+static lobe_result fill(lobe_texture *texture, const lobe_image *image) {
+    engine_uploads *queue = texture->uploads.queue;
+    const lobe_rectangle whole = {0, 0, texture->width, texture->height};
+    const uint64_t size = (uint64_t)image->width * image->height * lobe_format_size(image->format);
+    texture->stamp = engine_device_stamp(texture->device);
+    return engine_uploads_take(queue, size)
+               ? engine_uploads_add_texture(queue, texture, image, &whole)
+               : engine_upload_texture_now(texture, image, &whole);
+}
+
+lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue,
+                                      const lobe_texture_parameters *parameters,
+                                      lobe_texture **texture) {
     const char *name = parameters->name ? parameters->name : "texture";
     lobe_result result = check_content(&device->host, name, parameters->image);
     if (result != LOBE_OK)
@@ -86,14 +91,26 @@ lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_paramete
     (*texture)->format = parameters->image->format;
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
+    (*texture)->uploads.queue = queue;
     result = create_image(*texture);
     if (result == LOBE_OK)
         result = create_views(*texture);
     if (result == LOBE_OK)
-        result = lobe_texture_update(*texture, parameters->image);
+        result = fill(*texture, parameters->image);
     if (result != LOBE_OK)
         lobe_texture_destroy(texture);
     return result;
+}
+
+lobe_result lobe_texture_create(lobe_device *device, const lobe_texture_parameters *parameters,
+                                lobe_texture **texture) {
+    if (texture)
+        *texture = NULL;
+    if (!device || !parameters || !texture)
+        return lobe_host_fail(
+            device ? &device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_texture_create: device, parameters and texture must not be NULL");
+    return engine_texture_create_for(device, NULL, parameters, texture);
 }
 
 bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
@@ -104,9 +121,26 @@ bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image) {
 }
 
 lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) {
+    return lobe_texture_update_part(texture, image, NULL);
+}
+
+static lobe_result check_part(const lobe_texture *texture, const lobe_rectangle *part) {
+    if (lobe_rectangle_lies_within(part, texture->width, texture->height))
+        return LOBE_OK;
+    return lobe_host_fail(&texture->device->host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "texture '%s' is %ux%u, without %ux%u texels at (%u, %u)", texture->name,
+                          texture->width, texture->height, part->width, part->height, part->x,
+                          part->y);
+}
+
+lobe_result lobe_texture_update_part(lobe_texture *texture, const lobe_image *image,
+                                     const lobe_rectangle *part) {
     if (!texture)
         return LOBE_ERROR_INVALID_ARGUMENT;
+    const lobe_rectangle whole = {0, 0, texture->width, texture->height};
     const lobe_host *host = &texture->device->host;
+    if (!part)
+        part = &whole;
     lobe_result result = check_content(host, texture->name, image);
     if (result != LOBE_OK)
         return result;
@@ -115,20 +149,22 @@ lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image) 
                               "texture '%s' is %ux%u %s, the new content %ux%u %s", texture->name,
                               texture->width, texture->height, lobe_format_name(texture->format),
                               image->width, image->height, lobe_format_name(image->format));
+    result = check_part(texture, part);
+    if (result != LOBE_OK)
+        return result;
     texture->stamp = engine_device_stamp(texture->device);
-    return engine_upload_image(texture->device, texture->name, texture->image, image);
+    return texture->uploads.queue
+               ? engine_uploads_add_texture(texture->uploads.queue, texture, image, part)
+               : engine_upload_texture_now(texture, image, part);
 }
 
 void lobe_texture_destroy(lobe_texture **texture) {
     if (!texture || !*texture)
         return;
-    lobe_device *device = (*texture)->device;
-    // On failure the device is lost, and has finished too.
-    (void)engine_device_wait_all(device);
-    device->api.vkDestroyImageView(device->vulkan, (*texture)->view, device->callbacks);
-    device->api.vkDestroyImageView(device->vulkan, (*texture)->array_view, device->callbacks);
-    device->api.vkDestroyImage(device->vulkan, (*texture)->image, device->callbacks);
-    engine_memory_free(device->memory, &(*texture)->allocation);
+    engine_discarded object = {.image = (*texture)->image,
+                               .views = {(*texture)->view, (*texture)->array_view},
+                               .allocation = (*texture)->allocation};
+    engine_upload_target_destroy((*texture)->device, &(*texture)->uploads, &object);
     lobe_release((*texture)->name);
     lobe_release(*texture);
     *texture = NULL;

@@ -78,6 +78,7 @@ static lobe_result record_passes(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
     engine_graph_reset_timestamps(graph);
     engine_graph_record_first_barrier(graph);
+    engine_uploads_record(&graph->kept.uploads, graph->frame.commands);
     for (uint32_t i = 0; result == LOBE_OK && i < count; i++) {
         engine_graph_write_timestamp(graph, i, false);
         result = engine_graph_record_barriers(graph, i, &next_barrier);
@@ -131,6 +132,7 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
     if (result != LOBE_OK)
         return result;
     flight->busy = true;
+    flight->copied = engine_uploads_commit(&graph->kept.uploads);
     if (flight->submission)
         engine_pipelines_end_use_after(graph->device, &flight->pipelines, flight->submission);
     engine_graph_stamp_retained(graph);

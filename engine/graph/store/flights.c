@@ -42,6 +42,7 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
     engine_graph_object imported = {.views = flight->views};
     engine_graph_free_views(graph->device, &imported);
     flight->views = NULL;
+    engine_uploads_release(&graph->kept.uploads, flight->copied);
     if (flight->busy)
         engine_pipelines_end_use(graph->device, &flight->pipelines);
     flight->busy = false;

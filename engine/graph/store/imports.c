@@ -4,6 +4,34 @@
 
 #include <lobe/vulkan.h>
 
+// ---------------------------------------------------------------------------------------------
+// Textures and buffers of the graph
+
+lobe_result lobe_graph_create_texture(lobe_graph *graph, const lobe_texture_parameters *parameters,
+                                      lobe_texture **texture) {
+    if (texture)
+        *texture = NULL;
+    if (!graph || !parameters || !texture)
+        return lobe_host_fail(
+            graph ? &graph->device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_graph_create_texture: graph, parameters and texture must not be NULL");
+    return engine_texture_create_for(graph->device, &graph->kept.uploads, parameters, texture);
+}
+
+lobe_result lobe_graph_create_buffer(lobe_graph *graph, const lobe_buffer_parameters *parameters,
+                                     lobe_buffer **buffer) {
+    if (buffer)
+        *buffer = NULL;
+    if (!graph || !parameters || !buffer)
+        return lobe_host_fail(
+            graph ? &graph->device->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+            "lobe_graph_create_buffer: graph, parameters and buffer must not be NULL");
+    return engine_buffer_create_for(graph->device, &graph->kept.uploads, parameters, buffer);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Uploads of the frame
+
 static lobe_result reserve_uploads(lobe_graph *graph, uint64_t size) {
     if (size <= graph->frame.flight->upload_size)
         return LOBE_OK;
@@ -51,6 +79,9 @@ static lobe_result place_uploads(lobe_graph *graph) {
     }
     return result;
 }
+
+// ---------------------------------------------------------------------------------------------
+// All imports
 
 lobe_result engine_graph_place_imports(lobe_graph *graph) {
     uint32_t count = graph->frame.dependencies.resource_count;

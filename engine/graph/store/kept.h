@@ -13,6 +13,7 @@
 #include "engine/graph/plan/dependency_graph.h"
 #include "engine/pipeline/use.h"
 #include "engine/resource/resource.h"
+#include "engine/resource/upload.h"
 
 /// What a graph keeps between frames: Vulkan objects, their memory, and stamps of their content.
 
@@ -66,6 +67,7 @@ typedef struct engine_graph_flight {
     engine_graph_object uploads;
     engine_allocation upload_memory;
     uint64_t upload_size;
+    uint64_t copied; ///< position of the graph's uploads where the frame's copies end
     engine_staging read_back;
     engine_graph_view *views; ///< of host images that came without a view
     VkDescriptorPool descriptors;
@@ -79,6 +81,7 @@ typedef struct engine_graph_flight {
 } engine_graph_flight;
 
 typedef struct engine_graph_kept {
+    engine_uploads uploads; ///< to the graph's textures and buffers, for the next frame
     engine_graph_retained *retained;
     engine_graph_transients transients;
     engine_graph_flight flights[LOBE_MAXIMUM_FRAMES_IN_FLIGHT];

@@ -139,7 +139,12 @@ LOBE_API lobe_result lobe_texture_create(lobe_device *device,
 LOBE_API bool lobe_texture_takes(const lobe_texture *texture, const lobe_image *image);
 /// Replaces the content; same format and extent. Graph passes that read the texture run again.
 LOBE_API lobe_result lobe_texture_update(lobe_texture *texture, const lobe_image *image);
-/// Waits until the device has finished with the texture. Clears the pointer; NULL is allowed.
+/// The same where only a part of the image differs from the content: the rest is not read, as a
+/// rule. NULL: all of it. LOBE_ERROR_INVALID_ARGUMENT: the part has no texels, or lies outside.
+LOBE_API lobe_result lobe_texture_update_part(lobe_texture *texture, const lobe_image *image,
+                                              const lobe_rectangle *part);
+/// Waits until the device has finished with the texture, unless that is a graph's. Clears the
+/// pointer; NULL is allowed.
 LOBE_API void lobe_texture_destroy(lobe_texture **texture);
 
 /// A linear range of device memory with content from the host: vertices, indices, or any storage or

@@ -102,6 +102,23 @@ LOBE_API lobe_resource lobe_graph_image(lobe_graph *graph,
 LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
                                          const lobe_buffer_description *description);
 
+/// Creates a texture or buffer of a graph, for content that changes between frames. Only frames of
+/// this graph may use it, and only the graph's thread. What it is given, now and by
+/// lobe_texture_update, lobe_texture_update_part and lobe_buffer_update, is copied during the call
+/// to memory that the graph keeps for that, and to the device at the start of the graph's next
+/// frame, in that frame's submission: nothing is waited for, and while frames follow each other no
+/// Vulkan object is created. (Content of new objects before the first frame, and more than 16 MiB
+/// of it between two frames, is submitted and waited for.) If a frame fails, the next one copies.
+/// lobe_texture_destroy and lobe_buffer_destroy do not wait either, and come before
+/// lobe_graph_destroy. Errors: as of lobe_texture_create and lobe_buffer_create; an update that
+/// fails leaves the content.
+LOBE_API lobe_result lobe_graph_create_texture(lobe_graph *graph,
+                                               const lobe_texture_parameters *parameters,
+                                               lobe_texture **texture);
+LOBE_API lobe_result lobe_graph_create_buffer(lobe_graph *graph,
+                                              const lobe_buffer_parameters *parameters,
+                                              lobe_buffer **buffer);
+
 /// Imports a texture or buffer; passes may only read it. The object must live until the frame has
 /// executed. Importing the same object twice returns the same resource.
 LOBE_API lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);

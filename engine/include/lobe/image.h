@@ -1,6 +1,7 @@
 #ifndef LOBE_IMAGE_H
 #define LOBE_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -49,6 +50,15 @@ typedef struct lobe_image {
     uint32_t height; ///< texels
     void *texels;    ///< width * height * lobe_format_size(format) bytes, owned by the image
 } lobe_image;
+
+/// Texels of an image: `width` columns from `x` on, `height` rows from `y` on.
+typedef struct lobe_rectangle {
+    uint32_t x, y, width, height;
+} lobe_rectangle;
+
+/// Whether a rectangle has texels, all of them in an image of this extent.
+LOBE_API bool lobe_rectangle_lies_within(const lobe_rectangle *rectangle, uint32_t width,
+                                         uint32_t height);
 
 /// Largest width or height of any image in lobe, in texels.
 #define LOBE_IMAGE_MAXIMUM_EXTENT 65535u

@@ -64,11 +64,24 @@ static void absurd_extents_are_refused(void **state) {
     lobe_image_free(&image);
 }
 
+static void rectangles_lie_within_images(void **state) {
+    static const lobe_rectangle inside[] = {{0, 0, 7, 5}, {6, 4, 1, 1}, {2, 1, 3, 4}};
+    static const lobe_rectangle outside[] = {
+        {0, 0, 8, 1}, {0, 0, 1, 6}, {7, 0, 1, 1},          {0, 5, 1, 1},
+        {0, 0, 0, 1}, {0, 0, 1, 0}, {2, 0, UINT32_MAX, 1}, {UINT32_MAX, 0, 2, 1}};
+    (void)state;
+    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++)
+        assert_true(lobe_rectangle_lies_within(&inside[i], 7, 5));
+    for (size_t i = 0; i < sizeof outside / sizeof *outside; i++)
+        assert_false(lobe_rectangle_lies_within(&outside[i], 7, 5));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formats_have_size_channels_and_name),
         cmocka_unit_test(texels_start_as_zeroes),
         cmocka_unit_test(absurd_extents_are_refused),
+        cmocka_unit_test(rectangles_lie_within_images),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

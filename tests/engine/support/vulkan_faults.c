@@ -15,17 +15,26 @@ typedef struct stand_in {
     PFN_vkVoidFunction function;
     bool fallible;
     bool failed; ///< at least once
+    _Atomic int calls;
     struct stand_in *next;
 } stand_in;
 
 static stand_in *all_stand_ins;
 
 static bool fails(stand_in *function) {
+    function->calls++;
     if (faults.paused || ++faults.calls != faults.failing)
         return false;
     faults.failed = function->vulkan_name;
     function->failed = true;
     return true;
+}
+
+int vulkan_calls(const char *name) {
+    const stand_in *function = all_stand_ins;
+    while (strcmp(function->vulkan_name, name) != 0)
+        function = function->next;
+    return function->calls;
 }
 
 const char *vulkan_fault_left_out(void) {

@@ -26,6 +26,9 @@ typedef struct vulkan_faults {
 
 extern vulkan_faults faults;
 
+/// How often a fallible function was called in this process. There must be one of this name.
+int vulkan_calls(const char *name);
+
 /// The name of a fallible function that never failed in this process; NULL if each did.
 const char *vulkan_fault_left_out(void);
 

@@ -63,6 +63,7 @@ static void images(void **state) {
     assert_int_equal(lobe_format_channels((lobe_format)1000), 0);
     assert_non_null(lobe_format_name((lobe_format)1000));
     lobe_image_free(NULL);
+    assert_false(lobe_rectangle_lies_within(NULL, 1, 1));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_image_allocate: image",
             lobe_image_allocate(NULL, LOBE_FORMAT_R8_UNORM, 1, 1, host));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "format",
@@ -144,12 +145,22 @@ static void textures_and_buffers(void **state) {
             lobe_texture_create(f->device, &(lobe_texture_parameters){.image = &empty}, &texture));
     REFUSED_SILENTLY(lobe_texture_create(NULL, NULL, NULL));
     REFUSED_SILENTLY(lobe_texture_update(NULL, &empty));
+    REFUSED_SILENTLY(lobe_texture_update_part(NULL, &empty, NULL));
     assert_false(lobe_texture_takes(NULL, NULL));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_graph_create_texture",
+            lobe_graph_create_texture(f->graph, NULL, &texture));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "no image given",
+            lobe_graph_create_texture(f->graph, &(lobe_texture_parameters){0}, &texture));
+    assert_null(texture);
+    REFUSED_SILENTLY(lobe_graph_create_texture(NULL, NULL, NULL));
     lobe_texture_destroy(NULL);
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "size of 0",
             lobe_buffer_create(f->device, &(lobe_buffer_parameters){0}, &buffer));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_buffer_create",
             lobe_buffer_create(f->device, NULL, &buffer));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_graph_create_buffer",
+            lobe_graph_create_buffer(f->graph, NULL, &buffer));
+    REFUSED_SILENTLY(lobe_graph_create_buffer(NULL, NULL, NULL));
     REFUSED_SILENTLY(lobe_buffer_update(NULL, NULL));
     lobe_buffer_destroy(NULL);
 }

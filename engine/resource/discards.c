@@ -1,0 +1,38 @@
+#include "engine/resource/discards.h"
+
+#include "engine/base/growing_array.h"
+#include "engine/device/device.h"
+
+bool engine_discards_add(lobe_device *device, engine_discards *discards,
+                         const engine_discarded *object) {
+    if (!engine_array_reserve(device->host.allocator, (void **)&discards->items,
+                              &discards->capacity, (uint64_t)discards->count + 1,
+                              sizeof *discards->items))
+        return false;
+    discards->items[discards->count++] = *object;
+    return true;
+}
+
+void engine_discarded_destroy(lobe_device *device, engine_discarded *object) {
+    for (int i = 0; i < 2; i++)
+        device->api.vkDestroyImageView(device->vulkan, object->views[i], device->callbacks);
+    device->api.vkDestroyImage(device->vulkan, object->image, device->callbacks);
+    device->api.vkDestroyBuffer(device->vulkan, object->buffer, device->callbacks);
+    engine_memory_free(device->memory, &object->allocation);
+}
+
+void engine_discards_release(lobe_device *device, engine_discards *discards, uint64_t position) {
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < discards->count; i++)
+        if (discards->items[i].until <= position)
+            engine_discarded_destroy(device, &discards->items[i]);
+        else
+            discards->items[left++] = discards->items[i];
+    discards->count = left;
+}
+
+void engine_discards_free(lobe_device *device, engine_discards *discards) {
+    engine_discards_release(device, discards, UINT64_MAX);
+    lobe_release(discards->items);
+    *discards = (engine_discards){0};
+}

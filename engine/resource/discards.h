@@ -1,0 +1,38 @@
+#ifndef ENGINE_RESOURCE_DISCARDS_H
+#define ENGINE_RESOURCE_DISCARDS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#include "engine/resource/memory.h"
+
+/// A Vulkan object with its memory and views, which frames in flight may still use.
+typedef struct engine_discarded {
+    uint64_t until; ///< the ring position that these frames have released when they are done
+    VkImage image;
+    VkImageView views[2];
+    VkBuffer buffer;
+    engine_allocation allocation;
+} engine_discarded;
+
+/// What is destroyed once the frames that may use it are done: nobody waits for them. All zero:
+/// none.
+typedef struct engine_discards {
+    engine_discarded *items;
+    uint32_t count, capacity;
+} engine_discards;
+
+/// False if out of memory: the object is still the caller's.
+bool engine_discards_add(lobe_device *device, engine_discards *discards,
+                         const engine_discarded *object);
+/// Destroys the objects whose frames have released everything up to `position`.
+void engine_discards_release(lobe_device *device, engine_discards *discards, uint64_t position);
+/// Destroys all of them: the frames are done.
+void engine_discards_free(lobe_device *device, engine_discards *discards);
+
+/// Destroys one object, which no frame uses.
+void engine_discarded_destroy(lobe_device *device, engine_discarded *object);
+
+#endif

@@ -1,0 +1,106 @@
+#include "engine/resource/staging_ring.h"
+
+#include "engine/device/device.h"
+
+enum {
+    ALIGNMENT = 16, ///< the largest texel
+    MINIMUM = 64 << 10,
+};
+
+static uint64_t round_up(uint64_t value, uint64_t step) {
+    return (value + step - 1) / step * step;
+}
+
+static uint64_t largest(uint64_t first, uint64_t second) {
+    return first > second ? first : second;
+}
+
+/// Takes `size` bytes in a row. False if the memory has no room for them.
+static bool place(engine_staging_ring *ring, VkDeviceSize size, engine_staged *staged) {
+    const uint64_t capacity = ring->memory.size;
+    if (size > capacity)
+        return false;
+    uint64_t used = largest(ring->begin, ring->origin);
+    if (used == ring->end)
+        used = ring->origin = ring->end; // empty: from the front
+    uint64_t first = ring->end - ring->origin;
+    if (first % capacity + size > capacity)
+        first = round_up(first, capacity);
+    if (ring->origin + first + size - used > capacity)
+        return false;
+    ring->end = ring->origin + first + round_up(size, ALIGNMENT);
+    staged->buffer = ring->memory.buffer;
+    staged->offset = first % capacity;
+    staged->mapped = (char *)ring->memory.mapped + staged->offset;
+    return true;
+}
+
+static engine_discarded memory_of(const engine_staging_ring *ring) {
+    return (engine_discarded){
+        .until = ring->end, .buffer = ring->memory.buffer, .allocation = ring->memory.allocation};
+}
+
+static lobe_result grow(lobe_device *device, engine_staging_ring *ring, VkDeviceSize size) {
+    engine_staging grown;
+    const engine_discarded former = memory_of(ring);
+    lobe_result result = engine_staging_create(
+        device, "staging ring", round_up(largest(2 * ring->memory.size, size), MINIMUM),
+        ENGINE_MEMORY_UPLOAD, &grown);
+    if (result != LOBE_OK)
+        return result;
+    if (!engine_discards_add(device, &ring->discards, &former)) {
+        engine_staging_destroy(device, &grown);
+        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
+                              "staging ring: out of memory");
+    }
+    engine_discards_release(device, &ring->discards, ring->begin);
+    ring->memory = grown;
+    ring->origin = ring->end;
+    return LOBE_OK;
+}
+
+lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring *ring,
+                                        VkDeviceSize size, engine_staged *staged) {
+    lobe_result result = LOBE_OK;
+    while (result == LOBE_OK && !place(ring, size, staged))
+        result = grow(device, ring, size);
+    return result;
+}
+
+void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
+                                 uint64_t position) {
+    ring->begin = largest(ring->begin, position);
+    engine_discards_release(device, &ring->discards, ring->begin);
+}
+
+void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
+                                 engine_discarded *object) {
+    object->until = ring->end;
+    if (ring->begin < ring->end && engine_discards_add(device, &ring->discards, object))
+        return;
+    // Nothing is in flight, or nothing can say until when. A lost device has finished, too.
+    if (ring->begin < ring->end)
+        (void)engine_device_wait_all(device);
+    engine_discarded_destroy(device, object);
+}
+
+static void give_back(lobe_device *device, engine_staging_ring *ring) {
+    engine_discarded former = memory_of(ring);
+    engine_staging_ring_discard(device, ring, &former);
+    ring->memory = (engine_staging){0};
+}
+
+uint64_t engine_staging_ring_end_frame(lobe_device *device, engine_staging_ring *ring) {
+    ring->unused = ring->end == ring->next ? ring->unused + 1 : 0;
+    ring->end += ALIGNMENT; // no two frames end at the same position
+    ring->next = ring->end;
+    if (ring->unused == ENGINE_STAGING_UNUSED_FRAMES)
+        give_back(device, ring);
+    return ring->end;
+}
+
+void engine_staging_ring_free(lobe_device *device, engine_staging_ring *ring) {
+    engine_discards_free(device, &ring->discards);
+    engine_staging_destroy(device, &ring->memory);
+    *ring = (engine_staging_ring){0};
+}

@@ -1,0 +1,50 @@
+#ifndef ENGINE_RESOURCE_STAGING_RING_H
+#define ENGINE_RESOURCE_STAGING_RING_H
+
+#include <stdint.h>
+
+#include <vulkan/vulkan.h>
+
+#include "engine/resource/discards.h"
+#include "engine/resource/resource.h"
+
+/// Frames without content after which the memory goes.
+#define ENGINE_STAGING_UNUSED_FRAMES 100
+
+/// Mapped memory that content passes through on its way to the device. A frame releases its part
+/// when it is done; where that leaves no room, larger memory takes the place of the former. After
+/// many frames that took nothing, there is no memory again.
+///
+/// Positions only grow: they are also the clock by which frames, and what they use, end. All zero:
+/// a ring without memory.
+typedef struct engine_staging_ring {
+    engine_staging memory;
+    uint64_t origin;          ///< the position of the memory's first byte
+    uint64_t begin, end;      ///< what the frames in flight and the next one use
+    uint64_t next;            ///< where the next frame begins
+    uint32_t unused;          ///< frames in a row that took nothing
+    engine_discards discards; ///< former memory, and what else these frames use
+} engine_staging_ring;
+
+/// A part of the ring, for the next frame.
+typedef struct engine_staged {
+    VkBuffer buffer;
+    VkDeviceSize offset; ///< a multiple of the size of any texel
+    void *mapped;
+} engine_staged;
+
+/// Errors: those of engine_staging_create; the ring is as it was.
+lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring *ring,
+                                        VkDeviceSize size, engine_staged *staged);
+/// Ends the next frame, which is in flight from now on; returns the position at which it ends.
+uint64_t engine_staging_ring_end_frame(lobe_device *device, engine_staging_ring *ring);
+/// The frames that end at `position` or before are done.
+void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring, uint64_t position);
+/// Destroys an object once all frames until now are done. Waits only where the host is out of
+/// memory.
+void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
+                                 engine_discarded *object);
+/// All frames must be done.
+void engine_staging_ring_free(lobe_device *device, engine_staging_ring *ring);
+
+#endif
