@@ -37,8 +37,8 @@ static void forget_scene(lobe_renderer *renderer) {
 void lobe_renderer_destroy(lobe_renderer **renderer) {
     if (!renderer || !*renderer)
         return;
-    lobe_graph_destroy(&(*renderer)->graph);
     forget_scene(*renderer);
+    lobe_graph_destroy(&(*renderer)->graph);
     lobe_release(*renderer);
     *renderer = NULL;
 }
@@ -47,12 +47,13 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     if (!renderer)
         return LOBE_ERROR_INVALID_ARGUMENT;
     // A new graph: the former scene's retained maps must not be mistaken for maps of the new one.
-    lobe_graph_destroy(&renderer->graph);
     forget_scene(renderer);
+    lobe_graph_destroy(&renderer->graph);
     lobe_result result = lobe_graph_create(renderer->device, &renderer->graph);
     if (result != LOBE_OK || !scene)
         return result;
-    result = passes_device_scene_create(renderer->device, scene, &renderer->host, &renderer->scene);
+    result = passes_device_scene_create(renderer->device, renderer->graph, scene, &renderer->host,
+                                        &renderer->scene);
     if (result != LOBE_OK)
         return result;
     renderer->appearances = lobe_allocate(renderer->host.allocator, scene->instance_count,
@@ -74,8 +75,7 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     if (!renderer->scene)
         return lobe_host_fail(&renderer->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "update: no scene is set");
-    lobe_result result =
-        passes_device_scene_update(renderer->device, renderer->scene, changes, &renderer->host);
+    lobe_result result = passes_device_scene_update(renderer->scene, changes, &renderer->host);
     // Also after an error: it may have come when some materials were already changed.
     passes_filter_slots_update(renderer->slots, renderer->scene);
     if (result == LOBE_OK && changes->material_count > 0)

@@ -83,31 +83,28 @@ static void measure_instance(device_scene *scene, size_t index) {
     };
 }
 
-static lobe_result upload_material(lobe_device *device, device_scene *result, uint32_t index,
-                                   const lobe_host *host) {
+static lobe_result upload_material(device_scene *result, uint32_t index, const lobe_host *host) {
     if (result->materials[index].constants)
         return LOBE_OK;
     lobe_result status = passes_scene_check_material(result->scene, index, host);
-    return status == LOBE_OK ? passes_device_scene_upload_material(device, result, index, host)
-                             : status;
+    return status == LOBE_OK ? passes_device_scene_upload_material(result, index, host) : status;
 }
 
-static lobe_result upload_mesh(lobe_device *device, device_scene *result, uint32_t index,
-                               const lobe_host *host) {
+static lobe_result upload_mesh(device_scene *result, uint32_t index, const lobe_host *host) {
     if (result->vertices[index])
         return LOBE_OK;
     lobe_result status = passes_scene_check_mesh(result->scene, index, host);
-    return status == LOBE_OK ? passes_device_scene_upload_mesh(device, result, index) : status;
+    return status == LOBE_OK ? passes_device_scene_upload_mesh(result, index) : status;
 }
 
-lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
-                                                size_t index, const lobe_host *host) {
+lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t index,
+                                                const lobe_host *host) {
     const lobe_instance *source = &scene->scene->instances[index];
     lobe_result status = passes_device_scene_check_instance(scene->scene, index, host);
     if (status == LOBE_OK)
-        status = upload_mesh(device, scene, source->mesh, host);
+        status = upload_mesh(scene, source->mesh, host);
     if (status == LOBE_OK)
-        status = upload_material(device, scene, source->material, host);
+        status = upload_material(scene, source->material, host);
     if (status == LOBE_OK)
         measure_instance(scene, index);
     return status;

@@ -37,31 +37,41 @@ static void fill_constants(const device_material *material, struct material_cons
     }
 }
 
-static lobe_result upload_image(lobe_device *device, device_scene *result, int32_t index,
-                                const lobe_host *host) {
+static lobe_result upload_image(device_scene *result, int32_t index, const lobe_host *host) {
     if (result->images[index])
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
     lobe_result status = passes_scene_check_image(result->scene, (size_t)index, host);
     if (status != LOBE_OK)
         return status;
-    return lobe_texture_create(
-        device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
+    return lobe_graph_create_texture(
+        result->graph, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
         &result->images[index]);
+}
+
+/// Whether a row has the same bytes in a channel as another texel. Without branches, for compilers
+/// to vectorise.
+static bool row_equals(const unsigned char *row, uint32_t width, size_t texel, size_t channel,
+                       const unsigned char *other) {
+    unsigned different = 0;
+    for (size_t byte = 0; byte < channel; byte++)
+        for (size_t x = 0; x < width; x++)
+            different |= (unsigned)(row[x * texel + byte] ^ other[byte]);
+    return different == 0;
 }
 
 /// Whether a metallic-roughness map has a single metallic value; if so, returns it.
 static bool metallic_is_constant(const lobe_image *image, float *metallic) {
-    float first[4], texel[4];
+    const size_t texel = lobe_format_size(image->format);
+    const uint32_t channels = lobe_format_channels(image->format);
+    float first[4];
     if (!passes_image_texel(image, 0, 0, first))
         return false;
-    for (uint32_t y = 0; y < image->height; y++) {
-        for (uint32_t x = 0; x < image->width; x++) {
-            passes_image_texel(image, x, y, texel);
-            if (texel[2] != first[2])
-                return false;
-        }
-    }
+    const size_t channel = texel / channels;
+    const unsigned char *values = (const unsigned char *)image->texels + 2 * channel;
+    for (size_t y = 0; channels > 2 && y < image->height; y++)
+        if (!row_equals(values + y * image->width * texel, image->width, texel, channel, values))
+            return false;
     *metallic = first[2];
     return true;
 }
@@ -78,14 +88,14 @@ static void measure_metallic(const lobe_scene *scene, device_material *material)
         material->metallic_varies = true;
 }
 
-static lobe_result find_maps(lobe_device *device, device_scene *result, device_material *material,
+static lobe_result find_maps(device_scene *result, device_material *material,
                              const lobe_host *host) {
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
         const lobe_texture_use *use =
             passes_material_map_use(result->scene, material->material, map);
         if (!use)
             continue;
-        lobe_result status = upload_image(device, result, use->image, host);
+        lobe_result status = upload_image(result, use->image, host);
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
@@ -121,27 +131,32 @@ static bool are_equal(const struct material_constants *a, const struct material_
     return memcmp(&left, &right, sizeof left) == 0;
 }
 
-static lobe_result store(lobe_device *device, const char *name,
+static lobe_result store(lobe_graph *graph, const char *name,
                          const struct material_constants *constants, lobe_buffer **buffer) {
     if (*buffer)
         return lobe_buffer_update(*buffer, constants);
-    return lobe_buffer_create(
-        device,
+    return lobe_graph_create_buffer(
+        graph,
         &(lobe_buffer_parameters){.name = name, .size = sizeof *constants, .data = constants},
         buffer);
 }
 
-static lobe_result store_constants(lobe_device *device, device_material *material) {
+/// Nothing that the device has already is written again.
+static lobe_result store_constants(lobe_graph *graph, device_material *material) {
     const char *name = material->material->name;
+    const struct material_constants before = material->values;
     struct material_constants constants;
     fill_constants(material, &constants);
-    bool same = material->map_constants && are_equal(&constants, &material->values, forget_colours);
-    material->values = constants;
-    lobe_result status = store(device, name, &constants, &material->constants);
-    if (status != LOBE_OK || same)
+    lobe_result status = LOBE_OK;
+    if (!material->constants || memcmp(&constants, &before, sizeof constants) != 0)
+        status = store(graph, name, &constants, &material->constants);
+    if (status != LOBE_OK)
         return status;
+    material->values = constants;
+    if (material->map_constants && are_equal(&constants, &before, forget_colours))
+        return LOBE_OK;
     forget_colours(&constants);
-    return store(device, name, &constants, &material->map_constants);
+    return store(graph, name, &constants, &material->map_constants);
 }
 
 /// Whether the material has the lobes that it had, apart from changes in the images.
@@ -155,8 +170,8 @@ static bool keeps_lobes(const device_material *before, const device_material *af
            are_equal(&before->values, &after->values, forget_paint);
 }
 
-lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
-                                                uint32_t index, const lobe_host *host) {
+lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t index,
+                                                const lobe_host *host) {
     device_material *material = &scene->materials[index];
     const device_material before = *material;
     // Rebuild everything except the GPU buffers.
@@ -169,10 +184,10 @@ lobe_result passes_device_scene_upload_material(lobe_device *device, device_scen
                                   .map_constants = before.map_constants,
                                   .values = before.values,
                                   .version = before.version};
-    lobe_result status = find_maps(device, scene, material, host);
+    lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         measure_metallic(scene->scene, material);
-        status = store_constants(device, material);
+        status = store_constants(scene->graph, material);
     }
     if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material))
         ++material->version;

@@ -56,29 +56,34 @@ static void measure_density(const lobe_mesh *mesh, mesh_measures *measures) {
 }
 
 static mesh_measures measure(const lobe_mesh *mesh) {
-    mesh_measures measures = {{INFINITY, INFINITY}, INFINITY, -INFINITY};
+    mesh_measures measures = {
+        {INFINITY, INFINITY}, INFINITY, -INFINITY, mesh->vertex_count, mesh->index_count};
     measure_density(mesh, &measures);
     measure_alpha(mesh, &measures);
     return measures;
 }
 
-lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
-                                            uint32_t index) {
+/// `kept`: the buffer, if there is one, has the right size.
+static lobe_result store(lobe_graph *graph, const char *name, size_t size, const void *data,
+                         bool kept, lobe_buffer **buffer) {
+    if (*buffer && kept)
+        return lobe_buffer_update(*buffer, data);
+    lobe_buffer_destroy(buffer);
+    return lobe_graph_create_buffer(
+        graph, &(lobe_buffer_parameters){.name = name, .size = size, .data = data}, buffer);
+}
+
+lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index) {
     const lobe_mesh *mesh = &scene->scene->meshes[index];
-    lobe_result status = lobe_buffer_create(
-        device,
-        &(lobe_buffer_parameters){.name = mesh->name,
-                                  .size = mesh->vertex_count * sizeof *mesh->vertices,
-                                  .data = mesh->vertices},
-        &scene->vertices[index]);
+    const mesh_measures before = scene->measures[index];
+    char name[128];
+    snprintf(name, sizeof name, "indices of %s", mesh->name);
+    lobe_result status =
+        store(scene->graph, mesh->name, mesh->vertex_count * sizeof *mesh->vertices, mesh->vertices,
+              mesh->vertex_count == before.vertex_count, &scene->vertices[index]);
     if (status != LOBE_OK)
         return status;
     scene->measures[index] = measure(mesh);
-    char name[128];
-    snprintf(name, sizeof name, "indices of %s", mesh->name);
-    return lobe_buffer_create(
-        device,
-        &(lobe_buffer_parameters){
-            .name = name, .size = mesh->index_count * sizeof *mesh->indices, .data = mesh->indices},
-        &scene->indices[index]);
+    return store(scene->graph, name, mesh->index_count * sizeof *mesh->indices, mesh->indices,
+                 mesh->index_count == before.index_count, &scene->indices[index]);
 }

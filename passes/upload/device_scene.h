@@ -51,11 +51,14 @@ typedef struct mesh_measures {
     /// triangles.
     float least_density[2];
     float least_alpha, largest_alpha; ///< of the vertices' colours
+    size_t vertex_count, index_count;
 } mesh_measures;
 
-/// The device's copy of a scene: only what instances use.
+/// The device's copy of a scene: only what instances use. What is uploaded reaches the device with
+/// the graph's next frame.
 typedef struct device_scene {
     const lobe_scene *scene;
+    lobe_graph *graph;               ///< which textures and buffers belong to
     const lobe_allocator *allocator; ///< the device's
     lobe_texture *white;             ///< one white texel, where a map is missing
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used

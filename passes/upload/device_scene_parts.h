@@ -6,24 +6,24 @@
 /// The steps that creation and update of a device scene share, one per part. Each also uploads what
 /// the part needs and the device does not have yet.
 
-/// Describes a material from the scene and its maps, and stores its constants, in the buffers it
-/// has or in new ones. The material must have been checked.
-lobe_result passes_device_scene_upload_material(lobe_device *device, device_scene *scene,
-                                                uint32_t index, const lobe_host *host);
+/// Describes a material from the scene and its maps, and stores those of its constants that differ,
+/// in the buffers it has or in new ones. The material must have been checked.
+lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t index,
+                                                const lobe_host *host);
 
-/// Creates the buffers of a mesh that has none. The mesh must have been checked.
-lobe_result passes_device_scene_upload_mesh(lobe_device *device, device_scene *scene,
-                                            uint32_t index);
+/// Fills the buffers of a mesh, which are created where it has none of that size. The mesh must
+/// have been checked.
+lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index);
 
 /// Creates the texture of the scene's environment, if it has one.
-lobe_result passes_device_scene_upload_environment(lobe_device *device, device_scene *scene);
+lobe_result passes_device_scene_upload_environment(device_scene *scene);
 
 /// LOBE_ERROR_MALFORMED if the mesh or the material does not exist.
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host);
 /// Checks and uploads what the instance needs and the device does not have, then derives
 /// what follows from its transform, mesh and maps.
-lobe_result passes_device_scene_upload_instance(lobe_device *device, device_scene *scene,
-                                                size_t index, const lobe_host *host);
+lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t index,
+                                                const lobe_host *host);
 
 #endif

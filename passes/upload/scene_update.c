@@ -6,7 +6,6 @@
 
 /// One update: what the host declared as changed, and what follows from that.
 typedef struct scene_update {
-    lobe_device *device;
     device_scene *scene;
     const lobe_scene_changes *changes;
     const lobe_host *host;
@@ -145,18 +144,14 @@ static lobe_result update_image(const scene_update *update, uint32_t index) {
     if (lobe_texture_takes(*texture, &image->image))
         return lobe_texture_update(*texture, &image->image);
     lobe_texture_destroy(texture);
-    return lobe_texture_create(
-        update->device, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
-        texture);
+    return lobe_graph_create_texture(
+        update->scene->graph,
+        &(lobe_texture_parameters){.name = image->name, .image = &image->image}, texture);
 }
 
 static lobe_result update_mesh(const scene_update *update, uint32_t index) {
     device_scene *scene = update->scene;
-    if (!scene->vertices[index])
-        return LOBE_OK;
-    lobe_buffer_destroy(&scene->vertices[index]);
-    lobe_buffer_destroy(&scene->indices[index]);
-    return passes_device_scene_upload_mesh(update->device, scene, index);
+    return scene->vertices[index] ? passes_device_scene_upload_mesh(scene, index) : LOBE_OK;
 }
 
 static lobe_result update_environment(const scene_update *update) {
@@ -166,7 +161,7 @@ static lobe_result update_environment(const scene_update *update) {
         lobe_texture_takes(scene->environment, &environment->image))
         return lobe_texture_update(scene->environment, &environment->image);
     lobe_texture_destroy(&scene->environment);
-    return passes_device_scene_upload_environment(update->device, scene);
+    return passes_device_scene_upload_environment(scene);
 }
 
 /// Other texels are other lobes.
@@ -186,23 +181,21 @@ static lobe_result apply(const scene_update *update) {
         result = update_image(update, changes->images[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->material_count; i++)
         if (update->materials[i])
-            result = passes_device_scene_upload_material(update->device, update->scene, (uint32_t)i,
-                                                         update->host);
+            result = passes_device_scene_upload_material(update->scene, (uint32_t)i, update->host);
     mark_new_texels(update);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
         result = update_mesh(update, changes->meshes[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; i++)
         if (update->instances[i])
-            result =
-                passes_device_scene_upload_instance(update->device, update->scene, i, update->host);
+            result = passes_device_scene_upload_instance(update->scene, i, update->host);
     if (result == LOBE_OK && changes->environment)
         result = update_environment(update);
     return result;
 }
 
-lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
-                                       const lobe_scene_changes *changes, const lobe_host *host) {
-    scene_update update = {.device = device, .scene = scene, .changes = changes, .host = host};
+lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_changes *changes,
+                                       const lobe_host *host) {
+    scene_update update = {.scene = scene, .changes = changes, .host = host};
     lobe_result result = check_all_indices(&update);
     if (result == LOBE_OK)
         result = check_content(&update);

@@ -4,19 +4,21 @@
 #include "passes/upload/frame_check.h"
 #include "passes/upload/scene_check.h"
 
-static lobe_result upload_white(lobe_device *device, device_scene *result) {
+static lobe_result upload_white(device_scene *result) {
     uint8_t texel[4] = {255, 255, 255, 255};
     lobe_image image = {LOBE_FORMAT_RGBA8_UNORM, 1, 1, texel};
-    return lobe_texture_create(device, &(lobe_texture_parameters){.name = "white", .image = &image},
-                               &result->white);
+    return lobe_graph_create_texture(result->graph,
+                                     &(lobe_texture_parameters){.name = "white", .image = &image},
+                                     &result->white);
 }
 
-lobe_result passes_device_scene_upload_environment(lobe_device *device, device_scene *result) {
+lobe_result passes_device_scene_upload_environment(device_scene *result) {
     const lobe_environment *environment = result->scene->environment;
     if (!environment)
         return LOBE_OK;
-    return lobe_texture_create(
-        device, &(lobe_texture_parameters){.name = environment->name, .image = &environment->image},
+    return lobe_graph_create_texture(
+        result->graph,
+        &(lobe_texture_parameters){.name = environment->name, .image = &environment->image},
         &result->environment);
 }
 
@@ -38,13 +40,15 @@ static bool allocate_tables(device_scene *result) {
            result->measures && result->instances;
 }
 
-lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
-                                       const lobe_host *host, device_scene **result) {
+lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
+                                       const lobe_scene *scene, const lobe_host *host,
+                                       device_scene **result) {
     lobe_result status = LOBE_ERROR_OUT_OF_MEMORY;
     const lobe_allocator *allocator = lobe_device_allocator(device);
     *result = lobe_allocate(allocator, 1, sizeof **result);
     if (*result) {
         (*result)->scene = scene;
+        (*result)->graph = graph;
         (*result)->allocator = allocator;
     }
     if (!*result || !allocate_tables(*result)) {
@@ -55,13 +59,13 @@ lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *sc
     if (status == LOBE_OK)
         status = passes_check_frame(scene, host);
     if (status == LOBE_OK)
-        status = upload_white(device, *result);
+        status = upload_white(*result);
     if (status == LOBE_OK)
         status = passes_scene_check_environment(scene, host);
     if (status == LOBE_OK)
-        status = passes_device_scene_upload_environment(device, *result);
+        status = passes_device_scene_upload_environment(*result);
     for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; i++)
-        status = passes_device_scene_upload_instance(device, *result, i, host);
+        status = passes_device_scene_upload_instance(*result, i, host);
     if (status == LOBE_OK)
         return LOBE_OK;
 fail:

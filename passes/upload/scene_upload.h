@@ -3,14 +3,16 @@
 
 #include "passes/upload/device_scene.h"
 
-/// Uploads. `scene` must live as long as the copy. Errors: as lobe_renderer_set_scene.
-lobe_result passes_device_scene_create(lobe_device *device, const lobe_scene *scene,
-                                       const lobe_host *host, device_scene **result);
+/// Uploads, for one graph. `scene` must live as long as the copy, and the graph for longer. Errors:
+/// as lobe_renderer_set_scene.
+lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
+                                       const lobe_scene *scene, const lobe_host *host,
+                                       device_scene **result);
 /// Uploads what changed in the scene. Errors: as lobe_renderer_update_scene.
 /// LOBE_ERROR_MALFORMED and _INVALID_ARGUMENT leave the copy as it was; after any other error it
 /// can only be destroyed.
-lobe_result passes_device_scene_update(lobe_device *device, device_scene *scene,
-                                       const lobe_scene_changes *changes, const lobe_host *host);
+lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_changes *changes,
+                                       const lobe_host *host);
 /// Clears the pointer; NULL is allowed.
 void passes_device_scene_destroy(device_scene **scene);
 

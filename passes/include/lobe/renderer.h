@@ -51,6 +51,12 @@ typedef struct lobe_scene_changes {
 
 /// Takes over changes that the host made to the current scene. Uploads only what is listed; the
 /// next frame rebuilds only the maps that depend on it. The scene's arrays must keep their lengths.
+/// What the device needs is copied during the call, and reaches it at the start of the next frame,
+/// in that frame's submission: nothing is submitted or waited for, whatever frames are in flight
+/// (except what new images and meshes have beyond 16 MiB, and before the first frame).
+/// Where extents, formats and counts stay the same, no Vulkan object is created, once there is
+/// memory for as much as frames copy. Constants of materials that are equal to those of the device
+/// are not written.
 /// Lights (and their number), the scene's camera, background and bounds, and the transforms of
 /// instances are read in every frame and need not be listed.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range),

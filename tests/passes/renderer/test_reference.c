@@ -184,7 +184,8 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     lobe_settings settings;
     lobe_settings_default(filter, &settings);
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     environment_state state = {0};
     const environment_work environment = {.state = &state};
     filter_context context = {.graph = f->graph,

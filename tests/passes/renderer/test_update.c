@@ -300,7 +300,7 @@ static uint32_t version_grows(fixture *f, device_scene *uploaded, const uint32_t
                                         .images = image,
                                         .image_count = image ? 1 : 0};
     uint32_t before = uploaded->materials[1].version;
-    assert_int_equal(passes_device_scene_update(f->device, uploaded, &changes, &f->host), LOBE_OK);
+    assert_int_equal(passes_device_scene_update(uploaded, &changes, &f->host), LOBE_OK);
     return uploaded->materials[1].version - before;
 }
 
@@ -310,7 +310,8 @@ static void paint_keeps_what_was_prepared(void **state) {
     lobe_scene *scene = changing_scene();
     lobe_material *material = &scene->materials[1];
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     material->base_colour[1] = 0.25f;
     material->emissive[0] = 1;
     material->occlusion_strength = 0.5f;

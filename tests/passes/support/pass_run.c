@@ -10,7 +10,8 @@
 void pass_run_begin(pass_run *run, fixture *f, const lobe_scene *scene, const char *filter,
                     const char *const *assignments) {
     *run = (pass_run){.fixture = f, .settings = settings_of(filter_named(filter), assignments)};
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &run->scene), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &run->scene),
+                     LOBE_OK);
     run->context = (filter_context){.graph = f->graph,
                                     .settings = &run->settings,
                                     .filter = filter_named(filter),

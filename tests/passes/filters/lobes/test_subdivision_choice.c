@@ -14,7 +14,8 @@
 static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *material) {
     scene_end_with_square(scene, material);
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     uint32_t subdivision =
         passes_subdivision_choose(scene, &uploaded->materials[0], CLUSTERS_TURNED);
     passes_device_scene_destroy(&uploaded);

@@ -122,7 +122,8 @@ enum { MOST_LAYERS = 3 * MOMENT_MAXIMUM_BINS + 1 };
 static reference_moment_bins bins_of(fixture *f, lobe_scene *scene, const sharing *how) {
     scene_end(scene);
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     moment_partition partition;
     const partition_request request = {how->kind, how->bins,
                                        how->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};

@@ -21,7 +21,8 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
                                      uint32_t kind, uint32_t bins, bool keep) {
     scene_end_with_square(scene, material);
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     const partition_request request = {kind, bins, BIN_COLOUR_AUTOMATIC};
     moment_partition partition, again;
     assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &partition),

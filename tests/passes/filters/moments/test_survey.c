@@ -17,7 +17,8 @@
 static lobe_survey *survey_of(fixture *f, lobe_scene *scene, const lobe_material *material) {
     scene_end_with_square(scene, material);
     device_scene *uploaded;
-    assert_int_equal(passes_device_scene_create(f->device, scene, &f->host, &uploaded), LOBE_OK);
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
     lobe_survey *survey = passes_lobe_survey_make(scene, &uploaded->materials[0], NULL);
     assert_non_null(survey);
     passes_device_scene_destroy(&uploaded);
