@@ -41,7 +41,7 @@ static lobe_result upload_image(device_scene *result, int32_t index, const lobe_
     if (result->images[index])
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
-    lobe_result status = passes_scene_check_image(result->scene, (size_t)index, host);
+    lobe_result status = passes_scene_check_image(result->scene, (size_t)index, NULL, host);
     if (status != LOBE_OK)
         return status;
     return lobe_graph_create_texture(

@@ -22,30 +22,47 @@ static uint32_t exponent_bits(lobe_format format) {
     }
 }
 
-lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host) {
+/// The first channel of a row, from `first` to before `end`, that is not finite; `end`: none.
+static size_t find_not_finite(const lobe_image *image, uint32_t exponent, size_t first,
+                              size_t end) {
+    const uint16_t *halves = image->texels;
+    const uint32_t *singles = image->texels;
+    for (size_t i = first; i < end; i++) {
+        uint32_t bits = exponent == 0x7c00 ? halves[i] : singles[i];
+        if ((bits & exponent) == exponent)
+            return i;
+    }
+    return end;
+}
+
+static lobe_result check_texels(const lobe_scene *scene, size_t index, const lobe_rectangle *part,
+                                const lobe_host *host) {
     const lobe_image *image = &scene->images[index].image;
+    const uint32_t exponent = exponent_bits(image->format);
+    const size_t channels = lobe_format_channels(image->format);
+    for (uint32_t y = 0; exponent && y < part->height; y++) {
+        const size_t row = (size_t)(part->y + y) * image->width * channels;
+        const size_t end = row + ((size_t)part->x + part->width) * channels;
+        const size_t found = find_not_finite(image, exponent, row + part->x * channels, end);
+        if (found < end)
+            return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                                  "%s: image '%s': texel %zu, %u is not finite", scene->name,
+                                  scene->images[index].name, (found - row) / channels, part->y + y);
+    }
+    return LOBE_OK;
+}
+
+lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
+                                     const lobe_rectangle *part, const lobe_host *host) {
+    const lobe_image *image = &scene->images[index].image;
+    const lobe_rectangle whole = {0, 0, image->width, image->height};
     if (!image->texels || image->width == 0 || image->height == 0 ||
         lobe_format_size(image->format) == 0 || image->format == LOBE_FORMAT_D32_FLOAT)
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: image '%s' has %ux%u texels of %s%s",
                               scene->name, scene->images[index].name, image->width, image->height,
                               lobe_format_name(image->format),
                               image->texels ? "" : ", but no memory with them");
-    uint32_t exponent = exponent_bits(image->format);
-    size_t channels = lobe_format_channels(image->format);
-    size_t count = exponent ? (size_t)image->width * image->height * channels : 0;
-    const uint16_t *halves = image->texels;
-    const uint32_t *singles = image->texels;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits = exponent == 0x7c00 ? halves[i] : singles[i];
-        if ((bits & exponent) != exponent)
-            continue;
-        size_t texel = i / channels;
-        lobe_host_log(host, LOBE_LOG_ERROR, "%s: image '%s': texel %zu, %zu is not finite",
-                      scene->name, scene->images[index].name, texel % image->width,
-                      texel / image->width);
-        return LOBE_ERROR_MALFORMED;
-    }
-    return LOBE_OK;
+    return check_texels(scene, index, part ? part : &whole, host);
 }
 
 static bool all_finite(const lobe_scene_vertex *vertex) {

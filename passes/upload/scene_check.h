@@ -8,8 +8,9 @@
 
 /// There is something to draw, and an array wherever there is a count.
 lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host);
-/// There are texels, of a format that can be sampled, and they are finite.
-lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index, const lobe_host *host);
+/// There are texels, of a format that can be sampled, and those of the part (NULL: all) are finite.
+lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
+                                     const lobe_rectangle *part, const lobe_host *host);
 /// There are triangles, of vertices that exist, are finite and have normals.
 lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const lobe_host *host);
 /// Counts, indices and numbers are in range. In material_check.c.

@@ -1,5 +1,7 @@
 #include "passes/upload/scene_upload.h"
 
+#include <string.h>
+
 #include "passes/upload/device_scene_parts.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
@@ -54,7 +56,7 @@ static lobe_result check_material(const scene_update *update, uint32_t index) {
     for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; map++) {
         const lobe_texture_use *use = passes_material_map_use(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
-            result = passes_scene_check_image(scene, (size_t)use->image, update->host);
+            result = passes_scene_check_image(scene, (size_t)use->image, NULL, update->host);
     }
     return result;
 }
@@ -73,13 +75,36 @@ static lobe_result check_instance(const scene_update *update, uint32_t index) {
     return result;
 }
 
+/// The part of the n-th changed image that changed; NULL: all of it.
+static const lobe_rectangle *changed_part(const scene_update *update, size_t n) {
+    static const lobe_rectangle all = {0};
+    const lobe_rectangle *parts = update->changes->image_parts;
+    return parts && memcmp(&parts[n], &all, sizeof all) != 0 ? &parts[n] : NULL;
+}
+
+static lobe_result check_image(const scene_update *update, size_t n) {
+    const uint32_t index = update->changes->images[n];
+    const lobe_scene_image *image = &update->scene->scene->images[index];
+    const lobe_texture *texture = update->scene->images[index];
+    const lobe_rectangle *part = changed_part(update, n);
+    if (part && !lobe_rectangle_lies_within(part, image->image.width, image->image.height))
+        return lobe_host_fail(update->host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "%s: image '%s' is %ux%u, without %ux%u changed texels at (%u, %u)",
+                              update->scene->scene->name, image->name, image->image.width,
+                              image->image.height, part->width, part->height, part->x, part->y);
+    return texture
+               ? passes_scene_check_image(update->scene->scene, index,
+                                          lobe_texture_takes(texture, &image->image) ? part : NULL,
+                                          update->host)
+               : LOBE_OK;
+}
+
 static lobe_result check_content(const scene_update *update) {
     const device_scene *scene = update->scene;
     const lobe_scene_changes *changes = update->changes;
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
-        if (scene->images[changes->images[i]])
-            result = passes_scene_check_image(scene->scene, changes->images[i], update->host);
+        result = check_image(update, i);
     for (size_t i = 0; result == LOBE_OK && i < changes->material_count; i++)
         if (scene->materials[changes->materials[i]].constants)
             result = check_material(update, changes->materials[i]);
@@ -136,13 +161,14 @@ static void mark_instances(scene_update *update) {
 // The change
 
 /// Reuses the texture where extent and format stay the same.
-static lobe_result update_image(const scene_update *update, uint32_t index) {
+static lobe_result update_image(const scene_update *update, size_t n) {
+    const uint32_t index = update->changes->images[n];
     const lobe_scene_image *image = &update->scene->scene->images[index];
     lobe_texture **texture = &update->scene->images[index];
     if (!*texture)
         return LOBE_OK;
     if (lobe_texture_takes(*texture, &image->image))
-        return lobe_texture_update(*texture, &image->image);
+        return lobe_texture_update_part(*texture, &image->image, changed_part(update, n));
     lobe_texture_destroy(texture);
     return lobe_graph_create_texture(
         update->scene->graph,
@@ -178,7 +204,7 @@ static lobe_result apply(const scene_update *update) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
-        result = update_image(update, changes->images[i]);
+        result = update_image(update, i);
     for (size_t i = 0; result == LOBE_OK && i < scene->material_count; i++)
         if (update->materials[i])
             result = passes_device_scene_upload_material(update->scene, (uint32_t)i, update->host);

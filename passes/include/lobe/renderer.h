@@ -38,6 +38,10 @@ LOBE_API lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe
 typedef struct lobe_scene_changes {
     const uint32_t *images; ///< texels; also extent or format
     size_t image_count;
+    /// One for each of `images`: which of its texels changed; all zero: any. NULL: any of all. Only
+    /// these are checked, copied and uploaded, unless extent or format changed. An image may be
+    /// listed again for another part.
+    const lobe_rectangle *image_parts;
     const uint32_t *materials; ///< any of their members
     size_t material_count;
     const uint32_t *meshes; ///< vertices and indices; also how many there are
@@ -59,7 +63,7 @@ typedef struct lobe_scene_changes {
 /// are not written.
 /// Lights (and their number), the scene's camera, background and bounds, and the transforms of
 /// instances are read in every frame and need not be listed.
-/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range),
+/// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
 /// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, no scene is set.
 LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,

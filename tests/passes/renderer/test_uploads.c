@@ -4,6 +4,7 @@
 
 #include "tests/passes/support/fixture.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "engine/graph/state.h"
@@ -189,10 +190,110 @@ static void meshes_and_other_sizes_do_not_wait(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Parts of images
+
+static void randomise(lobe_scene *scene, const lobe_rectangle *part, uint64_t seed) {
+    lobe_image other = random_normal_map(MAP, MAP, 0.5, seed);
+    for (uint32_t y = part->y; y < part->y + part->height; y++)
+        memcpy((float *)scene->images[map].image.texels + 4 * (y * MAP + part->x),
+               (float *)other.texels + 4 * (y * MAP + part->x), (size_t)part->width * 16);
+    lobe_image_free(&other);
+}
+
+static void parts_of_images_are_enough(void **state) {
+    static const lobe_rectangle parts[] = {{3, 5, 20, 1}, {0, 0, 1, 32}, {16, 16, 16, 16}, {0}};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    for (uint64_t n = 0; n < 4; n++) {
+        const lobe_rectangle whole = {0, 0, MAP, MAP};
+        randomise(scene, parts[n].width ? &parts[n] : &whole, 40 + n);
+        check_update(
+            f, scene,
+            &(lobe_scene_changes){.images = &map, .image_count = 1, .image_parts = &parts[n]}, 1,
+            0);
+    }
+    stop(f, &scene);
+}
+
+static void an_image_may_change_in_several_parts(void **state) {
+    static const lobe_rectangle parts[] = {{0, 0, 4, 4}, {20, 20, 8, 3}};
+    static const uint32_t images[] = {0, 0};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    for (int i = 0; i < 2; i++)
+        randomise(scene, &parts[i], 50);
+    check_update(f, scene,
+                 &(lobe_scene_changes){.images = images, .image_count = 2, .image_parts = parts}, 2,
+                 0);
+    stop(f, &scene);
+}
+
+/// The second part is one of the new image.
+static void parts_of_an_image_with_another_extent(void **state) {
+    static const lobe_rectangle parts[] = {{0, 0, 4, 4}, {2, 40, 6, 3}};
+    static const uint32_t images[] = {0, 0};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    lobe_image_free(&scene->images[map].image);
+    scene->images[map].image = random_normal_map(8, 64, 0.5, 31);
+    check_update(f, scene,
+                 &(lobe_scene_changes){.images = images, .image_count = 2, .image_parts = parts}, 1,
+                 -1);
+    stop(f, &scene);
+}
+
+/// Neither checked nor uploaded; a new extent makes them part of the change.
+static void texels_outside_the_part_are_left_alone(void **state) {
+    static const lobe_rectangle part = {4, 4, 8, 8};
+    const lobe_scene_changes changes = {.images = &map, .image_count = 1, .image_parts = &part};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    const uint64_t before = picture(f, f->renderer);
+    float *texels = scene->images[map].image.texels;
+    const float was = texels[0];
+    texels[0] = NAN;
+    update(f, &changes);
+    assert_true(picture(f, f->renderer) == before);
+    scene->images[map].image.height /= 2;
+    assert_failure(f, lobe_renderer_update_scene(f->renderer, &changes), LOBE_ERROR_MALFORMED,
+                   "texel 0, 0 is not finite");
+    fixture_forget_messages(f);
+    scene->images[map].image.height *= 2;
+    texels[0] = was;
+    texels[4 * (5 * MAP + 11) + 1] = INFINITY;
+    assert_failure(f, lobe_renderer_update_scene(f->renderer, &changes), LOBE_ERROR_MALFORMED,
+                   "texel 11, 5 is not finite");
+    fixture_forget_messages(f);
+    assert_true(picture(f, f->renderer) == before);
+    stop(f, &scene);
+}
+
+static void parts_outside_the_image_are_refused(void **state) {
+    static const lobe_rectangle parts[] = {
+        {0, 0, 33, 1}, {31, 0, 2, 1}, {0, 32, 1, 1}, {3, 3, 0, 1}};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    const uint64_t before = picture(f, f->renderer);
+    change_texels(scene, 60);
+    for (int i = 0; i < 4; i++) {
+        assert_failure(
+            f,
+            lobe_renderer_update_scene(
+                f->renderer,
+                &(lobe_scene_changes){.images = &map, .image_count = 1, .image_parts = &parts[i]}),
+            LOBE_ERROR_INVALID_ARGUMENT, "is 32x32, without");
+        fixture_forget_messages(f);
+    }
+    assert_true(picture(f, f->renderer) == before);
+    stop(f, &scene);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Frames
 
 static void the_last_of_several_updates_counts(void **state) {
     const lobe_scene_changes changes = {.images = &map, .image_count = 1};
+    static const lobe_rectangle part = {1, 2, 3, 4};
     fixture *f = *state;
     lobe_scene *scene = start(f);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
@@ -201,7 +302,10 @@ static void the_last_of_several_updates_counts(void **state) {
         update(f, &changes);
         change_texels(scene, 71 + 2 * n);
         update(f, &changes);
-        assert_int_equal(copies(f), 1);
+        randomise(scene, &part, 90 + n);
+        const size_t before = copies(f);
+        update(f, &(lobe_scene_changes){.images = &map, .image_count = 1, .image_parts = &part});
+        assert_int_equal(copies(f), before);
         assert_true(picture(f, f->renderer) == fresh_picture(f, scene));
     }
     stop(f, &scene);
@@ -300,6 +404,11 @@ int main(void) {
         cmocka_unit_test(frames_with_changes_create_nothing),
         cmocka_unit_test(equal_constants_are_not_written),
         cmocka_unit_test(meshes_and_other_sizes_do_not_wait),
+        cmocka_unit_test(parts_of_images_are_enough),
+        cmocka_unit_test(an_image_may_change_in_several_parts),
+        cmocka_unit_test(parts_of_an_image_with_another_extent),
+        cmocka_unit_test(texels_outside_the_part_are_left_alone),
+        cmocka_unit_test(parts_outside_the_image_are_refused),
         cmocka_unit_test(the_last_of_several_updates_counts),
         cmocka_unit_test(frames_in_flight_have_their_own_content),
         cmocka_unit_test(the_frame_after_a_failed_one_has_the_change),
