@@ -390,6 +390,48 @@ static void the_frame_after_a_failed_one_copies(void **state) {
     lobe_texture_destroy(&texture);
 }
 
+/// Takes the mapped memory that a device with a limit has left.
+static size_t occupy(lobe_device *device, engine_staging staging[], size_t most) {
+    size_t count = 0;
+    for (VkDeviceSize size = 1 << 20; size >= 1 << 10 && count < most;)
+        if (engine_staging_create(device, "occupied", size, ENGINE_MEMORY_UPLOAD,
+                                  &staging[count]) == LOBE_OK)
+            count++;
+        else
+            size /= 2;
+    return count;
+}
+
+/// There is no memory for it to pass through.
+static void a_failed_update_leaves_the_content(void **state) {
+    (void)state;
+    graph_fixture small = {0};
+    engine_staging occupied[64];
+    contents first = pattern(1), second = pattern(100);
+    const lobe_image image = image_of(&second);
+    log_recorder_start(&small.recorder);
+    const lobe_device_parameters parameters = {.memory_limit = 8 << 20,
+                                               .host = &small.recorder.host};
+    assert_int_equal(lobe_device_create(&parameters, &small.device), LOBE_OK);
+    assert_int_equal(lobe_graph_create(small.device, &small.graph), LOBE_OK);
+    lobe_texture *texture = create_texture(&small, &first);
+    assert_texture(&small, texture, &first); // which has all other memory made
+    size_t count = occupy(small.device, occupied, 64);
+    small.recorder.errors = 0;
+    assert_int_equal(lobe_texture_update(texture, &image), LOBE_ERROR_OUT_OF_DEVICE_MEMORY);
+    assert_int_equal(small.recorder.errors, 1);
+    assert_int_equal(waiting(&small), 0);
+    small.recorder.errors = 0;
+    assert_texture(&small, texture, &first);
+    while (count > 0)
+        engine_staging_destroy(small.device, &occupied[--count]);
+    update(texture, &second, (lobe_rectangle){0, 0, WIDTH, HEIGHT});
+    assert_texture(&small, texture, &second);
+    lobe_texture_destroy(&texture);
+    lobe_graph_destroy(&small.graph);
+    lobe_device_destroy(&small.device);
+}
+
 /// What is destroyed before its content was copied is not written; the rest is.
 static void gone_objects_are_left_out(void **state) {
     graph_fixture *f = *state;
@@ -416,6 +458,7 @@ int main(void) {
         TEST(parts_of_a_plain_texture),
         TEST(frames_in_flight_keep_their_content),
         TEST(the_frame_after_a_failed_one_copies),
+        TEST(a_failed_update_leaves_the_content),
         TEST(gone_objects_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -33,10 +33,11 @@ static lobe_scene *scene_of(int number) {
     return scene;
 }
 
-/// Draws frames with its own renderer, uploading the scene for each. Only the thread that runs the
-/// test may assert.
+/// Draws frames with its own renderer, uploading the scene for each, and its map once more. Only
+/// the thread that runs the test may assert.
 static void *work(void *user) {
     static const char *const filters[THREADS] = {"lobes", "toksvig", "lobes", "toksvig"};
+    static const uint32_t map = 0;
     worker *self = user;
     lobe_renderer *renderer = NULL;
     lobe_scene *scene = scene_of(self->number);
@@ -46,6 +47,9 @@ static void *work(void *user) {
     for (int n = 0; result == LOBE_OK && n < FRAMES; n++) {
         lobe_frame frame = {0};
         result = lobe_renderer_set_scene(renderer, scene);
+        if (result == LOBE_OK)
+            result = lobe_renderer_update_scene(
+                renderer, &(lobe_scene_changes){.images = &map, .image_count = 1});
         if (result == LOBE_OK)
             result = lobe_renderer_render(
                 renderer,
