@@ -6,7 +6,7 @@ import sys
 
 import tap
 from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
-from program import (SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report,
+from program import (SCENE, SMALL, check, fails, fresh_folder, is_wrong_usage, leaves, report,
                      said_to_terminal, succeeds)
 
 DIRECT = ["--filter", "direct", "--set", "env_size=16", *SMALL]
@@ -27,7 +27,7 @@ def test_file_and_none():
     folder = fresh_folder("environment")
     light = write_hdr(folder / "light.hdr")
     for given, expected in ((light, str(light)), ("none", None)):
-        result = succeeds("render", "bumps", *DIRECT, "--environment", given, "-o",
+        result = succeeds("render", SCENE, *DIRECT, "--environment", given, "-o",
                           folder / "a.exr")
         check(environment_of(folder / "a.exr") == expected, report(result))
         check("warning" not in result.stderr, report(result))
@@ -41,7 +41,7 @@ def test_a_scene_may_be_lit_by_its_environment_alone():
     for name, options in (("both", ["--environment", light]), ("own", ["--environment", dark]),
                           ("alone", ["--environment", light, "--no-lights"]),
                           ("none", ["--environment", dark, "--no-lights"])):
-        succeeds("render", "bumps", *DIRECT, *options, "-o",
+        succeeds("render", SCENE, *DIRECT, *options, "-o",
                  folder / f"{name}.exr", "-o", folder / f"{name}.png")
         pictures[name] = sum(map(sum, png_read(folder / f"{name}.png")[2]))
     check(pictures["none"] < pictures["alone"] < pictures["both"], str(pictures))
@@ -61,7 +61,7 @@ def test_a_scene_without_light_gets_no_other_beside():
 
 def test_options_without_an_environment_are_ignored_with_a_warning():
     folder = fresh_folder("ignored")
-    result = succeeds("render", "bumps", *DIRECT, "--background", "--environment-intensity", "2",
+    result = succeeds("render", SCENE, *DIRECT, "--background", "--environment-intensity", "2",
                       "-o", folder / "a.exr")
     check("no environment; --environment-intensity is ignored" in result.stderr, report(result))
     check(result.stderr.count("\n") == 1, report(result))
@@ -70,22 +70,22 @@ def test_options_without_an_environment_are_ignored_with_a_warning():
 def test_what_is_no_environment():
     folder = fresh_folder("wrong")
     output = ["-o", folder / "a.exr"]
-    fails("render", "bumps", *DIRECT, "--environment", folder / "no.hdr", *output, says="no.hdr")
+    fails("render", SCENE, *DIRECT, "--environment", folder / "no.hdr", *output, says="no.hdr")
     tall = write_hdr(folder / "tall.hdr", width=3, height=7)
-    fails("render", "bumps", *DIRECT, "--environment", tall, *output, says=["tall.hdr", "3 x 7"])
+    fails("render", SCENE, *DIRECT, "--environment", tall, *output, says=["tall.hdr", "3 x 7"])
     tall.unlink()
     leaves(folder)
     for option, value in (("rotation", "left"), ("rotation", "1e9"), ("intensity", "-1")):
-        is_wrong_usage("render", "bumps", f"--environment-{option}", value, *output,
+        is_wrong_usage("render", SCENE, f"--environment-{option}", value, *output,
                        says=f"--environment-{option}")
 
 
 def test_preparing_light_shows_its_progress():
     """On a terminal alone; the picture is the same."""
     folder = fresh_folder("progress")
-    options = ["render", "bumps", *DIRECT, "--environment", "sky", "--no-cache", "-o"]
+    options = ["render", SCENE, *DIRECT, "--environment", "sky", "--no-cache", "-o"]
     said = said_to_terminal(*options, folder / "shown.exr")
-    parts = [int(part) for part in re.findall(r"bumps: preparing sky: (\d+) %", said)]
+    parts = [int(part) for part in re.findall(rf"{SCENE}: preparing sky: (\d+) %", said)]
     check(len(parts) > 3 and parts == sorted(parts) and parts[-1] == 100, said)
     check(said.rstrip().endswith("frame 1 of 1\x1b[K\r\x1b[K"), repr(said))
     result = succeeds(*options, folder / "silent.exr")
@@ -102,7 +102,7 @@ def test_filtered_light_is_kept_for_the_next_time():
     light = write_hdr(folder / "light.hdr", 32, 16, (90, 200, 150, 129))
 
     def draw(name, *arguments, found, **environment):
-        result = succeeds("render", "bumps", *DIRECT, "--set", "env_size=16", "--set", "base=lobe",
+        result = succeeds("render", SCENE, *DIRECT, "--set", "env_size=16", "--set", "base=lobe",
                           "--environment", light, *arguments, "-o", folder / name, **environment)
         check(("environment_restoring" in result.stdout) == found, report(result))
         check(("environment_prefiltering" in result.stdout) != found, report(result))
@@ -125,9 +125,9 @@ def test_filtered_light_is_kept_for_the_next_time():
 def test_what_needs_no_filtered_light_keeps_none():
     folder = fresh_folder("unlit-cache")
     cache = fresh_folder("unlit-user")
-    succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", XDG_CACHE_HOME=cache)
+    succeeds("render", SCENE, *DIRECT, "-o", folder / "a.exr", XDG_CACHE_HOME=cache)
     check(not (cache / "lobe/environments").exists(), "a folder was made without an environment")
-    is_wrong_usage("render", "bumps", "--no-cache", "--cache", "a", "-o", "a.exr", says="--cache")
+    is_wrong_usage("render", SCENE, "--no-cache", "--cache", "a", "-o", "a.exr", says="--cache")
 
 
 def test_a_material_is_lit_too():

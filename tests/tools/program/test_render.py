@@ -4,7 +4,8 @@ import sys
 
 import tap
 from files import exr_header, gltf_triangle, gltf_write, png_read, png_write
-from program import FOLDER, SMALL, check, fresh_folder, leaves, report, said_to_terminal, succeeds
+from program import (FOLDER, SCENE, SMALL, check, fresh_folder, leaves, report, said_to_terminal,
+                     succeeds)
 
 DIRECT = ["--filter", "direct", *SMALL]
 SMALL_SKY = ["--set", "env_size=16"]  # prepared faster
@@ -27,7 +28,7 @@ def mean(path):
 
 def test_both_outputs_at_once():
     folder = fresh_folder("both")
-    result = succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
+    result = succeeds("render", SCENE, *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
     leaves(folder, "a.exr", "a.png")
     check("shading" in result.stdout and "whole frame" in result.stdout, report(result))
     width, height, pixels = png_read(folder / "a.png")
@@ -59,7 +60,7 @@ def test_metadata():
 
 def test_samples_are_recorded():
     folder = fresh_folder("samples")
-    result = succeeds("render", "bumps", "--filter", "reference", "--samples", "5", *SMALL, "-o",
+    result = succeeds("render", SCENE, "--filter", "reference", "--samples", "5", *SMALL, "-o",
                       folder / "a.exr")
     check(exr_header(folder / "a.exr")["samples"] == 5, "samples")
     check("5 samples" in result.stdout, report(result))
@@ -67,8 +68,8 @@ def test_samples_are_recorded():
 
 def test_depth():
     folder = fresh_folder("depth")
-    succeeds("render", "bumps", *DIRECT, "--depth", "float", "-o", folder / "float.exr")
-    succeeds("render", "bumps", *DIRECT, "--depth", "half", "-o", folder / "half.exr")
+    succeeds("render", SCENE, *DIRECT, "--depth", "float", "-o", folder / "float.exr")
+    succeeds("render", SCENE, *DIRECT, "--depth", "half", "-o", folder / "half.exr")
     check(exr_header(folder / "float.exr")["channels"]["R"] == "float", "float")
     check(exr_header(folder / "half.exr")["channels"]["R"] == "half", "half")
     error = compare(folder / "half.exr", folder / "float.exr")["relative_l2"]
@@ -100,7 +101,7 @@ def test_frames_keep_their_maps():
 def test_graph():
     folder = fresh_folder("graph")
     for name in ("a.dot", "a.txt"):
-        succeeds("render", "bumps", *DIRECT, "-o", folder / "a.png", "--graph", folder / name)
+        succeeds("render", SCENE, *DIRECT, "-o", folder / "a.png", "--graph", folder / name)
     leaves(folder, "a.dot", "a.png", "a.txt")
     check((folder / "a.dot").read_text().startswith("digraph"), "no Graphviz")
     text = (folder / "a.txt").read_text()
@@ -144,7 +145,7 @@ def test_camera():
     for name, options in {"scene": [], "moved": camera, "again": camera,
                           "wide": [*camera, "--fov", "80"], "path": [*camera, "--path", "0.25"],
                           "away": ["--eye", "0,16,16", "--target", "0,0,0"]}.items():
-        succeeds("render", "bumps", *DIRECT, *options, "-o", folder / f"{name}.exr")
+        succeeds("render", SCENE, *DIRECT, *options, "-o", folder / f"{name}.exr")
     check(compare(folder / "again.exr", folder / "moved.exr")["rmse"] == 0, "not reproducible")
     check(compare(folder / "moved.exr", folder / "scene.exr")["rmse"] > 0, "the eye does nothing")
     check(compare(folder / "wide.exr", folder / "moved.exr")["rmse"] > 0, "--fov does nothing")
@@ -156,7 +157,7 @@ def test_exposure():
     folder = fresh_folder("exposure")
     means = []
     for stops in ("-1", "0", "1"):
-        succeeds("render", "bumps", *DIRECT, "--exposure", stops, "-o", folder / "a.png")
+        succeeds("render", SCENE, *DIRECT, "--exposure", stops, "-o", folder / "a.png")
         means.append(mean(folder / "a.png"))
     check(means[0] < means[1] < means[2], str(means))
 
@@ -165,26 +166,26 @@ def test_options_that_do_nothing_are_told():
     folder = fresh_folder("ignored")
     for options, output in ((["--aov"], "a.png"), (["--depth", "float"], "a.png"),
                             (["--exposure", "1"], "a.exr"), (["--samples", "4"], "a.exr")):
-        result = succeeds("render", "bumps", *DIRECT, *options, "-o", folder / output)
+        result = succeeds("render", SCENE, *DIRECT, *options, "-o", folder / output)
         check(result.stderr.count("\n") == 1 and f"warning: {options[0]}" in result.stderr,
               report(result))
 
 
 def test_quiet_where_there_is_nothing_to_say():
     folder = fresh_folder("quiet")
-    result = succeeds("render", "bumps", *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
+    result = succeeds("render", SCENE, *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")
     check(result.stderr == "", report(result))
 
 
 def test_progress_on_a_terminal():
-    shown = said_to_terminal("render", "bumps", "--filter", "reference", *SMALL, "-o", "a.png")
+    shown = said_to_terminal("render", SCENE, "--filter", "reference", *SMALL, "-o", "a.png")
     check("frame 1 of 1: 50 %" in shown and "frame 1 of 1: 100 %" in shown, repr(shown))
     check(shown.endswith("\r\033[K"), repr(shown))
 
 
 def test_device_from_the_environment():
-    succeeds("render", "bumps", *DIRECT, "-o", "a.png", LOBE_DEVICE="llvmpipe")
-    succeeds("render", "bumps", *DIRECT, "-o", "a.png", "--device", "LLVM", LOBE_DEVICE="abacus")
+    succeeds("render", SCENE, *DIRECT, "-o", "a.png", LOBE_DEVICE="llvmpipe")
+    succeeds("render", SCENE, *DIRECT, "-o", "a.png", "--device", "LLVM", LOBE_DEVICE="abacus")
 
 
 def test_validation_is_silent():

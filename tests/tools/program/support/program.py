@@ -20,6 +20,7 @@ os.environ.setdefault("MESA_SHADER_CACHE_DIR",
                       os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache"))
 
 SMALL = ["--size", "32x24"]
+SCENE = "checkerboard"  # opened and drawn in least time
 
 
 def lobe(*arguments, timeout=300, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **environment):
