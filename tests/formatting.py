@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that all C and C++ has the layout of .clang-format, and that shaders, which clang-format
-does not know, have no longer lines than that.
+"""Checks that all C and C++ has the layout of .clang-format, and that what clang-format does not
+know (shaders, Python, Meson) has no longer lines than that.
 
 Usage: formatting.py ROOT CLANG-FORMAT"""
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 FOLDERS = ("engine", "scenes", "passes", "tools", "tests", "third_party", "shaders")
 SUFFIXES = {".c", ".h", ".cpp", ".hpp"}
-SHADERS = {".glsl", ".vert", ".frag", ".comp"}
+OTHERS = {".glsl", ".vert", ".frag", ".comp", ".py", ".build"}
 LONGEST_LINE = 100
 
 
@@ -21,7 +21,7 @@ def find_files(root, suffixes):
 
 def long_lines(root):
     return [f"{path}:{number}: {len(line)} characters, more than {LONGEST_LINE}"
-            for path in find_files(root, SHADERS)
+            for path in find_files(root, OTHERS)
             for number, line in enumerate(path.read_text().splitlines(), start=1)
             if len(line) > LONGEST_LINE]
 

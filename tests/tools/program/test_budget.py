@@ -90,7 +90,8 @@ def test_the_least_error_within_a_budget():
           knobs=[("probes", 1), ("storage", "float32")],
           says=["picked mipmap: 20.0 ms with maps rebuilt, relative L2 0.500",
                 f"3 of {choices} choices keep to 20 ms, this one errs least",
-                "the next more exact is mipmap with probes=2: 40.0 ms with maps rebuilt, relative L2 0.4",
+                "the next more exact is mipmap with probes=2: 40.0 ms with maps rebuilt, relative "
+                "L2 0.4",
                 f"figures: {path}, 1 frame, errors against 2 samples per pixel"])
     picks(folder, *SCENE, "--sweep", path, "--budget", "19.9", filter_name="mipmap",
           knobs=[("storage", "float16")], says=["mipmap with storage=float16: 16.0 ms"])
@@ -186,7 +187,8 @@ def test_another_view_is_warned_of():
 
 
 def test_a_sweep_of_something_else_is_refused():
-    for member, value, words in [("device", "a toaster", ["measured on a toaster, ", "this device"]),
+    for member, value, words in [("device", "a toaster", ["measured on a toaster, ",
+                                                           "this device"]),
                                  ("driver", "toast 1.0", ["toast 1.0; this device"])]:
         results = with_figures()
         mine = results[member]

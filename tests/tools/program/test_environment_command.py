@@ -61,7 +61,8 @@ def test_a_cube_is_kept_for_the_next_time():
     whole = kept[0].read_bytes()
     kept[0].write_bytes(whole[:-1000])
     third = succeeds(*arguments, folder / "c.exr")
-    check("will be replaced" in third.stderr and "environment_prefiltering" in third.stdout, report(third))
+    check("will be replaced" in third.stderr and "environment_prefiltering" in third.stdout,
+          report(third))
     check(kept[0].read_bytes() == whole, "the damaged file was not replaced")
 
 

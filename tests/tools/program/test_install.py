@@ -1,5 +1,5 @@
-"""Installs the library, then builds and runs programs against it: those of docs/embed.md, in C, also
-linked statically, and one in C++; with pkg-config and with CMake."""
+"""Installs the library, then builds and runs programs against it: those of docs/embed.md, in C,
+also linked statically, and one in C++; with pkg-config and with CMake."""
 
 import json
 import os
@@ -76,8 +76,8 @@ target_link_libraries(settings lobe::lobe)
 
 
 def run(command, cwd=None, **environment):
-    result = subprocess.run(command, env={**os.environ, **environment}, text=True, check=False, cwd=cwd,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    result = subprocess.run(command, env={**os.environ, **environment}, text=True, check=False,
+                            cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     check(result.returncode == 0, f"{shlex.join(map(str, command))}\n{result.stdout}")
     return result.stdout
 

@@ -74,7 +74,8 @@ def test_groff_warns_of_nothing():
     if not shutil.which("man"):
         return "there is no man"
     for path in pages():
-        result = subprocess.run(["man", "--warnings=all", "-E", "UTF-8", "-Tutf8", "-Z", "-l", path],
+        result = subprocess.run(["man", "--warnings=all", "-E", "UTF-8", "-Tutf8", "-Z", "-l",
+                                 path],
                                 env={"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8"},
                                 capture_output=True, check=False)
         check(result.returncode == 0 and not result.stderr, f"{path.name}: {result.stderr}")

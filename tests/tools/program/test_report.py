@@ -294,7 +294,8 @@ def test_targets_are_computed():
     limit, value, verdict, _ = rows["time(reference) / time(moments)", "tablecloth"]
     check(limit == "≥ 40" and near(value, 12000 / 290) and verdict == "✓ met", str(value))
     check(near(rows["time(moments) / time(direct)", "tablecloth"][1], 2.9), "time")
-    check("lean is not in" in rows["error(moments) / error(lean)", "means over 0 scenes"][1], "lean")
+    check("lean is not in" in rows["error(moments) / error(lean)", "means over 0 scenes"][1],
+          "lean")
     check("pillow was not" in rows["time(moments) / time(direct)", "pillow"][1], "pillow")
 
 

@@ -111,7 +111,8 @@ def test_unknown_filter():
 
 
 def test_unknown_knob():
-    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "colours=1", says=["colours", "least_share"])
+    is_wrong_usage("render", "bumps", *OUTPUT, "--set", "colours=1",
+                   says=["colours", "least_share"])
     is_wrong_usage("render", "bumps", *OUTPUT, "--filter", "direct", "--set", "epsilon0=1",
                    says=["epsilon0", "direct"])
     is_wrong_usage("bench", "bumps", "--set", "colour=1", says="colour")

@@ -93,8 +93,8 @@ def test_what_is_no_json_is_refused():
 def test_worth_is_where_supersampling_has_the_same_error():
     steps = [results.Supersampling(1, 0.8), results.Supersampling(2, 0.4),
              results.Supersampling(4, 0.1)]
-    for error, samples in ((0.8, 1), (1.6, 0.25), (0.4, 2), (0.8 / 2 ** 0.5, 2 ** 0.5), (0.2, 8 ** 0.5),
-                           (0.1, 4), (0.01, 4), (0, 4)):
+    for error, samples in ((0.8, 1), (1.6, 0.25), (0.4, 2), (0.8 / 2 ** 0.5, 2 ** 0.5),
+                           (0.2, 8 ** 0.5), (0.1, 4), (0.01, 4), (0, 4)):
         check(math.isclose(supersampling.samples_for(steps, error), samples), error)
     check(math.isnan(supersampling.samples_for([], 0.1)))
     check(math.isnan(supersampling.samples_for(steps, math.nan)))

@@ -14,8 +14,8 @@ ROOT = Path(sys.argv[2]).resolve()
 ASSETS = ROOT.parent / "shared" / "assets"
 FOLDER = Path(tempfile.mkdtemp(prefix="lobe-test-"))
 atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
-# Each test file has its own cache folder for lobe. The driver's cache of compiled shaders is shared:
-# recompiling them would take half the time of small pictures.
+# Each test file has its own cache folder for lobe. The driver's cache of compiled shaders is
+# shared: recompiling them would take half the time of small pictures.
 os.environ.setdefault("MESA_SHADER_CACHE_DIR",
                       os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache"))
 

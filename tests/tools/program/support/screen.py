@@ -24,7 +24,8 @@ class Screen:
         reader, writer = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writer), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir",
-             str(self.folder), "-nocursor", "-noreset", "-nolisten", "tcp"], pass_fds=[writer], stderr=subprocess.DEVNULL)
+             str(self.folder), "-nocursor", "-noreset", "-nolisten", "tcp"],
+            pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as lines:
             self.name = f":{lines.readline().strip()}"
