@@ -130,7 +130,7 @@ static void declare_lobes(declaration *d, const environment_maps_progress *progr
                                                 LOBE_ENVIRONMENT_BETWEEN, LOBE_ENVIRONMENT_GGX};
     uint32_t left = maps->parts_done;
     d->sources = passes_environment_smoothing(d->graph, maps->cubes[LOBE_ENVIRONMENT_RADIANCE],
-                                              d->request->size);
+                                              d->request->size, d->request->parts > 0);
     for (uint32_t kind = 0; kind < kinds_wanted(d->request); kind++) {
         d->cubes[kind] = declare_filtered(d->graph, kind, d->set, d->request->size);
         add_parts(d, kind, &left);

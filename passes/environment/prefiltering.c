@@ -92,7 +92,7 @@ static filtered_source source_at(const prefiltering_sources *sources, uint32_t l
 }
 
 prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resource radiance,
-                                                  uint32_t size) {
+                                                  uint32_t size, bool retained) {
     prefiltering_sources sources = {.radiance = radiance, .size = size};
     uint32_t count = 0;
     while (size >> (count + 1) >= LEAST_SOURCE_WIDTH)
@@ -100,12 +100,13 @@ prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resour
     if (count == 0)
         return sources;
     sources.smoothed =
-        lobe_graph_image(graph, &(lobe_image_description){.name = "smoothed environment",
+        lobe_graph_image(graph, &(lobe_image_description){.name = "environment smoothed",
                                                           .format = LOBE_FORMAT_RGBA32_FLOAT,
                                                           .width = size / 2,
                                                           .height = size / 2,
                                                           .layers = 6,
-                                                          .levels = count});
+                                                          .levels = count,
+                                                          .retained = retained});
     for (uint32_t level = 0; level < count; level++) {
         filtered_source source = source_at(&sources, level);
         source.variance = 0; // in addition to the previous smoothing

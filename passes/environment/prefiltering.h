@@ -13,9 +13,10 @@ typedef struct prefiltering_sources {
 /// Texels along a face of a filtered cube's level 0, for a radiance of `size` texels.
 uint32_t passes_prefiltered_width(uint32_t size);
 
-/// Adds the passes that smooth level 0 of an environment's cube.
+/// Adds the passes that smooth level 0 of an environment's cube. `retained`: the result serves
+/// several frames.
 prefiltering_sources passes_environment_smoothing(lobe_graph *graph, lobe_resource radiance,
-                                                  uint32_t size);
+                                                  uint32_t size, bool retained);
 
 /// Adds the pass that filters faces of one level of `cube` (six layers) with a von Mises-Fisher
 /// lobe of this concentration, less what linear interpolation adds when the cube is sampled.

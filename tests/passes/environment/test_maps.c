@@ -134,6 +134,29 @@ static void parts_add_up_to_the_whole(void **state) {
     stop(&s);
 }
 
+/// What the parts are made from.
+static void parts_share_the_smoothed_environment(void **state) {
+    frames s;
+    start(&s, *state, true, false, 0);
+    s.request.size = 64;
+    run_frame(&s);
+    const size_t whole = run_of(&s, "environment_smoothing");
+    stop(&s);
+    start(&s, *state, true, false, 8);
+    s.request.size = 64;
+    size_t by_parts = 0;
+    for (environment_maps maps = {0}; !maps.up_to_date;) {
+        maps = run_frame(&s);
+        by_parts += run_of(&s, "environment_smoothing");
+    }
+    assert_true(whole > 0);
+    assert_int_equal(by_parts, whole);
+    s.request.parts = 0;
+    run_frame(&s);
+    assert_int_equal(passes_run(&s), 0);
+    stop(&s);
+}
+
 /// The former cubes stay until the new ones are finished.
 static void a_new_environment_takes_over_when_it_is_finished(void **state) {
     frames s;
@@ -266,6 +289,7 @@ int main(void) {
         cmocka_unit_test(only_what_is_asked_is_made),
         cmocka_unit_test(nothing_is_made_twice),
         cmocka_unit_test(parts_add_up_to_the_whole),
+        cmocka_unit_test(parts_share_the_smoothed_environment),
         cmocka_unit_test(a_new_environment_takes_over_when_it_is_finished),
         cmocka_unit_test(making_can_be_stopped),
         cmocka_unit_test(wrong_arguments_are_told),
