@@ -299,7 +299,16 @@ bool imgui_integer(const char *name, int minimum, int maximum, int *value) {
 bool imgui_colour(const char *name, float colour[3]) {
     show_name(name);
     hidden_name id(name);
-    return ImGui::ColorEdit3("##value", colour);
+    float edited[3] = {colour[0], colour[1], colour[2]};
+    bool changed = false;
+    ImGui::ColorEdit3("##value", edited);
+    for (int i = 0; i < 3; i++) {
+        // Typed numbers may be any.
+        const float value = std::clamp(edited[i], 0.0f, 1.0f);
+        changed |= value != colour[i];
+        colour[i] = value;
+    }
+    return changed;
 }
 
 void imgui_same_line(void) {

@@ -466,9 +466,9 @@ def test_lights_are_changed_on_the_panel():
         type_into(panel, row, value)
     sun, lamp = "directional:-0.8660254,-0.5,0:1.5,1.5,1.5", "point:2,1,-4:8,8,8"
     shows_lights(panel, size, sun, lamp)
-    type_into(panel, COLOUR, 0, 140)
+    type_into(panel, COLOUR, -500, 140)
     shows_lights(panel, size, sun.replace(":1.5,", ":0,"), lamp)
-    type_into(panel, COLOUR, 255, 140)
+    type_into(panel, COLOUR, 999, 140)
     type_into(panel, NUMBER, 2)
     panel.do("mousemove", 124, ON, "click", 1)
     shows_lights(panel, size, sun)
