@@ -22,22 +22,28 @@ static void print_help(FILE *stream) {
           stream);
 }
 
-static int usage_error(const char *what, const char *text) {
-    fprintf(stderr, "lobe: %s '%s' (see 'lobe --help')\n", what, text);
+static int usage_error(const char *what, const char *text, const char *hint) {
+    fprintf(stderr, "lobe: %s '%s'%s (see 'lobe --help')\n", what, text, hint);
     return 2;
+}
+
+static int unknown_option(const char *text) {
+    closest_name closest = {.name = text, .length = strlen(text)};
+    char hint[CLOSEST_NAME_HINT_SIZE];
+    closest_name_offer(&closest, "--help");
+    closest_name_offer(&closest, "--version");
+    return usage_error("unknown option", text, closest_name_hint(&closest, "", hint));
 }
 
 static int unknown_subcommand(const char *name) {
     char hint[CLOSEST_NAME_HINT_SIZE];
-    fprintf(stderr, "lobe: unknown subcommand '%s'%s (see 'lobe --help')\n", name,
-            subcommand_hint(name, hint));
-    return 2;
+    return usage_error("unknown subcommand", name, subcommand_hint(name, hint));
 }
 
 /// `lobe help`, `lobe help SUBCOMMAND`
 static int help(int argc, char **argv) {
     if (argc > 2)
-        return usage_error("unexpected operand", argv[2]);
+        return usage_error("unexpected operand", argv[2], "");
     if (argc < 2) {
         print_help(stdout);
         return 0;
@@ -61,7 +67,7 @@ static int run(int argc, char **argv) {
         return 0;
     }
     if (argv[1][0] == '-')
-        return usage_error("unknown option", argv[1]);
+        return unknown_option(argv[1]);
     const subcommand *found = subcommand_find(argv[1]);
     return found ? found->run(argc - 1, argv + 1) : unknown_subcommand(argv[1]);
 }

@@ -59,6 +59,8 @@ def test_unknown_option():
 
 def test_misspelt_names():
     """The line says which name was probably meant."""
+    is_wrong_usage("--verison", says="did you mean '--version'?")
+    is_wrong_usage("-help", says="did you mean '--help'?")
     is_wrong_usage("rendr", says="did you mean 'render'?")
     is_wrong_usage("help", "benhc", says="did you mean 'bench'?")
     is_wrong_usage("manual", "veiw", says="did you mean 'view'?")
