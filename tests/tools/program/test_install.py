@@ -314,6 +314,7 @@ def build_with(kind, gone, project_text, **environment):
     (project / "embed.c").write_text(smallest_program())
     run(configure(project, folder=folder), **environment)
     run(["cmake", "--build", project / "build"])
+    return folder
 
 
 def test_either_library_alone():
@@ -321,7 +322,13 @@ def test_either_library_alone():
     if not shutil.which("cmake"):
         return "there is no cmake"
     build_with("shared", "liblobe.a", CMAKE_SHARED_PROJECT, PKG_CONFIG_LIBDIR=str(FOLDER))
-    build_with("static", "liblobe.so*", CMAKE_STATIC_PROJECT)
+    folder = build_with("static", "liblobe.so*", CMAKE_STATIC_PROJECT)
+    project = fresh_folder("cmake-none")
+    (project / "CMakeLists.txt").write_text(CMAKE_SHARED_PROJECT)
+    result = subprocess.run(configure(project, folder=folder), text=True, capture_output=True,
+                            check=False)
+    check(result.returncode != 0 and "COMPONENTS static finds" in " ".join(result.stderr.split()),
+          result.stderr)
     return None
 
 
