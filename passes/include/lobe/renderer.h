@@ -141,8 +141,9 @@ typedef struct lobe_render_host {
     bool (*progress)(void *user, double part);
     /// The same for the environment's filtered maps, if they have to be made: then that takes
     /// submissions of its own, before those of the picture, with one part of the work in each.
-    /// Ignored with `submission`, and where `environment.parts` spreads the work over frames. NULL:
-    /// none, and the maps are made in the picture's first submission.
+    /// Ignored with `submission`, where `environment.parts` spreads the work over frames, and for
+    /// maps that only `rebuild` asks for. NULL: none. Maps without progress are made in the
+    /// picture's first submission.
     bool (*environment_progress)(void *user, double part);
     /// Called once for each stage while the frame's graph is declared; adds the host's passes to
     /// it. New versions of resources that they write go back into `resources`. Errors in their
