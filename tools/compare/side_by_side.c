@@ -56,8 +56,8 @@ static lobe_result check_panels(const side_by_side_panel *panels, size_t count,
 // ---------------------------------------------------------------------------------------------
 // Captions
 
-/// How many characters of a caption go on its next line: up to a comma, to another space, or as
-/// many as fit.
+/// How many characters of a caption go on its next line: up to a comma that does not come early, to
+/// another space, or as many as fit.
 static size_t line_length(const char *text, size_t characters) {
     size_t at_space = 0, at_comma = 0;
     if (strlen(text) <= characters)
@@ -66,7 +66,7 @@ static size_t line_length(const char *text, size_t characters) {
         if (text[i] != ' ')
             continue;
         at_space = i;
-        if (text[i - 1] == ',')
+        if (text[i - 1] == ',' && 3 * i >= characters)
             at_comma = i;
     }
     return at_comma > 0 ? at_comma : at_space > 0 ? at_space : characters;

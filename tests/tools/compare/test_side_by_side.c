@@ -95,8 +95,12 @@ static size_t dots_of(const char *text) {
 static void captions_are_written_whole(void **state) {
     (void)state;
     static const char *const captions[] = {
-        "", "lobes", "flip 0.123, rel. L2 0.123", "tablecloth.moments.normal_mapping-microfacet",
-        "a picture with a long name, of words and more than one line"};
+        "",
+        "lobes",
+        "flip 0.123, rel. L2 0.123",
+        "tablecloth.moments.normal_mapping-microfacet",
+        "a picture with a long name, of words and more than one line",
+        "a, picture of four lines if the first is not left alone with its letter"};
     lobe_image picture = make_picture(256, HEIGHT, 101);
     for (size_t n = 0; n < sizeof captions / sizeof *captions; n++)
         assert_int_equal(dots_written(captions[n], &picture), dots_of(captions[n]));
