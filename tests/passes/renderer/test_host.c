@@ -343,6 +343,7 @@ static void pictures_are_recorded_into_the_hosts_commands(void **state) {
         const lobe_vulkan_submission submission = {.commands = commands};
         lobe_frame frame = render(
             f, &(lobe_render_parameters){.host = {.target = &target, .submission = &submission}});
+        assert_true(frame.host_milliseconds > 0 && frame.milliseconds == 0);
         host_finish(&f->host, commands);
         lobe_frame_free(&frame);
         images[n] = host_texels(f, &f->colour);
