@@ -38,7 +38,7 @@ lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
     (*buffer)->stamp = engine_device_stamp(device);
-    (*buffer)->uploads.queue = queue;
+    (*buffer)->uploads = engine_upload_state_of(queue);
     lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
                                                      usage, ENGINE_MEMORY_DEVICE,
                                                      &(*buffer)->buffer, &(*buffer)->allocation);

@@ -75,11 +75,11 @@ void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
 
 void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
                                  engine_discarded *object) {
-    object->until = ring->end;
-    if (ring->begin < ring->end && engine_discards_add(device, &ring->discards, object))
+    object->until = ring->next;
+    if (ring->begin < ring->next && engine_discards_add(device, &ring->discards, object))
         return;
     // Nothing is in flight, or nothing can say until when. A lost device has finished, too.
-    if (ring->begin < ring->end)
+    if (ring->begin < ring->next)
         (void)engine_device_wait_all(device);
     engine_discarded_destroy(device, object);
 }

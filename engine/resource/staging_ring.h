@@ -40,8 +40,8 @@ lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring
 uint64_t engine_staging_ring_end_frame(lobe_device *device, engine_staging_ring *ring);
 /// The frames that end at `position` or before are done.
 void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring, uint64_t position);
-/// Destroys an object once all frames until now are done. Waits only where the host is out of
-/// memory.
+/// Destroys an object, which the next frame does not use, once the frames in flight are done. Waits
+/// only where the host is out of memory.
 void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
                                  engine_discarded *object);
 /// All frames must be done.

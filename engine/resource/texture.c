@@ -91,7 +91,7 @@ lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue
     (*texture)->format = parameters->image->format;
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
-    (*texture)->uploads.queue = queue;
+    (*texture)->uploads = engine_upload_state_of(queue);
     result = create_image(*texture);
     if (result == LOBE_OK)
         result = create_views(*texture);

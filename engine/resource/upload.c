@@ -12,6 +12,10 @@ static uint64_t minimum(uint64_t first, uint64_t second) {
 // ---------------------------------------------------------------------------------------------
 // The queue
 
+engine_upload_state engine_upload_state_of(engine_uploads *queue) {
+    return (engine_upload_state){.queue = queue, .created = queue ? queue->ring.next : 0};
+}
+
 static lobe_result out_of_memory(const engine_uploads *queue, const char *name) {
     return lobe_host_fail(&queue->device->host, LOBE_ERROR_OUT_OF_MEMORY, "'%s': out of memory",
                           name);
@@ -39,12 +43,11 @@ static lobe_result add(engine_uploads *queue, const char *name, engine_upload_st
     copy->again = state->bytes > 0;
     state->bytes += copy->size;
     state->last = queue->count;
-    queue->bytes += copy->size;
     queue->copies[queue->count++] = *copy;
     return LOBE_OK;
 }
 
-static engine_upload_state *state_of(const engine_upload *copy) {
+static engine_upload_state *target_of(const engine_upload *copy) {
     if (copy->texture)
         return &copy->texture->uploads;
     return copy->buffer ? &copy->buffer->uploads : NULL;
@@ -54,29 +57,38 @@ static engine_upload_state *state_of(const engine_upload *copy) {
 static void remove_before(engine_uploads *queue, engine_upload_state *state, uint32_t end) {
     for (uint32_t i = 0; i < end; i++) {
         engine_upload *copy = &queue->copies[i];
-        if (state_of(copy) != state)
+        if (target_of(copy) != state)
             continue;
         state->bytes -= copy->size;
-        queue->bytes -= copy->size;
         copy->texture = NULL;
         copy->buffer = NULL;
     }
 }
 
+/// Removes all copies to an object that will be gone, and shortens the queue where it can.
+static void remove_all(engine_uploads *queue, engine_upload_state *state) {
+    if (state->bytes > 0)
+        remove_before(queue, state, queue->count);
+    while (queue->count > 0 && !target_of(&queue->copies[queue->count - 1]))
+        queue->count--;
+}
+
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
                                   engine_discarded *object) {
-    if (state->queue) {
-        remove_before(state->queue, state, state->bytes > 0 ? state->queue->count : 0);
-        engine_staging_ring_discard(device, &state->queue->ring, object);
-        return;
-    }
-    // On failure the device is lost, and has finished too.
-    (void)engine_device_wait_all(device);
-    engine_discarded_destroy(device, object);
+    engine_uploads *queue = state->queue;
+    if (queue)
+        remove_all(queue, state);
+    else // On failure the device is lost, and has finished too.
+        (void)engine_device_wait_all(device);
+    if (queue && state->created < queue->ring.next)
+        engine_staging_ring_discard(device, &queue->ring, object);
+    else
+        engine_discarded_destroy(device, object);
 }
 
 bool engine_uploads_take(const engine_uploads *queue, uint64_t size) {
-    return queue && queue->ring.end > 0 && queue->bytes + size <= ENGINE_UPLOAD_STEP;
+    return queue && queue->ring.end > 0 &&
+           queue->ring.end - queue->ring.next + size <= ENGINE_UPLOAD_STEP;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -241,14 +253,13 @@ void engine_uploads_record(engine_uploads *queue, VkCommandBuffer commands) {
 
 uint64_t engine_uploads_commit(engine_uploads *queue) {
     for (uint32_t i = 0; i < queue->count; i++) {
-        engine_upload_state *state = state_of(&queue->copies[i]);
+        engine_upload_state *state = target_of(&queue->copies[i]);
         if (state)
             state->bytes = 0;
         if (queue->copies[i].texture)
             queue->copies[i].texture->filled = true;
     }
     queue->count = 0;
-    queue->bytes = 0;
     return engine_staging_ring_end_frame(queue->device, &queue->ring);
 }
 

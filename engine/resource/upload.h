@@ -36,8 +36,10 @@ typedef struct engine_uploads {
     engine_upload *copies;
     VkImageMemoryBarrier2 *barriers; ///< room for recording
     uint32_t count, capacity, barrier_capacity;
-    uint64_t bytes; ///< of all copies
 } engine_uploads;
+
+/// Of a new object: of the graph with this queue; NULL: of none.
+engine_upload_state engine_upload_state_of(engine_uploads *queue);
 
 /// Whether content of a new object joins the queue: not before the first frame, when there is
 /// nothing yet that waiting could hold up, and not where that would make the ring large.
@@ -50,8 +52,8 @@ lobe_result engine_uploads_add_texture(engine_uploads *queue, lobe_texture *text
 /// `data`: `size` bytes; NULL: zeroes.
 lobe_result engine_uploads_add_buffer(engine_uploads *queue, lobe_buffer *buffer,
                                       VkDeviceSize first, VkDeviceSize size, const void *data);
-/// Removes the copies to an object, and destroys it when the frames that may use it are done; waits
-/// for them if it belongs to no graph.
+/// Removes the copies to an object, and destroys it when the frames that may use it are done: at
+/// once if there are none. Waits for them if it belongs to no graph.
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
                                   engine_discarded *object);
 
