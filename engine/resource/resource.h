@@ -14,7 +14,7 @@
 typedef struct engine_upload_state {
     struct engine_uploads *queue; ///< NULL: it belongs to no graph, and is written at once
     uint64_t created;             ///< ring position: frames that end there or before do not use it
-    uint64_t bytes;               ///< of its copies in the queue
+    uint64_t bytes;               ///< of host memory that its copies in the queue need; 0: none
     uint32_t last;                ///< of these copies; meaningless without any
 } engine_upload_state;
 

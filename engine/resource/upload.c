@@ -30,6 +30,11 @@ static bool reserve(engine_uploads *queue) {
                                 needed, sizeof *queue->barriers);
 }
 
+/// Of a copy, in bytes of host memory: its content, and what describes it.
+static uint64_t cost_of(VkDeviceSize size) {
+    return size + sizeof(engine_upload) + sizeof(VkImageMemoryBarrier2);
+}
+
 /// Adds a copy, whose content the caller writes; `copy->from` if it is not of zeroes.
 static lobe_result add(engine_uploads *queue, const char *name, engine_upload_state *state,
                        engine_upload *copy, bool zeroes) {
@@ -41,7 +46,7 @@ static lobe_result add(engine_uploads *queue, const char *name, engine_upload_st
     if (result != LOBE_OK)
         return result;
     copy->again = state->bytes > 0;
-    state->bytes += copy->size;
+    state->bytes += cost_of(copy->size);
     state->last = queue->count;
     queue->copies[queue->count++] = *copy;
     return LOBE_OK;
@@ -59,7 +64,7 @@ static void remove_before(engine_uploads *queue, engine_upload_state *state, uin
         engine_upload *copy = &queue->copies[i];
         if (target_of(copy) != state)
             continue;
-        state->bytes -= copy->size;
+        state->bytes -= cost_of(copy->size);
         copy->texture = NULL;
         copy->buffer = NULL;
     }
@@ -122,8 +127,10 @@ lobe_result engine_uploads_add_texture(engine_uploads *queue, lobe_texture *text
         copy_rows(&queue->copies[state->last], image, part);
         return LOBE_OK;
     }
-    // Many parts become one, so that they never need more memory than twice the texture.
-    const bool all = state->bytes + bytes_of(texture, part) > bytes_of(texture, &whole);
+    // Many parts become one: whatever their size, they never need much more memory than twice the
+    // texture.
+    const bool all = state->bytes > 0 &&
+                     state->bytes + cost_of(bytes_of(texture, part)) > bytes_of(texture, &whole);
     engine_upload copy = {.texture = texture, .part = all ? whole : *part};
     copy.size = bytes_of(texture, &copy.part);
     const lobe_result result = add(queue, texture->name, state, &copy, false);

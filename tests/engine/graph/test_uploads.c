@@ -233,10 +233,38 @@ static void many_parts_before_a_frame(void **state) {
             contents next = pattern((float)(seed >> 16));
             copy_part(&expected, &next, part);
             update(texture, &expected, part);
-            assert_true(texture->uploads.bytes <= 2 * sizeof expected);
+            assert_true(waiting(f) <= 3);
         }
         assert_texture(f, texture, &expected);
     }
+    lobe_texture_destroy(&texture);
+}
+
+/// Each also takes memory for what describes it, which exceeds that of its texels.
+static void single_texels_become_all_of_them(void **state) {
+    enum { EXTENT = 256 };
+    static uint8_t texels[EXTENT][EXTENT];
+    const lobe_image image = {LOBE_FORMAT_R8_UNORM, EXTENT, EXTENT, texels};
+    graph_fixture *f = *state;
+    lobe_texture *texture;
+    assert_int_equal(
+        lobe_graph_create_texture(f->graph, &(lobe_texture_parameters){"map", &image}, &texture),
+        LOBE_OK);
+    lobe_graph_begin(f->graph);
+    graph_fixture_execute(f);
+    size_t most = 0;
+    for (uint32_t n = 0; n < EXTENT * EXTENT; n++) {
+        const lobe_rectangle part = {n * 7 % EXTENT, n / EXTENT, 1, 1};
+        texels[part.y][part.x] = (uint8_t)(n * 31);
+        assert_int_equal(lobe_texture_update_part(texture, &image, &part), LOBE_OK);
+        most = waiting(f) > most ? waiting(f) : most;
+    }
+    assert_in_range(most, 10, EXTENT * EXTENT / 100);
+    lobe_graph_begin(f->graph);
+    const lobe_resource seen = lobe_graph_import_texture(f->graph, texture);
+    lobe_graph_read_back(f->graph, seen, (lobe_range){0});
+    graph_fixture_execute(f);
+    assert_memory_equal(lobe_graph_data(f->graph, seen, NULL), texels, sizeof texels);
     lobe_texture_destroy(&texture);
 }
 
@@ -492,6 +520,7 @@ int main(void) {
         TEST(large_new_objects_do_not_fill_the_ring),
         TEST(only_the_part_is_copied),
         TEST(many_parts_before_a_frame),
+        TEST(single_texels_become_all_of_them),
         TEST(parts_outside_are_refused),
         TEST(parts_of_a_plain_texture),
         TEST(frames_in_flight_keep_their_content),
