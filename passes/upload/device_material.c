@@ -60,32 +60,32 @@ static bool row_equals(const unsigned char *row, uint32_t width, size_t texel, s
     return different == 0;
 }
 
-/// Whether a metallic-roughness map has a single metallic value; if so, returns it.
-static bool metallic_is_constant(const lobe_image *image, float *metallic) {
+static image_metal measure_metal(const lobe_image *image) {
     const size_t texel = lobe_format_size(image->format);
     const uint32_t channels = lobe_format_channels(image->format);
     float first[4];
     if (!passes_image_texel(image, 0, 0, first))
-        return false;
+        return (image_metal){.known = true, .varies = true};
     const size_t channel = texel / channels;
     const unsigned char *values = (const unsigned char *)image->texels + 2 * channel;
     for (size_t y = 0; channels > 2 && y < image->height; y++)
         if (!row_equals(values + y * image->width * texel, image->width, texel, channel, values))
-            return false;
-    *metallic = first[2];
-    return true;
+            return (image_metal){.known = true, .varies = true};
+    return (image_metal){.known = true, .value = first[2]};
 }
 
-static void measure_metallic(const lobe_scene *scene, device_material *material) {
+/// Finds where the material is metal. Materials that share a map share what is known of it.
+static void find_metal(const device_scene *scene, device_material *material) {
     const lobe_texture_use *use = material->maps[MAP_WIDTH].use;
-    float constant = 1;
     material->metallic = material->material->metallic;
     if (!use || material->material->model != LOBE_MATERIAL_MICROFACET || material->metallic == 0)
         return;
-    if (metallic_is_constant(&scene->images[use->image].image, &constant))
-        material->metallic *= constant;
-    else
-        material->metallic_varies = true;
+    image_metal *metal = &scene->metals[use->image];
+    if (!metal->known)
+        *metal = measure_metal(&scene->scene->images[use->image].image);
+    material->metallic_varies = metal->varies;
+    if (!metal->varies)
+        material->metallic *= metal->value;
 }
 
 static lobe_result find_maps(device_scene *result, device_material *material,
@@ -186,7 +186,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
                                   .version = before.version};
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
-        measure_metallic(scene->scene, material);
+        find_metal(scene, material);
         status = store_constants(scene->graph, material);
     }
     if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material))

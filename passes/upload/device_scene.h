@@ -15,6 +15,13 @@ typedef struct device_map {
     uint32_t width, height;      ///< texels
 } device_map;
 
+/// The third channel of an image's texels: metal, where a material uses it so.
+typedef struct image_metal {
+    bool known;  ///< since the device has these texels
+    bool varies; ///< otherwise it is `value` everywhere
+    float value;
+} image_metal;
+
 typedef struct device_material {
     const lobe_material *material;
     lobe_buffer *constants;
@@ -62,6 +69,7 @@ typedef struct device_scene {
     const lobe_allocator *allocator; ///< the device's
     lobe_texture *white;             ///< one white texel, where a map is missing
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used
+    image_metal *metals;             ///< one for each image
     lobe_texture *environment;       ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices; ///< one for each mesh; NULL: not used

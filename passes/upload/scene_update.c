@@ -167,6 +167,7 @@ static lobe_result update_image(const scene_update *update, size_t n) {
     lobe_texture **texture = &update->scene->images[index];
     if (!*texture)
         return LOBE_OK;
+    update->scene->metals[index].known = false;
     if (lobe_texture_takes(*texture, &image->image))
         return lobe_texture_update_part(*texture, &image->image, changed_part(update, n));
     lobe_texture_destroy(texture);
