@@ -213,6 +213,14 @@ static uint32_t find_import(const lobe_graph *graph, const void *object) {
     return ENGINE_DEPENDENCY_NONE;
 }
 
+/// What belongs to another graph may not have its content yet when this frame runs, or be gone.
+static bool may_use(lobe_graph *graph, const engine_upload_state *uploads, const char *name) {
+    if (!uploads->queue || uploads->queue == &graph->kept.uploads)
+        return true;
+    lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "render graph: '%s' belongs to another graph", name);
+    return false;
+}
+
 lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture) {
     if (!texture) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
@@ -220,7 +228,8 @@ lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *t
         return (lobe_resource){0};
     }
     static const engine_layout layout = ENGINE_LAYOUT_SAMPLED;
-    if (!engine_graph_can_declare(graph, texture->name))
+    if (!engine_graph_can_declare(graph, texture->name) ||
+        !may_use(graph, &texture->uploads, texture->name))
         return (lobe_resource){0};
     uint32_t known = find_import(graph, texture);
     if (known != ENGINE_DEPENDENCY_NONE)
@@ -252,7 +261,8 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
                         "lobe_graph_import_buffer: buffer must not be NULL");
         return (lobe_resource){0};
     }
-    if (!engine_graph_can_declare(graph, buffer->name))
+    if (!engine_graph_can_declare(graph, buffer->name) ||
+        !may_use(graph, &buffer->uploads, buffer->name))
         return (lobe_resource){0};
     uint32_t known = find_import(graph, buffer);
     if (known != ENGINE_DEPENDENCY_NONE)

@@ -119,8 +119,9 @@ LOBE_API lobe_result lobe_graph_create_buffer(lobe_graph *graph,
                                               const lobe_buffer_parameters *parameters,
                                               lobe_buffer **buffer);
 
-/// Imports a texture or buffer; passes may only read it. The object must live until the frame has
-/// executed. Importing the same object twice returns the same resource.
+/// Imports a texture or buffer, of the device or of this graph; passes may only read it. The object
+/// must live until the frame has executed. Importing the same object twice returns the same
+/// resource.
 LOBE_API lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *texture);
 LOBE_API lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buffer);
 

@@ -420,6 +420,26 @@ static void the_frame_after_a_failed_one_copies(void **state) {
     lobe_texture_destroy(&texture);
 }
 
+static void other_graphs_may_not_use_them(void **state) {
+    graph_fixture *f = *state;
+    contents content = pattern(1);
+    lobe_texture *texture = create_texture(f, &content);
+    lobe_buffer *buffer = create_buffer(f, &content);
+    lobe_graph *own = f->graph;
+    assert_int_equal(lobe_graph_create(f->device, &f->graph), LOBE_OK);
+    lobe_graph_begin(f->graph);
+    lobe_graph_import_texture(f->graph, texture);
+    GRAPH_EXPECT(f, LOBE_ERROR_GRAPH, "'map'", "another graph");
+    f->recorder.errors = 0;
+    lobe_graph_begin(f->graph);
+    lobe_graph_import_buffer(f->graph, buffer);
+    GRAPH_EXPECT(f, LOBE_ERROR_GRAPH, "'numbers'", "another graph");
+    lobe_graph_destroy(&f->graph);
+    f->graph = own;
+    lobe_texture_destroy(&texture);
+    lobe_buffer_destroy(&buffer);
+}
+
 /// Takes the mapped memory that a device with a limit has left.
 static size_t occupy(lobe_device *device, engine_staging staging[], size_t most) {
     size_t count = 0;
@@ -525,6 +545,7 @@ int main(void) {
         TEST(parts_of_a_plain_texture),
         TEST(frames_in_flight_keep_their_content),
         TEST(the_frame_after_a_failed_one_copies),
+        TEST(other_graphs_may_not_use_them),
         TEST(a_failed_update_leaves_the_content),
         TEST(gone_objects_are_left_out),
         TEST(objects_come_and_go_between_frames),
