@@ -1,6 +1,7 @@
 #include "passes/upload/device_scene_parts.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "passes/upload/frame_check.h"
 #include "passes/upload/material_maps.h"
@@ -71,16 +72,32 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
                           scene->material_count);
 }
 
+static grid_layout layout_of(const device_scene *scene, uint32_t mesh,
+                             const lobe_texture_use *use) {
+    grid_layout layout = {.mesh = mesh,
+                          .mesh_version = scene->measures[mesh].version,
+                          .texture_coordinates = use->texture_coordinates};
+    memcpy(layout.transform, use->transform, sizeof layout.transform);
+    return layout;
+}
+
+/// Looks at the triangles only where their layout has changed.
+static void find_atlas(device_scene *scene, device_instance *instance) {
+    const lobe_grid grid = passes_lobe_grid(&scene->materials[instance->material]);
+    const grid_layout before = instance->layout;
+    instance->layout = grid.use ? layout_of(scene, instance->mesh, grid.use) : (grid_layout){0};
+    if (memcmp(&instance->layout, &before, sizeof before) != 0)
+        instance->is_atlas = grid.use && is_atlas(&scene->scene->meshes[instance->mesh], grid.use);
+}
+
 static void measure_instance(device_scene *scene, size_t index) {
     const lobe_instance *source = &scene->scene->instances[index];
-    const lobe_grid grid = passes_lobe_grid(&scene->materials[source->material]);
-    scene->instances[index] = (device_instance){
-        .mesh = source->mesh,
-        .material = source->material,
-        .mirrored = mirrors(source->transform),
-        .keeps_angles = keeps_angles(source->transform),
-        .is_atlas = grid.use && is_atlas(&scene->scene->meshes[source->mesh], grid.use),
-    };
+    device_instance *instance = &scene->instances[index];
+    instance->mesh = source->mesh;
+    instance->material = source->material;
+    instance->mirrored = mirrors(source->transform);
+    instance->keeps_angles = keeps_angles(source->transform);
+    find_atlas(scene, instance);
 }
 
 static lobe_result upload_material(device_scene *result, uint32_t index, const lobe_host *host) {

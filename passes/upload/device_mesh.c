@@ -55,9 +55,13 @@ static void measure_density(const lobe_mesh *mesh, mesh_measures *measures) {
     }
 }
 
-static mesh_measures measure(const lobe_mesh *mesh) {
-    mesh_measures measures = {
-        {INFINITY, INFINITY}, INFINITY, -INFINITY, mesh->vertex_count, mesh->index_count};
+static mesh_measures measure(const lobe_mesh *mesh, uint32_t version) {
+    mesh_measures measures = {.least_density = {INFINITY, INFINITY},
+                              .least_alpha = INFINITY,
+                              .largest_alpha = -INFINITY,
+                              .vertex_count = mesh->vertex_count,
+                              .index_count = mesh->index_count,
+                              .version = version};
     measure_density(mesh, &measures);
     measure_alpha(mesh, &measures);
     return measures;
@@ -83,7 +87,7 @@ lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index)
               mesh->vertex_count == before.vertex_count, &scene->vertices[index]);
     if (status != LOBE_OK)
         return status;
-    scene->measures[index] = measure(mesh);
+    scene->measures[index] = measure(mesh, before.version + 1);
     return store(scene->graph, name, mesh->index_count * sizeof *mesh->indices, mesh->indices,
                  mesh->index_count == before.index_count, &scene->indices[index]);
 }

@@ -42,6 +42,12 @@ typedef struct device_material {
     uint32_t version;
 } device_material;
 
+/// How a lobe_grid lies on a mesh.
+typedef struct grid_layout {
+    uint32_t mesh, mesh_version, texture_coordinates;
+    float transform[2][3]; ///< of the texture coordinates
+} grid_layout;
+
 typedef struct device_instance {
     uint32_t mesh, material;
     bool mirrored; ///< the transform mirrors
@@ -50,6 +56,7 @@ typedef struct device_instance {
     /// The texture coordinates of the lobes' grid stay within [0, 1] and do not overlap: each texel
     /// belongs to one place of the mesh.
     bool is_atlas;
+    grid_layout layout; ///< for which `is_atlas` was found; all zero: none
 } device_instance;
 
 typedef struct mesh_measures {
@@ -59,6 +66,7 @@ typedef struct mesh_measures {
     float least_density[2];
     float least_alpha, largest_alpha; ///< of the vertices' colours
     size_t vertex_count, index_count;
+    uint32_t version; ///< increases with each upload, from 1 on
 } mesh_measures;
 
 /// The device's copy of a scene: only what instances use. What is uploaded reaches the device with

@@ -363,6 +363,37 @@ static void metal_is_that_of_announced_texels(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// A mesh, which may be large, is looked at when it is announced, or a map is laid out otherwise.
+static void layouts_are_those_of_announced_meshes(void **state) {
+    static const uint32_t first = 0;
+    const lobe_scene_changes material = {.materials = &first, .material_count = 1};
+    const lobe_scene_changes mesh = {.meshes = &first, .mesh_count = 1};
+    fixture *f = *state;
+    lobe_scene *scene = changing_scene();
+    float *coordinate = scene->meshes[0].vertices[0].texture_coordinates[0];
+    float *scale = &scene->materials[0].normal_map.transform[0][0];
+    const float placed = *coordinate;
+    device_scene *uploaded;
+    assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
+                     LOBE_OK);
+    const device_instance *known = &uploaded->instances[0];
+    assert_true(known->is_atlas);
+    *coordinate = 5;
+    assert_int_equal(passes_device_scene_update(uploaded, &material, &f->host), LOBE_OK);
+    assert_true(known->is_atlas);
+    assert_int_equal(passes_device_scene_update(uploaded, &mesh, &f->host), LOBE_OK);
+    assert_false(known->is_atlas);
+    *coordinate = placed;
+    assert_int_equal(passes_device_scene_update(uploaded, &mesh, &f->host), LOBE_OK);
+    assert_true(known->is_atlas);
+    *scale = 3;
+    assert_int_equal(passes_device_scene_update(uploaded, &material, &f->host), LOBE_OK);
+    assert_false(known->is_atlas);
+    lobe_graph_begin(f->graph);
+    passes_device_scene_destroy(&uploaded);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_moves_or_shines_rebuilds_nothing),
@@ -375,6 +406,7 @@ int main(void) {
         cmocka_unit_test(mistakes_change_nothing),
         cmocka_unit_test(paint_keeps_what_was_prepared),
         cmocka_unit_test(metal_is_that_of_announced_texels),
+        cmocka_unit_test(layouts_are_those_of_announced_meshes),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
