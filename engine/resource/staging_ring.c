@@ -43,8 +43,9 @@ static engine_discarded memory_of(const engine_staging_ring *ring) {
 static lobe_result grow(lobe_device *device, engine_staging_ring *ring, VkDeviceSize size) {
     engine_staging grown;
     const engine_discarded former = memory_of(ring);
+    const VkDeviceSize with_end = size + ALIGNMENT; // so that twice as much holds two frames
     lobe_result result = engine_staging_create(
-        device, "staging ring", round_up(largest(2 * ring->memory.size, size), MINIMUM),
+        device, "staging ring", round_up(largest(2 * ring->memory.size, with_end), MINIMUM),
         ENGINE_MEMORY_UPLOAD, &grown);
     if (result != LOBE_OK)
         return result;
