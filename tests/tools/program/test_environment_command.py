@@ -167,4 +167,8 @@ def test_validation_finds_no_fault():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), under_sanitizers=(
+        test_levels_are_listed, test_cube_is_written, test_a_cube_is_kept_for_the_next_time,
+        test_a_folder_that_cannot_keep_it_is_no_failure, test_kept_in_the_users_folder, test_check,
+        test_even_light_is_kept_by_every_method, test_lobes_between_levels, test_wrong_usage,
+        test_broken_and_missing_files, test_outputs_are_tried_before_work)))
