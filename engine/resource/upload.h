@@ -67,8 +67,8 @@ void engine_uploads_release(engine_uploads *queue, uint64_t position);
 /// All frames must be done; copies in the queue are dropped.
 void engine_uploads_free(engine_uploads *queue);
 
-/// Writes all of a texture or a buffer (NULL: zeroes) in submissions of its own, and waits for
-/// them.
+/// Writes a part of a texture, or all of a buffer (NULL: zeroes), in submissions of its own, and
+/// waits for them.
 lobe_result engine_upload_texture_now(lobe_texture *texture, const lobe_image *image,
                                       const lobe_rectangle *part);
 lobe_result engine_upload_buffer_now(lobe_buffer *buffer, const void *data);
