@@ -24,7 +24,8 @@ STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
 VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
 # Drivers inline all functions anyway. Where they need not do it, and meet no variables that merely
-# pass arguments, lavapipe creates a shading pipeline in half the time. Bindings and specialisation
+# pass arguments, lavapipe creates a shading pipeline in half the time. Branches that a variant does
+# not take go before that: they would be inlined at every call. Bindings and specialisation
 # constants stay, also those that no code uses.
 OPTIMISATIONS = ("--preserve-bindings", "--preserve-spec-constants",
                  "--eliminate-dead-branches", "--eliminate-dead-functions",
