@@ -29,13 +29,6 @@ typedef struct error_bounds {
     error_order orders[MOST_FILTERS]; ///< ended by NULL
 } error_bounds;
 
-static lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *request) {
-    lobe_frame frame = draw(f, request);
-    if (f->errors != 0 || lobe_device_validation_count(f->device) != 0)
-        fail_msg("%s, %s: %s", scene, request->filter, f->error);
-    return frame;
-}
-
 static double measure(fixture *f, const char *scene, const char *filter, bool outputs,
                       const lobe_image *truth) {
     picture_request request = {

@@ -37,6 +37,18 @@ lobe_frame draw(fixture *f, const picture_request *request) {
     return frame;
 }
 
+void assert_silence(const fixture *f, const char *scene, const picture_request *request) {
+    if (f->errors != 0 || lobe_device_validation_count(f->device) != 0)
+        fail_msg("%s, %s, %s: %s", scene, request->filter,
+                 request->settings[0] ? request->settings[0] : "-", f->error);
+}
+
+lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *request) {
+    lobe_frame frame = draw(f, request);
+    assert_silence(f, scene, request);
+    return frame;
+}
+
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request) {
     if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
         fail_msg("%s: %s", scene->name, f->error);

@@ -22,6 +22,11 @@ typedef struct picture_request {
 
 /// Draws the renderer's scene; asserts success. Free the frame with lobe_frame_free.
 lobe_frame draw(fixture *f, const picture_request *request);
+/// Nothing has been logged as an error, not by the validation layer either. The scene's name is for
+/// the message.
+void assert_silence(const fixture *f, const char *scene, const picture_request *request);
+/// Draws, and asserts silence.
+lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *request);
 /// The same for another scene, which is removed from the renderer afterwards.
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request);
 
