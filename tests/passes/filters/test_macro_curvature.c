@@ -148,7 +148,7 @@ static void small_spheres_shine_steadily(void **state) {
                                    .settings = {NULL},
                                    .width = EXTENT,
                                    .height = EXTENT,
-                                   .samples = 256};
+                                   .samples = 64};
         lobe_frame truth = draw_scene(*state, scene, &request);
         check_errors(*state, scene, &truth.radiance);
         scene = scene_begin();
