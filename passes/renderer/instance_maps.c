@@ -37,6 +37,7 @@ static void build_appearance(rendering *r, size_t instance, filtered_appearance 
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     filtered_appearance *appearances = r->renderer->appearances;
+    passes_given_images_take(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
     r->images.bytes = 0;

@@ -32,6 +32,9 @@ typedef struct rendering {
 /// Warns about materials that the filter cannot fully represent, once per filter and scene.
 void passes_instance_maps_warn(const rendering *r);
 
+/// Lets the host give the texels of images that are on the device; fails the frame if it does not.
+void passes_given_images_take(rendering *r);
+
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the
 /// filter allows it. Fills the renderer's appearances, and the frame's sizes of the maps.
 void passes_instance_maps_build(rendering *r, lobe_frame *frame);

@@ -42,7 +42,7 @@ static lobe_result upload_image(device_scene *result, int32_t index, const lobe_
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
     lobe_result status = passes_scene_check_image(result->scene, (size_t)index, NULL, host);
-    if (status != LOBE_OK)
+    if (status != LOBE_OK || image->on_device)
         return status;
     return lobe_graph_create_texture(
         result->graph, &(lobe_texture_parameters){.name = image->name, .image = &image->image},
@@ -60,11 +60,12 @@ static bool row_equals(const unsigned char *row, uint32_t width, size_t texel, s
     return different == 0;
 }
 
-static image_metal measure_metal(const lobe_image *image) {
+static image_metal measure_metal(const lobe_scene_image *source) {
+    const lobe_image *image = &source->image;
     const size_t texel = lobe_format_size(image->format);
     const uint32_t channels = lobe_format_channels(image->format);
     float first[4];
-    if (!passes_image_texel(image, 0, 0, first))
+    if (source->on_device || !passes_image_texel(image, 0, 0, first))
         return (image_metal){.known = true, .varies = true};
     const size_t channel = texel / channels;
     const unsigned char *values = (const unsigned char *)image->texels + 2 * channel;
@@ -82,7 +83,7 @@ static void find_metal(const device_scene *scene, device_material *material) {
         return;
     image_metal *metal = &scene->metals[use->image];
     if (!metal->known)
-        *metal = measure_metal(&scene->scene->images[use->image].image);
+        *metal = measure_metal(&scene->scene->images[use->image]);
     material->metallic_varies = metal->varies;
     if (!metal->varies)
         material->metallic *= metal->value;

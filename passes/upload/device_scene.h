@@ -78,7 +78,9 @@ typedef struct device_scene {
     lobe_texture *white;             ///< one white texel, where a map is missing
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used
     image_metal *metals;             ///< one for each image
-    lobe_texture *environment;       ///< its image; NULL: none
+    /// One for each image: its texels in this frame, if the host gives them on the device.
+    lobe_resource *given;
+    lobe_texture *environment; ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices; ///< one for each mesh; NULL: not used
     lobe_buffer **indices;

@@ -10,7 +10,7 @@ double passes_reflectance_of(double albedo, double metallic) {
 
 /// One texel, linear. Only colour maps have the sRGB curve.
 static bool read_image(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
-    if (image->format != LOBE_FORMAT_RGBA8_SRGB)
+    if (!image->texels || image->format != LOBE_FORMAT_RGBA8_SRGB)
         return passes_image_texel(image, x, y, value);
     const unsigned char *texel =
         (const unsigned char *)image->texels + 4 * ((size_t)y * image->width + x);

@@ -33,6 +33,8 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;
+    if (use && scene->scene->images[use->image].on_device)
+        return scene->given[use->image];
     return lobe_graph_import_texture(graph, use ? scene->images[use->image] : scene->white);
 }
 
@@ -116,7 +118,7 @@ static bool is_readable(lobe_format format) {
 }
 
 bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
-    if (!is_readable(image->format))
+    if (!image->texels || !is_readable(image->format))
         return false;
     const unsigned char *texel = (const unsigned char *)image->texels +
                                  ((size_t)y * image->width + x) * lobe_format_size(image->format);

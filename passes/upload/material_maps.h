@@ -7,7 +7,8 @@
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map);
 
-/// The texture of a material's map; one white texel if it has no such map.
+/// The texture of a material's map, or the texels that the host gives in this frame; one white
+/// texel if it has no such map.
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map);
 /// How a map's texels are read, without interpolation between levels.
@@ -32,7 +33,8 @@ bool passes_lobe_grid_varies(const lobe_grid *grid);
 bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use);
 
 /// Reads a texel on the host as the device would, except that sRGB is not decoded: missing channels
-/// are 0, alpha is 1. False for formats that no map of lobes has (half floats, sRGB, depth).
+/// are 0, alpha is 1. False for formats that no map of lobes has (half floats, sRGB, depth), and
+/// for images without texels.
 bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]);
 
 #endif

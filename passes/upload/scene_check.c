@@ -56,13 +56,14 @@ lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
                                      const lobe_rectangle *part, const lobe_host *host) {
     const lobe_image *image = &scene->images[index].image;
     const lobe_rectangle whole = {0, 0, image->width, image->height};
-    if (!image->texels || image->width == 0 || image->height == 0 ||
+    const bool has_texels = image->texels || scene->images[index].on_device;
+    if (!has_texels || image->width == 0 || image->height == 0 ||
         lobe_format_size(image->format) == 0 || image->format == LOBE_FORMAT_D32_FLOAT)
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: image '%s' has %ux%u texels of %s%s",
                               scene->name, scene->images[index].name, image->width, image->height,
                               lobe_format_name(image->format),
-                              image->texels ? "" : ", but no memory with them");
-    return check_texels(scene, index, part ? part : &whole, host);
+                              has_texels ? "" : ", but no memory with them");
+    return image->texels ? check_texels(scene, index, part ? part : &whole, host) : LOBE_OK;
 }
 
 static bool all_finite(const lobe_scene_vertex *vertex) {

@@ -82,6 +82,21 @@ static const lobe_rectangle *changed_part(const scene_update *update, size_t n) 
     return parts && memcmp(&parts[n], &all, sizeof all) != 0 ? &parts[n] : NULL;
 }
 
+static bool uses_image(const device_material *material, uint32_t image) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (material->maps[map].use && (uint32_t)material->maps[map].use->image == image)
+            return true;
+    return false;
+}
+
+/// Whether a material on the device reads the image.
+static bool is_used(const device_scene *scene, uint32_t image) {
+    for (size_t m = 0; m < scene->scene->material_count; m++)
+        if (uses_image(&scene->materials[m], image))
+            return true;
+    return false;
+}
+
 static lobe_result check_image(const scene_update *update, size_t n) {
     const uint32_t index = update->changes->images[n];
     const lobe_scene_image *image = &update->scene->scene->images[index];
@@ -92,11 +107,10 @@ static lobe_result check_image(const scene_update *update, size_t n) {
                               "%s: image '%s' is %ux%u, without %ux%u changed texels at (%u, %u)",
                               update->scene->scene->name, image->name, image->image.width,
                               image->image.height, part->width, part->height, part->x, part->y);
-    return texture
-               ? passes_scene_check_image(update->scene->scene, index,
-                                          lobe_texture_takes(texture, &image->image) ? part : NULL,
-                                          update->host)
-               : LOBE_OK;
+    if (!texture && !is_used(update->scene, index))
+        return LOBE_OK;
+    const bool keeps = texture && lobe_texture_takes(texture, &image->image);
+    return passes_scene_check_image(update->scene->scene, index, keeps ? part : NULL, update->host);
 }
 
 static lobe_result check_content(const scene_update *update) {
@@ -120,13 +134,6 @@ static lobe_result check_content(const scene_update *update) {
 
 // ---------------------------------------------------------------------------------------------
 // What follows from a change
-
-static bool uses_image(const device_material *material, uint32_t image) {
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
-        if (material->maps[map].use && (uint32_t)material->maps[map].use->image == image)
-            return true;
-    return false;
-}
 
 static void mark_materials(scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
@@ -160,20 +167,19 @@ static void mark_instances(scene_update *update) {
 // ---------------------------------------------------------------------------------------------
 // The change
 
-/// Reuses the texture where extent and format stay the same.
+/// Reuses the texture where extent and format stay the same. Where there is none, materials that
+/// need one create it.
 static lobe_result update_image(const scene_update *update, size_t n) {
     const uint32_t index = update->changes->images[n];
     const lobe_scene_image *image = &update->scene->scene->images[index];
     lobe_texture **texture = &update->scene->images[index];
+    update->scene->metals[index].known = false;
     if (!*texture)
         return LOBE_OK;
-    update->scene->metals[index].known = false;
-    if (lobe_texture_takes(*texture, &image->image))
+    if (!image->on_device && lobe_texture_takes(*texture, &image->image))
         return lobe_texture_update_part(*texture, &image->image, changed_part(update, n));
     lobe_texture_destroy(texture);
-    return lobe_graph_create_texture(
-        update->scene->graph,
-        &(lobe_texture_parameters){.name = image->name, .image = &image->image}, texture);
+    return LOBE_OK;
 }
 
 static lobe_result update_mesh(const scene_update *update, uint32_t index) {

@@ -44,7 +44,8 @@ static bool append(const lobe_host *host, void **array, size_t *count, const voi
 
 lobe_result scenes_add_image(lobe_scene *scene, const char *name, lobe_image *image,
                              const lobe_host *host, uint32_t *index) {
-    lobe_scene_image element = {lobe_copy_text(lobe_host_allocator(host), name), *image};
+    lobe_scene_image element = {.name = lobe_copy_text(lobe_host_allocator(host), name),
+                                .image = *image};
     bool added = element.name && append(host, (void **)&scene->images, &scene->image_count,
                                         &element, sizeof element, index);
     if (added) {

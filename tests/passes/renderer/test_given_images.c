@@ -1,0 +1,377 @@
+// Maps whose texels the host gives on the device: pictures equal those of the same texels uploaded,
+// they may change in every frame without a wait, and what does not change is not rebuilt.
+
+#include "tests/passes/support/fixture.h"
+
+#include <string.h>
+
+#include "tests/engine/support/host_device.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { EXTENT = 16, MAP = 32, IMAGES = 3 };
+
+/// Maps of normals, of roughness and metal, and of colours; `seed` decides their texels.
+static lobe_scene *mapped_scene(uint64_t seed) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.9, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(MAP, MAP, 0.5, seed));
+    material.metallic_roughness_map =
+        scene_add_map(scene, random_map(MAP, MAP, 0.3, 0.9, seed + 1));
+    material.base_colour_map = scene_add_map(scene, random_map(MAP, MAP, 0.1, 0.9, seed + 2));
+    scene_add_square(scene, &material, 2, NULL);
+    scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+    scene_add_sun(scene, (double[]){-0.5, 1, 0.1}, 1);
+    scene_look_from(scene, (double[]){0.3, 1, 0.4}, 2);
+    scene_end(scene);
+    return scene;
+}
+
+/// What a host keeps to give texels.
+typedef struct giver {
+    lobe_texture *textures[IMAGES]; ///< NULL: that image is not given
+    bool retained;                  ///< the copies stay from frame to frame
+    unsigned calls;
+} giver;
+
+/// As a host's pass that simulates does: into an image of this frame.
+static lobe_resource copied(const giver *g, lobe_graph *graph, size_t image) {
+    static const char *const names[IMAGES] = {"copy 0", "copy 1", "copy 2"};
+    const lobe_image_description description = {.name = names[image],
+                                                .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                .width = MAP,
+                                                .height = MAP,
+                                                .retained = g->retained};
+    lobe_resource target = lobe_graph_image(graph, &description);
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "give");
+    return lobe_pass_copy(pass, lobe_graph_import_texture(graph, g->textures[image]),
+                          (lobe_range){0}, target, (lobe_range){0});
+}
+
+static void give(void *user, lobe_graph *graph, lobe_resource *images) {
+    giver *g = user;
+    g->calls++;
+    for (size_t i = 0; i < IMAGES; i++)
+        if (g->textures[i])
+            images[i] = copied(g, graph, i);
+}
+
+static giver giver_of(fixture *f, const lobe_scene *scene) {
+    giver g = {0};
+    for (size_t i = 0; i < IMAGES; i++)
+        assert_int_equal(
+            lobe_texture_create(f->device,
+                                &(lobe_texture_parameters){.image = &scene->images[i].image},
+                                &g.textures[i]),
+            LOBE_OK);
+    return g;
+}
+
+static void giver_free(giver *g) {
+    for (size_t i = 0; i < IMAGES; i++)
+        lobe_texture_destroy(&g->textures[i]);
+}
+
+static void put_on_device(lobe_scene *scene, bool on_device) {
+    for (size_t i = 0; i < IMAGES; i++)
+        scene->images[i].on_device = on_device;
+}
+
+static void set(fixture *f, const lobe_scene *scene) {
+    if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
+        fail_msg("%s", f->error);
+}
+
+static void unset(fixture *f, lobe_scene **scene) {
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(scene);
+    assert_int_equal(f->errors, 0);
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
+}
+
+static lobe_render_parameters parameters_of(const char *filter, giver *g) {
+    return (lobe_render_parameters){.filter = filter_named(filter),
+                                    .width = EXTENT,
+                                    .height = EXTENT,
+                                    .reference.samples = 12,
+                                    .host = {.add_images = g ? give : NULL, .user = g}};
+}
+
+static lobe_frame picture(fixture *f, const char *filter, giver *g) {
+    const lobe_render_parameters parameters = parameters_of(filter, g);
+    lobe_frame frame;
+    if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
+        fail_msg("%s: %s", filter, f->error);
+    return frame;
+}
+
+static uint64_t hash_of(fixture *f, const char *filter, giver *g) {
+    lobe_frame frame = picture(f, filter, g);
+    const uint64_t hash = image_hash(&frame.radiance);
+    assert_true(largest_value(&frame.radiance) > 0.01);
+    lobe_frame_free(&frame);
+    return hash;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Pictures
+
+static void every_filter_draws_what_it_draws_of_uploaded_texels(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(300);
+    uint64_t uploaded[16];
+    set(f, scene);
+    for (size_t i = 0; i < lobe_filter_count(); i++)
+        uploaded[i] = hash_of(f, lobe_filter_name(lobe_filter_get(i)), NULL);
+    giver g = giver_of(f, scene);
+    put_on_device(scene, true);
+    set(f, scene);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const char *filter = lobe_filter_name(lobe_filter_get(i));
+        g.calls = 0;
+        if (hash_of(f, filter, &g) != uploaded[i])
+            fail_msg("%s: another picture", filter);
+        // Eight samples of the reference to a graph.
+        assert_int_equal(g.calls, lobe_filter_supersamples(lobe_filter_get(i)) ? 2 : 1);
+    }
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+/// Where no filter has bins or a subdivision that it learnt from an example.
+static void texels_may_differ_in_every_frame(void **state) {
+    static const char *const filters[] = {"direct", "mipmap", "toksvig", "lean", "leadr"};
+    fixture *f = *state;
+    lobe_scene *example = mapped_scene(310);
+    put_on_device(example, true);
+    for (uint64_t seed = 320; seed < 323; seed++) {
+        lobe_scene *scene = mapped_scene(seed);
+        uint64_t uploaded[5];
+        set(f, scene);
+        for (size_t i = 0; i < 5; i++)
+            uploaded[i] = hash_of(f, filters[i], NULL);
+        giver g = giver_of(f, scene);
+        set(f, example);
+        for (size_t i = 0; i < 5; i++)
+            if (hash_of(f, filters[i], &g) != uploaded[i])
+                fail_msg("%s: another picture", filters[i]);
+        set(f, NULL);
+        giver_free(&g);
+        lobe_scene_destroy(&scene);
+    }
+    unset(f, &example);
+}
+
+/// Without an example, filters expect everything: less precise, but near.
+static void no_example_is_needed(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(330);
+    giver g = giver_of(f, scene);
+    set(f, scene);
+    lobe_frame truth = picture(f, "reference", NULL);
+    put_on_device(scene, true);
+    for (size_t i = 0; i < IMAGES; i++) {
+        lobe_release(scene->images[i].image.texels);
+        scene->images[i].image.texels = NULL;
+    }
+    set(f, scene);
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        lobe_frame frame = picture(f, lobe_filter_name(lobe_filter_get(i)), &g);
+        const double error = relative_l2(&frame.radiance, &truth.radiance);
+        print_message("# %s: error %.3f\n", lobe_filter_name(lobe_filter_get(i)), error);
+        assert_true(all_finite(&frame.radiance) && error < 0.5);
+        lobe_frame_free(&frame);
+    }
+    lobe_frame_free(&truth);
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Work
+
+static size_t passes_of(fixture *f, lobe_pass_state state) {
+    return count_passes(lobe_renderer_graph(f->renderer), NULL, state);
+}
+
+/// A pass whose inputs are those of the last frame writes what it wrote then.
+static void maps_are_rebuilt_only_where_texels_changed(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(340), *other = mapped_scene(341);
+    giver g = giver_of(f, scene);
+    put_on_device(scene, true);
+    set(f, scene);
+    for (int retained = 0; retained < 2; retained++) {
+        g.retained = retained;
+        const uint64_t first = hash_of(f, "lean", &g);
+        assert_true(hash_of(f, "lean", &g) == first);
+        // Shading, and what is not kept for it.
+        assert_int_equal(passes_of(f, LOBE_PASS_RUN), retained ? 1 : 1 + IMAGES);
+        assert_int_equal(lobe_texture_update(g.textures[0], &other->images[0].image), LOBE_OK);
+        assert_true(hash_of(f, "lean", &g) != first);
+        assert_true(passes_of(f, LOBE_PASS_RUN) > (retained ? 1 : 1 + IMAGES));
+        assert_int_equal(lobe_texture_update(g.textures[0], &scene->images[0].image), LOBE_OK);
+    }
+    lobe_scene_destroy(&other);
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+/// Listing an image uploads it from then on, or no longer.
+static void images_may_move_between_host_and_device(void **state) {
+    static const uint32_t all[IMAGES] = {0, 1, 2};
+    const lobe_scene_changes changes = {.images = all, .image_count = IMAGES};
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(350);
+    giver g = giver_of(f, scene);
+    set(f, scene);
+    const uint64_t expected = hash_of(f, "moments", NULL);
+    for (int n = 0; n < 4; n++) {
+        const bool on_device = n % 2 == 0;
+        put_on_device(scene, on_device);
+        assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+        assert_true(hash_of(f, "moments", on_device ? &g : NULL) == expected);
+    }
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+/// Metal is looked for in the texels of each frame, not in the example.
+static void an_example_without_metal_says_nothing(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(360), *plastic = mapped_scene(360);
+    giver g = giver_of(f, scene);
+    set(f, scene);
+    const uint64_t expected = hash_of(f, "mipmap", NULL);
+    lobe_image *map = &plastic->images[1].image;
+    for (size_t i = 0; i < (size_t)MAP * MAP; i++)
+        ((float *)map->texels)[4 * i + 2] = 0;
+    put_on_device(plastic, true);
+    set(f, plastic);
+    assert_true(hash_of(f, "mipmap", &g) == expected);
+    set(f, NULL);
+    lobe_scene_destroy(&plastic);
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Images of the host's Vulkan
+
+static void give_vulkan(void *user, lobe_graph *graph, lobe_resource *images) {
+    images[0] = lobe_graph_import_image(graph, user);
+}
+
+/// The host clears its image to slopes, and lobe reads it in the same command buffer.
+static void images_of_the_hosts_vulkan_are_maps(void **state) {
+    static const float normal[4] = {0.7f, 0.4f, 0.9f, 1};
+    (void)state;
+    host_device host;
+    host_device_open(&host);
+    lobe_device *device = host_device_import(&host);
+    lobe_renderer *renderer;
+    assert_int_equal(lobe_renderer_create(device, &host.recorder.host, &renderer), LOBE_OK);
+    lobe_scene *scene = mapped_scene(370);
+    for (size_t i = 0; i < (size_t)MAP * MAP; i++)
+        memcpy((float *)scene->images[0].image.texels + 4 * i, normal, sizeof normal);
+    host_image picture =
+        host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, EXTENT, EXTENT,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    host_image map =
+        host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
+                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    float texels[2][EXTENT * EXTENT * 4];
+    for (int given = 0; given < 2; given++) {
+        scene->images[0].on_device = given;
+        assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
+        VkCommandBuffer commands = host_begin(&host);
+        host_barrier(commands, &map, VK_IMAGE_LAYOUT_UNDEFINED,
+                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        host_clear(commands, &map, normal);
+        lobe_vulkan_image lent = {.image = map.image,
+                                  .format = map.format,
+                                  .width = MAP,
+                                  .height = MAP,
+                                  .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                  .layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+        const lobe_vulkan_image target = {.image = picture.image,
+                                          .format = picture.format,
+                                          .width = EXTENT,
+                                          .height = EXTENT,
+                                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                          .final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+        const lobe_render_parameters parameters = {
+            .filter = filter_named("lobes"),
+            .host = {.add_images = given ? give_vulkan : NULL,
+                     .user = &lent,
+                     .target = &(lobe_render_target){.radiance = &target},
+                     .submission = &(lobe_vulkan_submission){.commands = commands}}};
+        lobe_frame frame;
+        if (lobe_renderer_render(renderer, &parameters, &frame) != LOBE_OK)
+            fail_msg("%s", host.recorder.last_error);
+        host_finish(&host, commands);
+        host_read(&host, &picture, texels[given], sizeof texels[given]);
+        lobe_frame_free(&frame);
+    }
+    assert_true(texels[0][4 * (EXTENT / 2 * EXTENT + EXTENT / 2)] > 0);
+    assert_memory_equal(texels[0], texels[1], sizeof texels[0]);
+    lobe_renderer_destroy(&renderer);
+    lobe_device_destroy(&device);
+    host_image_destroy(&host, &picture);
+    host_image_destroy(&host, &map);
+    host_device_close(&host);
+    lobe_scene_destroy(&scene);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Mistakes
+
+static void give_small(void *user, lobe_graph *graph, lobe_resource *images) {
+    (void)user;
+    const lobe_image_description description = {
+        .name = "small", .format = LOBE_FORMAT_RGBA32_FLOAT, .width = MAP / 2, .height = MAP};
+    for (size_t i = 0; i < IMAGES; i++)
+        images[i] = lobe_graph_image(graph, &description);
+}
+
+static void assert_refused(fixture *f, const lobe_render_parameters *parameters, const char *line) {
+    lobe_frame frame;
+    fixture_forget_messages(f);
+    assert_failure(f, lobe_renderer_render(f->renderer, parameters, &frame),
+                   LOBE_ERROR_INVALID_ARGUMENT, line);
+    assert_null(frame.radiance.texels);
+    fixture_forget_messages(f);
+}
+
+static void mistakes_are_named(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(380);
+    giver g = giver_of(f, scene);
+    lobe_render_parameters parameters = parameters_of("moments", &g);
+    set(f, scene);
+    assert_refused(f, &parameters, "is not on the device");
+    put_on_device(scene, true);
+    set(f, scene);
+    parameters.host.add_images = NULL;
+    assert_refused(f, &parameters, "the host gave no texels");
+    parameters.host.add_images = give_small;
+    assert_refused(f, &parameters, "is of 32x32 texels, but the host gave 16x32");
+    parameters.host.add_images = give;
+    hash_of(f, "moments", &g);
+    unset(f, &scene);
+    giver_free(&g);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_filter_draws_what_it_draws_of_uploaded_texels),
+        cmocka_unit_test(texels_may_differ_in_every_frame),
+        cmocka_unit_test(no_example_is_needed),
+        cmocka_unit_test(maps_are_rebuilt_only_where_texels_changed),
+        cmocka_unit_test(images_may_move_between_host_and_device),
+        cmocka_unit_test(an_example_without_metal_says_nothing),
+        cmocka_unit_test(images_of_the_hosts_vulkan_are_maps),
+        cmocka_unit_test(mistakes_are_named),
+    };
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
+}
