@@ -39,12 +39,12 @@ static void check(const rendering *r, uint32_t index) {
 }
 
 void passes_given_images_take(rendering *r) {
-    const lobe_render_host *host = &r->parameters->host;
+    const lobe_renderer *renderer = r->renderer;
     const device_scene *scene = r->context.scene;
     const size_t count = scene->scene->image_count;
     memset(scene->given, 0, count * sizeof *scene->given);
-    if (host->add_images)
-        host->add_images(host->user, r->context.graph, scene->given);
+    if (renderer->give_images)
+        renderer->give_images(renderer->giver, r->context.graph, scene->given);
     for (uint32_t i = 0; i < count; i++)
         check(r, i);
 }

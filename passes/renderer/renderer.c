@@ -88,6 +88,13 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     return result;
 }
 
+void lobe_renderer_set_image_giver(lobe_renderer *renderer, lobe_image_giver give, void *user) {
+    if (!renderer)
+        return;
+    renderer->give_images = give;
+    renderer->giver = user;
+}
+
 lobe_graph *lobe_renderer_graph(lobe_renderer *renderer) {
     if (!renderer)
         return NULL;

@@ -16,6 +16,8 @@ struct lobe_renderer {
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
+    lobe_image_giver give_images; ///< NULL: nobody does
+    void *giver;                  ///< passed to it
 };
 
 /// The state of one call of lobe_renderer_render. `context` points into it: do not copy it.

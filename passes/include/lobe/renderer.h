@@ -69,6 +69,21 @@ typedef struct lobe_scene_changes {
 LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,
                                                 const lobe_scene_changes *changes);
 
+/// Gives the texels of those images of the scene that are `on_device`: adds passes that write them,
+/// or imports images of the host's Vulkan (lobe_graph_import_image), and stores the resources in
+/// `images`, which has one for each image of the scene. Each has its image's extent, one level, one
+/// layer, and a format that is read the same way (linear or sRGB; normals as (n + 1) / 2).
+/// Called while a graph is declared, before anything reads a map. A frame may take several graphs,
+/// for all of which the texels must be the same: one for every eight samples of the reference, and
+/// one for each step of `environment_progress`.
+/// Filtered maps are rebuilt where the texels can have changed: in every frame from an image of the
+/// host's Vulkan, and otherwise if the passes that write them read something that changed.
+typedef void (*lobe_image_giver)(void *user, lobe_graph *graph, lobe_resource *images);
+
+/// Sets what gives images in all frames from now on, whatever scene is set. NULL: nothing.
+LOBE_API void lobe_renderer_set_image_giver(lobe_renderer *renderer, lobe_image_giver give,
+                                            void *user);
+
 /// Largest number of samples per pixel of the reference.
 #define LOBE_MAXIMUM_SAMPLES 4096
 
@@ -150,16 +165,6 @@ typedef struct lobe_render_host {
     /// declaration are reported by the graph. NULL: none.
     void (*add_passes)(void *user, lobe_graph *graph, lobe_render_stage stage,
                        lobe_render_resources *resources);
-    /// Called while a graph is declared, before anything reads a map, to give the texels of those
-    /// images of the scene that are `on_device`: adds passes that write them, or imports images of
-    /// the host's Vulkan, and stores the resources in `images`, which has one for each image of the
-    /// scene. Each has its image's extent, one level, one layer, and a format that is read the
-    /// same way (linear or sRGB; normals as (n + 1) / 2). Filtered maps are rebuilt where the
-    /// texels can have changed: in every frame from an image of the host's Vulkan, and otherwise
-    /// if the passes that write them read something that changed. A frame may take several graphs,
-    /// for all of which the texels must be the same: one for every eight samples of the reference,
-    /// and one for each step of `environment_progress`. NULL: no image is `on_device`.
-    void (*add_images)(void *user, lobe_graph *graph, lobe_resource *images);
     void *user; ///< passed to all callbacks
     /// Images to draw into. NULL: an image of lobe's own, delivered in the frame. Otherwise no
     /// radiance is delivered, and `width` and `height` are 0 or the target's.

@@ -32,8 +32,8 @@ typedef enum lobe_scene_wrap {
 typedef struct lobe_scene_image {
     char *name; ///< where it comes from, for messages
     lobe_image image;
-    /// The host gives the texels in each frame, as a resource on the device: see `add_images` of
-    /// lobe_render_host. Those of `image` are then an example, which is not uploaded: from it
+    /// The host gives the texels in each frame, as a resource on the device: see
+    /// lobe_image_giver. Those of `image` are then an example, which is not uploaded: from it
     /// filters learn what to expect (how many lobes or bins they need, and for what range) when the
     /// scene is set, or the image is listed among its changes. Without any (NULL) filters expect
     /// everything, which costs precision.

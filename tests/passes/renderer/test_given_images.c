@@ -89,17 +89,15 @@ static void unset(fixture *f, lobe_scene **scene) {
     assert_int_equal(lobe_device_validation_count(f->device), 0);
 }
 
-static lobe_render_parameters parameters_of(const char *filter, giver *g) {
-    return (lobe_render_parameters){.filter = filter_named(filter),
-                                    .width = EXTENT,
-                                    .height = EXTENT,
-                                    .reference.samples = 12,
-                                    .host = {.add_images = g ? give : NULL, .user = g}};
+static lobe_render_parameters parameters_of(const char *filter) {
+    return (lobe_render_parameters){
+        .filter = filter_named(filter), .width = EXTENT, .height = EXTENT, .reference.samples = 12};
 }
 
 static lobe_frame picture(fixture *f, const char *filter, giver *g) {
-    const lobe_render_parameters parameters = parameters_of(filter, g);
+    const lobe_render_parameters parameters = parameters_of(filter);
     lobe_frame frame;
+    lobe_renderer_set_image_giver(f->renderer, g ? give : NULL, g);
     if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
         fail_msg("%s: %s", filter, f->error);
     return frame;
@@ -302,11 +300,10 @@ static void images_of_the_hosts_vulkan_are_maps(void **state) {
                                           .final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
         const lobe_render_parameters parameters = {
             .filter = filter_named("lobes"),
-            .host = {.add_images = given ? give_vulkan : NULL,
-                     .user = &lent,
-                     .target = &(lobe_render_target){.radiance = &target},
+            .host = {.target = &(lobe_render_target){.radiance = &target},
                      .submission = &(lobe_vulkan_submission){.commands = commands}}};
         lobe_frame frame;
+        lobe_renderer_set_image_giver(renderer, given ? give_vulkan : NULL, &lent);
         if (lobe_renderer_render(renderer, &parameters, &frame) != LOBE_OK)
             fail_msg("%s", host.recorder.last_error);
         host_finish(&host, commands);
@@ -334,10 +331,12 @@ static void give_small(void *user, lobe_graph *graph, lobe_resource *images) {
         images[i] = lobe_graph_image(graph, &description);
 }
 
-static void assert_refused(fixture *f, const lobe_render_parameters *parameters, const char *line) {
+static void assert_refused(fixture *f, lobe_image_giver given, giver *g, const char *line) {
+    const lobe_render_parameters parameters = parameters_of("moments");
     lobe_frame frame;
     fixture_forget_messages(f);
-    assert_failure(f, lobe_renderer_render(f->renderer, parameters, &frame),
+    lobe_renderer_set_image_giver(f->renderer, given, g);
+    assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
                    LOBE_ERROR_INVALID_ARGUMENT, line);
     assert_null(frame.radiance.texels);
     fixture_forget_messages(f);
@@ -347,16 +346,12 @@ static void mistakes_are_named(void **state) {
     fixture *f = *state;
     lobe_scene *scene = mapped_scene(380);
     giver g = giver_of(f, scene);
-    lobe_render_parameters parameters = parameters_of("moments", &g);
     set(f, scene);
-    assert_refused(f, &parameters, "is not on the device");
+    assert_refused(f, give, &g, "is not on the device");
     put_on_device(scene, true);
     set(f, scene);
-    parameters.host.add_images = NULL;
-    assert_refused(f, &parameters, "the host gave no texels");
-    parameters.host.add_images = give_small;
-    assert_refused(f, &parameters, "is of 32x32 texels, but the host gave 16x32");
-    parameters.host.add_images = give;
+    assert_refused(f, NULL, NULL, "the host gave no texels");
+    assert_refused(f, give_small, NULL, "is of 32x32 texels, but the host gave 16x32");
     hash_of(f, "moments", &g);
     unset(f, &scene);
     giver_free(&g);
