@@ -34,6 +34,9 @@ struct engine_shaders {
 static lobe_result add_table(engine_shaders *shaders, const engine_shader_code *codes, size_t count,
                              const char *folder) {
     const lobe_allocator *allocator = shaders->device->host.allocator;
+    for (const shader_table *known = shaders->tables; known; known = known->next)
+        if (known->codes == codes)
+            return LOBE_OK;
     shader_table *table = lobe_allocate(allocator, 1, sizeof *table);
     if (!table || (folder && !(table->folder = lobe_copy_text(allocator, folder)))) {
         lobe_release(table);

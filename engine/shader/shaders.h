@@ -13,7 +13,7 @@ void engine_shaders_destroy(engine_shaders **shaders);
 
 /// Adds a table of shaders that take precedence over those known before: for shaders outside of the
 /// library, such as the tests'. The table is ordered by name (as strcmp does) and must outlive the
-/// device.
+/// device. One that was added before is not added again.
 lobe_result engine_shaders_add(lobe_device *device, const engine_shader_code *codes, size_t count,
                                const char *folder);
 

@@ -6,6 +6,7 @@
 #include <lobe/profile.h>
 #include <lobe/scene.h>
 
+#include "tools/animation/animation.h"
 #include "tools/cli/progress.h"
 #include "tools/compare/error_metrics.h"
 
@@ -31,6 +32,8 @@ typedef struct bench_job {
     uint32_t size[2];
     uint32_t frames;
     uint32_t samples; ///< per pixel of the references
+    /// Of the scene that is being measured, which sets it. NULL: that scene stands still.
+    animation *animation;
 } bench_job;
 
 enum { BENCH_REBUILT, BENCH_RETAINED, BENCH_CHANGED, BENCH_CHANGED_COST, BENCH_PROFILES };

@@ -28,18 +28,22 @@ static changed_cost cost_until_now(void) {
                           milliseconds(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
-lobe_result changed_frame_render(lobe_renderer *renderer, lobe_scene *scene,
+lobe_result changed_frame_render(lobe_renderer *renderer, lobe_scene *scene, animation *animation,
                                  const lobe_render_parameters *parameters, const lobe_host *host,
                                  lobe_frame *frame, changed_cost *cost) {
     uint32_t *images = calloc(scene->image_count + 1, sizeof *images);
     *frame = (lobe_frame){0};
     if (!images)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "changed texels: out of memory");
+    size_t count = 0;
     for (uint32_t i = 0; i < scene->image_count; i++) {
-        images[i] = i;
+        if (scene->images[i].on_device)
+            continue;
+        images[count++] = i;
         move_texels(&scene->images[i].image);
     }
-    const lobe_scene_changes changes = {.images = images, .image_count = scene->image_count};
+    const lobe_scene_changes changes = {.images = images, .image_count = count};
+    animation_set_time(animation, animation_time(animation) + 1.0 / 30);
     const changed_cost before = cost_until_now();
     lobe_result result = lobe_renderer_update_scene(renderer, &changes);
     if (result == LOBE_OK)

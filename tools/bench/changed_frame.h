@@ -5,6 +5,8 @@
 #include <lobe/renderer.h>
 #include <lobe/scene.h>
 
+#include "tools/animation/animation.h"
+
 /// What a frame costs after the host has changed the texels of all maps. Milliseconds of the calls
 /// that hand them over (lobe_renderer_update_scene) and draw: everything from the first to the
 /// return of the second, uploads, what a filter computes on the host, and waiting for the device.
@@ -18,8 +20,9 @@ typedef struct changed_cost {
 enum { CHANGED_WALL, CHANGED_CALLER_CPU, CHANGED_PROCESS_CPU, CHANGED_COSTS };
 
 /// Moves every image of the scene a texel to the left, as if it were a torus, tells the renderer,
-/// and draws. Moving is not part of the cost. The scene must be the renderer's. Free the frame.
-lobe_result changed_frame_render(lobe_renderer *renderer, lobe_scene *scene,
+/// and draws; moving is not part of the cost. Images on the device change as time goes on by 1/30 s
+/// (`animation`, NULL if there are none). The scene must be the renderer's. Free the frame.
+lobe_result changed_frame_render(lobe_renderer *renderer, lobe_scene *scene, animation *animation,
                                  const lobe_render_parameters *parameters, const lobe_host *host,
                                  lobe_frame *frame, changed_cost *cost);
 

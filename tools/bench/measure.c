@@ -41,6 +41,7 @@ static lobe_render_parameters parameters_of(const bench_job *job, const bench_fi
 
 static lobe_result open_renderer(const bench_run *run, lobe_renderer **renderer) {
     lobe_result result = lobe_renderer_create(run->job->device, run->job->host, renderer);
+    animation_attach(run->job->animation, *renderer);
     return result == LOBE_OK ? lobe_renderer_set_scene(*renderer, run->scene) : result;
 }
 
@@ -149,8 +150,9 @@ static lobe_result time_changed_frame(const bench_run *run, size_t index, bench_
     parameters.host.progress = NULL;
     lobe_frame frame;
     changed_cost cost;
-    lobe_result status = changed_frame_render(run->renderers[index], run->scene, &parameters,
-                                              run->job->host, &frame, &cost);
+    lobe_result status =
+        changed_frame_render(run->renderers[index], run->scene, run->job->animation, &parameters,
+                             run->job->host, &frame, &cost);
     if (status == LOBE_OK && result)
         status = timing_add(result->profiles[BENCH_CHANGED], &frame, run->job->host);
     if (status == LOBE_OK && result)
@@ -218,8 +220,11 @@ static lobe_result measure_times(const bench_run *run, bench_result *results) {
 
 lobe_result bench_measure(const bench_job *job, lobe_scene *scene, const char *name,
                           bench_result *results) {
-    bench_run run = {.job = job, .scene = scene, .name = name};
-    lobe_result result = render_truths(&run);
+    bench_job own = *job;
+    bench_run run = {.job = &own, .scene = scene, .name = name};
+    lobe_result result = animation_create(job->device, scene, job->host, &own.animation);
+    if (result == LOBE_OK)
+        result = render_truths(&run);
     for (size_t i = 0; result == LOBE_OK && i < job->filter_count; i++) {
         results[i].scene = name;
         results[i].filter = &job->filters[i];
@@ -231,6 +236,7 @@ lobe_result bench_measure(const bench_job *job, lobe_scene *scene, const char *n
         result = measure_times(&run, results);
     for (size_t i = 0; i < job->filter_count; i++)
         lobe_renderer_destroy(&run.renderers[i]);
+    animation_destroy(&own.animation);
     lobe_image_free(&run.truth);
     lobe_image_free(&run.truth_lobe_base);
     return result;

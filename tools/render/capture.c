@@ -59,7 +59,7 @@ static void append_times(attribute_list *list, const lobe_profile_summary *times
             (float)times->passes[i].median_milliseconds;
 }
 
-enum { FIXED_ATTRIBUTES = 9 };
+enum { FIXED_ATTRIBUTES = 10 };
 
 static bool describe(const capture *capture, attribute_list *list) {
     size_t knobs = lobe_filter_knob_count(capture->filter);
@@ -73,6 +73,8 @@ static bool describe(const capture *capture, attribute_list *list) {
     append_text(list, "device", capture->device->name);
     append_text(list, "driver", capture->device->driver);
     append(list, "samples", "", LOBE_EXR_INTEGER)->integer = (int32_t)capture->samples;
+    if (capture->animated)
+        append(list, "seconds", "", LOBE_EXR_NUMBER)->number = (float)capture->seconds;
     for (size_t i = 0; i < knobs; i++)
         append_knob(list, lobe_filter_knob(capture->filter, i), capture->settings->values[i]);
     append_text(list, "timing",

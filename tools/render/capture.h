@@ -19,6 +19,8 @@ typedef struct capture {
     uint32_t samples; ///< a pixel
     const lobe_device_information *device;
     const lobe_profile_summary *times;
+    bool animated;        ///< the scene changes with time
+    double seconds;       ///< its time, if so
     bool first_frame;     ///< the times include compiling shaders
     lobe_exr_depth depth; ///< of the radiance; other layers are float
     double exposure;      ///< stops, PNG only

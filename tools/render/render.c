@@ -3,6 +3,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/animation/animation.h"
 #include "tools/choice/budget.h"
 #include "tools/cli/cache_options.h"
 #include "tools/cli/console.h"
@@ -14,6 +15,7 @@
 #include "tools/cli/view_options.h"
 #include "tools/render/capture.h"
 #include "tools/render/empty_picture.h"
+#include "tools/render/frame_sequence.h"
 #include "tools/render/frame_times.h"
 
 /// The command line.
@@ -26,12 +28,15 @@ typedef struct render_request {
     option_list assignments; ///< "KNOB=VALUE"
     budget_options budget;   ///< instead of both
     uint32_t size[2];
-    uint32_t samples, frames;
+    uint32_t samples;
+    const char *frames_text;
+    frame_sequence frames;
+    double time; ///< seconds
     const char *graph;
     uint32_t depth;
     bool layers; ///< the layers of arbitrary output variables
     double exposure;
-    bool has_filter, has_carrier, has_samples, has_depth, has_exposure;
+    bool has_filter, has_carrier, has_samples, has_depth, has_exposure, has_time;
     scene_options opening;
     view_options view;
     lobe_light *lights;
@@ -48,13 +53,15 @@ typedef struct render_state {
     lobe_scene *scene;
     sweep_results figures; ///< the figures that pick filter and knobs
     lobe_device *device;
+    animation *animation; ///< NULL: the scene stands still
     lobe_renderer *renderer;
     lobe_frame frame;
     frame_times times;
     progress progress;
-    uint32_t frame_number, frame_count;
-    bool prepares;     ///< the environment, before the frame
-    const char *cache; ///< cache folder for filtered environments; NULL: none
+    const frame_sequence *sequence;
+    uint32_t frame_number; ///< counted from 1
+    bool prepares;         ///< the environment, before the frame
+    const char *cache;     ///< cache folder for filtered environments; NULL: none
     char cache_folder[CACHE_FOLDER_SIZE];
 } render_state;
 
@@ -95,7 +102,7 @@ static int check_budget(const option_table *table, const render_request *request
     return budget_options_check(table, &request->budget, fixed);
 }
 
-static int check_usage(const option_table *table, const render_request *request) {
+static int check_usage(const option_table *table, render_request *request) {
     if (!request->scene && !request->material)
         return options_usage_error(table, "no SCENE, and no --material either");
     if (request->scene && request->material)
@@ -106,6 +113,11 @@ static int check_usage(const option_table *table, const render_request *request)
     if (request->size[0] == 0 || request->size[1] == 0)
         return options_usage_error(table, "--size: no pixels in %ux%u", request->size[0],
                                    request->size[1]);
+    if (!frame_sequence_parse(request->frames_text, &request->frames))
+        return options_usage_error(table,
+                                   "--frames: '%s' is neither a number of frames from 1 to %d nor "
+                                   "a range A..B",
+                                   request->frames_text, FRAME_SEQUENCE_MAXIMUM);
     int status = check_budget(table, request);
     if (status == 0)
         status = cache_options_check(table, &request->cache);
@@ -181,12 +193,29 @@ static lobe_result pick_filter(render_request *request, render_state *state) {
                        &request->settings);
 }
 
+static lobe_result animate(const render_request *request, render_state *state) {
+    lobe_result result =
+        animation_create(state->device, state->scene, &state->host, &state->animation);
+    const char *ignored = request->has_time          ? "--time"
+                          : request->frames.numbered ? "a range of --frames"
+                                                     : NULL;
+    if (result == LOBE_OK && !state->animation && ignored)
+        lobe_host_log(&state->host, LOBE_LOG_WARNING,
+                      "%s: does not change with time; %s makes no difference", state->scene->name,
+                      ignored);
+    if (result == LOBE_OK)
+        animation_attach(state->animation, state->renderer);
+    return result;
+}
+
 static lobe_result open_renderer(render_request *request, render_state *state) {
     lobe_result result = device_options_open(&request->device, &state->host, &state->device);
     if (result == LOBE_OK)
         result = pick_filter(request, state);
     if (result == LOBE_OK)
         result = lobe_renderer_create(state->device, &state->host, &state->renderer);
+    if (result == LOBE_OK)
+        result = animate(request, state);
     if (state->scene->environment)
         state->cache = cache_options_find(&request->cache, state->cache_folder);
     if (result == LOBE_OK)
@@ -200,7 +229,7 @@ static uint32_t samples_of(const render_request *request) {
 
 static void begin_frame(render_state *state) {
     progress_step(&state->progress, "%s: frame %u of %u", state->scene->name, state->frame_number,
-                  state->frame_count);
+                  state->sequence->count);
 }
 
 /// The environment is prepared before the frame is drawn.
@@ -242,21 +271,6 @@ static lobe_result render_frame(const render_request *request, render_state *sta
     return result == LOBE_OK ? frame_times_add(&state->times, &state->frame, &state->host) : result;
 }
 
-/// The first frame builds the maps, later ones retain them.
-static lobe_result render_frames(const render_request *request, render_state *state) {
-    lobe_result result = LOBE_OK;
-    state->frame_count = request->frames;
-    for (uint32_t i = 0; result == LOBE_OK && i < request->frames; i++) {
-        state->frame_number = i + 1;
-        begin_frame(state);
-        result = render_frame(request, state);
-    }
-    progress_end(&state->progress);
-    if (result == LOBE_OK)
-        result = frame_times_finish(&state->times);
-    return result == LOBE_OK ? device_options_check(state->device, &state->host) : result;
-}
-
 static void warn_of_an_empty_picture(const render_request *request, const render_state *state) {
     char why[256];
     if (!empty_picture_recognise(&state->frame.radiance))
@@ -282,7 +296,13 @@ static lobe_result write_graph(const render_request *request, render_state *stat
     return result;
 }
 
-static lobe_result write_images(const render_request *request, render_state *state) {
+static double seconds_of(const render_request *request, uint32_t n) {
+    return frame_sequence_seconds(&request->frames, request->time, n);
+}
+
+/// Of the n-th frame.
+static lobe_result write_images(const render_request *request, render_state *state, uint32_t n) {
+    lobe_result result = frame_times_finish(&state->times);
     const capture capture = {
         .frame = &state->frame,
         .scene = state->scene->name,
@@ -292,17 +312,37 @@ static lobe_result write_images(const render_request *request, render_state *sta
         .samples = samples_of(request),
         .device = lobe_device_describe(state->device),
         .times = &state->times.summary,
+        .animated = state->animation != NULL,
+        .seconds = seconds_of(request, n),
         .first_frame = frame_times_are_first(&state->times),
         .depth = (lobe_exr_depth)request->depth,
         .exposure = request->exposure,
     };
-    lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++) {
-        const char *path = request->outputs.values[i];
+        char path[PATH_MAX];
+        if (!frame_sequence_path(&request->frames, request->outputs.values[i], n, path))
+            return lobe_host_fail(&state->host, LOBE_ERROR_WRITE, "%s: the name is too long",
+                                  request->outputs.values[i]);
         result = is_png(path) ? capture_write_png(path, &capture, &state->host)
                               : capture_write_exr(path, &capture, &state->host);
     }
     return result;
+}
+
+/// The first frame builds the maps, later ones retain them unless they change with time.
+static lobe_result render_frames(const render_request *request, render_state *state) {
+    lobe_result result = LOBE_OK;
+    state->sequence = &request->frames;
+    for (uint32_t i = 0; result == LOBE_OK && i < request->frames.count; i++) {
+        state->frame_number = i + 1;
+        begin_frame(state);
+        animation_set_time(state->animation, seconds_of(request, i));
+        result = render_frame(request, state);
+        if (result == LOBE_OK && request->frames.numbered)
+            result = write_images(request, state, i);
+    }
+    progress_end(&state->progress);
+    return result == LOBE_OK ? device_options_check(state->device, &state->host) : result;
 }
 
 static void print_times(const render_request *request, const render_state *state) {
@@ -343,8 +383,8 @@ static lobe_result render(render_request *request, render_state *state) {
         warn_of_an_empty_picture(request, state);
     if (result == LOBE_OK)
         result = write_graph(request, state);
-    if (result == LOBE_OK)
-        result = write_images(request, state);
+    if (result == LOBE_OK && !request->frames.numbered)
+        result = write_images(request, state, 0);
     if (result == LOBE_OK)
         print_times(request, state);
     return result;
@@ -354,6 +394,7 @@ static void free_state(render_state *state) {
     frame_times_free(&state->times);
     lobe_frame_free(&state->frame);
     lobe_renderer_destroy(&state->renderer);
+    animation_destroy(&state->animation);
     lobe_device_destroy(&state->device);
     sweep_results_free(&state->figures);
     lobe_scene_destroy(&state->scene);
@@ -430,16 +471,24 @@ static int run(int argc, char **argv) {
         view_option_field_of_view(&request.view),
         view_option_path(&request.view),
         view_option_light(&request.view),
+        {.name = "time",
+         .kind = OPTION_NUMBER,
+         .argument = "SECONDS",
+         .summary = "the time in a scene that changes with time",
+         .target = &request.time,
+         .fallback = "0",
+         .minimum = 0,
+         .maximum = ANIMATION_MAXIMUM_SECONDS,
+         .given = &request.has_time},
         {.name = "frames",
-         .kind = OPTION_INTEGER,
-         .argument = "N",
-         .summary = "render the still scene this many times and write the last frame: the first "
+         .kind = OPTION_TEXT,
+         .argument = "N|A..B",
+         .summary = "N: draw the picture this many times and write the last one: the first "
                     "compiles shaders and builds the maps, later ones retain them; their times are "
-                    "apart",
-         .target = &request.frames,
-         .fallback = "1",
-         .minimum = 1,
-         .maximum = 100000},
+                    "apart. A..B: draw these frames of an animation, of 1/30 s after --time each, "
+                    "and write each to files of its own: FILE-0012.exr",
+         .target = &request.frames_text,
+         .fallback = "1"},
         {.name = "material",
          .kind = OPTION_TEXT,
          .argument = "DIR",

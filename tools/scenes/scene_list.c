@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "tools/scenes/animated_scene.h"
 #include "tools/scenes/asset_scene.h"
 
 typedef struct own_scene {
@@ -14,6 +15,10 @@ static const own_scene own_scenes[] = {
      asset_scene_bunny},
     {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true},
      asset_scene_dragon},
+    {{"rain", "the hall, with rain on its floor: rings spread with time", false},
+     animated_scene_rain},
+    {{"cloth", "the tablecloth, whose weave slides and stretches with time", false},
+     animated_scene_cloth},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 
@@ -36,7 +41,8 @@ listed_scene scene_list_get(size_t index) {
 }
 
 bool scene_list_needs_assets(const char *name) {
-    return find(name) != NULL;
+    const own_scene *own = find(name);
+    return own && own->description.needs_assets;
 }
 
 lobe_result scene_list_open(const char *name, const char *assets, bool own_light_only,

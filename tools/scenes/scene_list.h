@@ -8,8 +8,8 @@
 #include <lobe/result.h>
 #include <lobe/scene.h>
 
-/// The scenes that the program knows by name: the library's built-in ones, and its own, whose
-/// meshes come from a folder of assets.
+/// The scenes that the program knows by name: the library's built-in ones, and its own: some have
+/// meshes from a folder of assets, others maps that change with time.
 
 typedef struct listed_scene {
     const char *name;

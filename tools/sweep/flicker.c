@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Time between two frames as a fraction of the path: 1/30 s of 20 s.
-static const double step = 1.0 / (30 * 20);
+/// Between two frames, and for the whole path.
+static const double step_seconds = 1.0 / 30, path_seconds = 20;
 
 static size_t pixel_count(const sweep_job *job) {
     return (size_t)job->bench.size[0] * job->bench.size[1];
@@ -18,12 +18,15 @@ static lobe_result render_pair(const sweep_job *job, const lobe_scene *scene,
     parameters.discard = false;
     for (int i = 0; i < 2; i++) {
         lobe_camera camera;
-        lobe_scene_path(scene, (station + 0.5) / job->stations + i * step, &camera);
+        const double seconds = (station + 0.5) / job->stations * path_seconds + i * step_seconds;
+        lobe_scene_path(scene, seconds / path_seconds, &camera);
+        animation_set_time(job->bench.animation, seconds);
         parameters.camera = &camera;
         pair[i] = (lobe_frame){0};
         if (result == LOBE_OK && !sweep_stopped(job))
             result = lobe_renderer_render(renderer, &parameters, &pair[i]);
     }
+    animation_set_time(job->bench.animation, 0);
     return result;
 }
 

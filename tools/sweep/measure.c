@@ -41,6 +41,7 @@ static lobe_result out_of_memory(const scene_run *run) {
 static lobe_result open_renderer(const scene_run *run, const lobe_host *host,
                                  lobe_renderer **renderer) {
     lobe_result result = lobe_renderer_create(run->job->bench.device, host, renderer);
+    animation_attach(run->job->bench.animation, *renderer);
     return result == LOBE_OK ? lobe_renderer_set_scene(*renderer, run->scene) : result;
 }
 
@@ -259,8 +260,8 @@ static lobe_result time_changed_frame(const scene_run *run, lobe_renderer *rende
     parameters.reference.samples = keep ? parameters.reference.samples : 1;
     lobe_frame frame;
     changed_cost cost;
-    lobe_result result = changed_frame_render(renderer, run->scene, &parameters,
-                                              run->job->bench.host, &frame, &cost);
+    lobe_result result = changed_frame_render(renderer, run->scene, run->job->bench.animation,
+                                              &parameters, run->job->bench.host, &frame, &cost);
     if (result == LOBE_OK && keep && !sweep_stopped(run->job)) {
         result = timing_add(times->changed, &frame, run->job->bench.host);
         if (result == LOBE_OK)
@@ -487,12 +488,15 @@ static void close_run(scene_run *run) {
 lobe_result sweep_measure(const sweep_job *job, lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows) {
     lobe_host host = *job->bench.host;
-    scene_run run = {.job = job,
+    sweep_job own = *job;
+    scene_run run = {.job = &own,
                      .scene = scene,
                      .name = entry->name,
                      .errors = {.write = write_error, .user = &host},
                      .rows = rows};
     lobe_result result = open_rows(&run, entry->name);
+    if (result == LOBE_OK)
+        result = animation_create(job->bench.device, scene, job->bench.host, &own.bench.animation);
     if (result == LOBE_OK)
         result = render_truths(&run, entry);
     if (result == LOBE_OK && !sweep_stopped(job))
@@ -502,5 +506,6 @@ lobe_result sweep_measure(const sweep_job *job, lobe_scene *scene, sweep_scene *
     if (result == LOBE_OK && !sweep_stopped(job))
         result = summarise_rows(&run);
     close_run(&run);
+    animation_destroy(&own.bench.animation);
     return result;
 }

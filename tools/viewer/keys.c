@@ -78,6 +78,10 @@ static void step(viewer *v) {
     v->steps = true;
 }
 
+static void stop_time(viewer *v) {
+    v->time_runs = !v->time_runs;
+}
+
 static void record_frame(viewer *v) {
     v->records_frame = true;
 }
@@ -115,6 +119,7 @@ const viewer_key viewer_keys[] = {
     {GLFW_KEY_MINUS, "-", "darkens it", darken},
     {GLFW_KEY_SPACE, "Space", "moves the camera along its path, or pauses", play},
     {GLFW_KEY_PERIOD, ".", "takes one step along the path", step},
+    {GLFW_KEY_T, "T", "stops time in a scene that changes, or lets it go on", stop_time},
     {GLFW_KEY_R, "R", "records the frame as OpenEXR", record_frame},
     {GLFW_KEY_P, "P", "records the whole path, one file per frame; again: stops", record_path},
     {GLFW_KEY_ESCAPE, "Escape", "closes the window", leave},

@@ -84,7 +84,7 @@ lobe_result viewer_open_first_scene(viewer *v) {
     return viewer_lights_open(v);
 }
 
-static lobe_result give_scene(viewer *v, const lobe_scene *scene) {
+static lobe_result give_scene(viewer *v, lobe_scene *scene) {
     v->view.scene = scene;
     lobe_result result = LOBE_OK;
     for (int i = 0; i < 2 && result == LOBE_OK; i++)
@@ -105,6 +105,7 @@ static lobe_result replace_scene(viewer *v, const char *name) {
     v->scene = scene;
     (void)viewer_lights_open(v); // shows a message if it fails
     v->path_frame = 0;
+    v->view.seconds = 0;
     v->turned = v->opening.rotation;
     v->plays = v->records_path = false;
     set_title(v);

@@ -38,6 +38,7 @@ static bool choose_path(const viewer *v, char path[PATH_MAX]) {
 
 /// A reference is recorded with the samples it has so far.
 static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
+    animation_set_time(side->animation, v->view.seconds);
     return lobe_renderer_render(side->renderer,
                                 &(lobe_render_parameters){
                                     .filter = side->filter,
@@ -66,6 +67,8 @@ static lobe_result write_file(const viewer *v, const viewer_side *side, const lo
             .samples = lobe_filter_supersamples(side->filter) && side->samples ? side->samples : 1,
             .device = lobe_device_describe(v->device.lobe),
             .times = times,
+            .animated = side->animation != NULL,
+            .seconds = v->view.seconds,
             .first_frame = true,
             .depth = LOBE_EXR_HALF,
         },

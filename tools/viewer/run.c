@@ -48,6 +48,7 @@ static void prepare(const viewer_request *request, const lobe_host *console, vie
         .sides = {{.filter = request->filter, .settings = request->settings},
                   {.filter = reference}},
         .shows_panel = true,
+        .time_runs = true,
         .redraws = VIEWER_REDRAWS,
     };
     v->view.device = &v->device;
@@ -77,16 +78,26 @@ static void advance(viewer *v) {
     v->steps = false;
 }
 
+static bool changes_with_time(const viewer *v) {
+    return v->sides[0].animation && v->time_runs;
+}
+
 static void move(viewer *v) {
     const double now = glfwGetTime(), seconds = fmin(now - v->last_time, 0.1);
     double steps[3];
+    if (changes_with_time(v)) {
+        v->view.seconds = fmod(v->view.seconds + now - v->last_time, ANIMATION_MAXIMUM_SECONDS);
+        viewer_redraw_scene(v);
+    }
     v->last_time = now;
     if (v->plays || v->steps) {
         advance(v);
         viewer_go_to(v, v->path_frame);
     }
-    if (v->records_path)
+    if (v->records_path) {
         viewer_go_to(v, v->path_frame);
+        v->view.seconds = v->path_frame / 30.0;
+    }
     if (!imgui_takes_keys() && viewer_keys_fly(v, seconds, steps)) {
         viewer_camera_fly(&v->view.camera, steps);
         viewer_redraw_scene(v);
@@ -111,9 +122,10 @@ static void record(viewer *v) {
 static bool has_work(const viewer *v) {
     const int count = v->look.comparison == VIEWER_SINGLE ? 1 : 2;
     double steps[3];
-    bool work = v->redraws > 0 || v->plays || v->steps || v->records_path || v->records_frame ||
-                v->wanted_scene || v->wanted_environment || v->swapchain_is_stale ||
-                v->frames_drawn < v->request->frames || viewer_keys_fly(v, 0, steps);
+    bool work = v->redraws > 0 || changes_with_time(v) || v->plays || v->steps || v->records_path ||
+                v->records_frame || v->wanted_scene || v->wanted_environment ||
+                v->swapchain_is_stale || v->frames_drawn < v->request->frames ||
+                viewer_keys_fly(v, 0, steps);
     for (int i = 0; i < count; i++)
         work = work || viewer_side_has_work(&v->view, &v->sides[i]);
     return work;

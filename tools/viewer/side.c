@@ -33,6 +33,7 @@ static void free_mean(viewer_side *side) {
 void viewer_side_close(const viewer_view *view, viewer_side *side) {
     free_mean(side);
     lobe_renderer_destroy(&side->renderer);
+    animation_destroy(&side->animation);
     viewer_target_destroy(view->device, &side->target);
     side->pass_count = 0;
     side->parts_left = 0;
@@ -42,7 +43,12 @@ void viewer_side_close(const viewer_view *view, viewer_side *side) {
 lobe_result viewer_side_set_scene(const viewer_view *view, viewer_side *side) {
     side->stale = true;
     side->compiled = (viewer_compiled){0}; // other materials have other shaders
-    return lobe_renderer_set_scene(side->renderer, view->scene);
+    lobe_renderer_set_scene(side->renderer, NULL);
+    animation_destroy(&side->animation);
+    lobe_result result =
+        animation_create(view->device->lobe, view->scene, view->host, &side->animation);
+    animation_attach(side->animation, side->renderer);
+    return result == LOBE_OK ? lobe_renderer_set_scene(side->renderer, view->scene) : result;
 }
 
 lobe_result viewer_side_resize(const viewer_view *view, viewer_side *side) {
@@ -177,6 +183,7 @@ static void adapt_step(viewer_side *side, double seconds) {
 
 static lobe_result render_samples(const viewer_view *view, viewer_side *side, uint32_t count) {
     lobe_frame frame;
+    animation_set_time(side->animation, view->seconds);
     lobe_result result =
         lobe_renderer_render(side->renderer,
                              &(lobe_render_parameters){
@@ -282,6 +289,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     lobe_settings settings;
     const lobe_filter *filter = filter_to_draw(side, &settings);
     adapt_parts(side);
+    animation_set_time(side->animation, view->seconds);
     side->target.image.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     lobe_result result = lobe_renderer_render(
         side->renderer,

@@ -6,6 +6,7 @@
 
 #include <lobe/renderer.h>
 
+#include "tools/animation/animation.h"
 #include "tools/viewer/graphics/target.h"
 
 /// The output that is shown.
@@ -40,6 +41,7 @@ typedef struct viewer_side {
     lobe_settings settings;
     viewer_output output;
     lobe_renderer *renderer;
+    animation *animation; ///< NULL: the scene stands still
     viewer_target target;
     bool stale;  ///< its inputs have changed since it was drawn
     bool failed; ///< it could not be drawn; tried again when something changes
@@ -62,7 +64,8 @@ typedef struct viewer_side {
 /// Shared by both sides.
 typedef struct viewer_view {
     const viewer_device *device;
-    const lobe_scene *scene;
+    lobe_scene *scene;
+    double seconds; ///< the time in a scene that changes with time
     lobe_camera camera;
     uint32_t width, height;   ///< pixels
     uint32_t maximum_samples; ///< at which refining ends

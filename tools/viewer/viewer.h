@@ -94,6 +94,7 @@ typedef struct viewer {
     viewer_drag drag;
     double cursor[2]; ///< pixels of the window's content
     double last_time; ///< of the last frame, seconds
+    bool time_runs;   ///< in a scene that changes with time
     // The camera's path.
     bool plays, records_path, records_frame, steps;
     uint32_t path_frame;

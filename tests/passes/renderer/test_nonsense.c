@@ -400,6 +400,7 @@ static void renderers(void **state) {
             lobe_renderer_create(NULL, &f->host, &renderer));
     REFUSED_SILENTLY(lobe_renderer_set_scene(NULL, NULL));
     REFUSED_SILENTLY(lobe_renderer_update_scene(NULL, NULL));
+    lobe_renderer_set_image_giver(NULL, NULL, NULL);
     REFUSED_SILENTLY(lobe_renderer_render(NULL, NULL, &frame));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_render",
             lobe_renderer_render(f->renderer, NULL, &frame));

@@ -98,6 +98,21 @@ def test_frames_keep_their_maps():
     check("skipped" in (folder / "three.txt").read_text(), "no pass was skipped")
 
 
+def test_time_and_ranges_of_frames():
+    folder = fresh_folder("time")
+    succeeds("render", "cloth", *SMALL, "--frames", "14..15", "--time", "0.1",
+             "-o", folder / "cloth.exr", "-o", folder / "cloth.png")
+    leaves(folder, "cloth-0014.exr", "cloth-0014.png", "cloth-0015.exr", "cloth-0015.png")
+    seconds = [float(exr_header(folder / f"cloth-{n:04}.exr")["seconds"]) for n in (14, 15)]
+    check(abs(seconds[0] - 0.1 - 14 / 30) < 1e-6 and abs(seconds[1] - 0.6) < 1e-6, str(seconds))
+    succeeds("render", "cloth", *SMALL, "--time", "0.6", "-o", folder / "one.exr")
+    check(compare(folder / "one.exr", folder / "cloth-0015.exr")["rmse"] == 0, "another picture")
+    check(compare(folder / "one.exr", folder / "cloth-0014.exr")["rmse"] > 0, "time stands still")
+    result = succeeds("render", SCENE, *DIRECT, "--time", "2", "-o", folder / "still.exr")
+    check("does not change with time; --time" in result.stderr, report(result))
+    check("seconds" not in exr_header(folder / "still.exr"), "a time of what stands still")
+
+
 def test_graph():
     folder = fresh_folder("graph")
     for name in ("a.dot", "a.txt"):
@@ -242,7 +257,7 @@ def test_material_folder():
 if __name__ == "__main__":
     sys.exit(tap.run(globals(), under_sanitizers=(
         test_both_outputs_at_once, test_metadata, test_depth, test_layers,
-        test_frames_keep_their_maps, test_graph, test_lights,
+        test_frames_keep_their_maps, test_time_and_ranges_of_frames, test_graph, test_lights,
         test_options_that_do_nothing_are_told, test_progress_on_a_terminal,
         test_device_from_the_environment, test_gltf_file, test_an_empty_picture_is_explained,
         test_material_folder)))

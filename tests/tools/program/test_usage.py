@@ -134,7 +134,8 @@ def test_knob_out_of_range():
 
 def test_numbers_out_of_range():
     for option, values in {"samples": ["0", "4097", "-1", "many", "1e3", "99999999999"],
-                           "frames": ["0", "100001", "2.5"],
+                           "frames": ["0", "100001", "2.5", "3..2", "1..", "a..b"],
+                           "time": ["-1", "3601", "now"],
                            "fov": ["0", "180", "wide", "nan"],
                            "path": ["-0.1", "1.1", "half"],
                            "exposure": ["101", "inf"],
@@ -169,8 +170,8 @@ def test_material_and_scene_exclude_each_other():
 def test_scenes_are_listed():
     lines = succeeds("scenes").stdout.splitlines()
     names = [line.split()[0] for line in lines]
-    check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "hall", "bunny", "dragon"],
-          str(names))
+    check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "hall", "bunny", "dragon",
+                    "rain", "cloth"], str(names))
     check(all(len(line.split()) > 3 for line in lines), "no summaries")
 
 

@@ -502,6 +502,30 @@ def comes(condition):
     return False
 
 
+def test_time_runs_until_it_is_stopped():
+    if missing():
+        return missing()
+    moving = Window(screen(), "cloth", "--size", "64x48", "--filter", "mipmap", "--validation",
+                    settles=False)
+    views = []
+
+    def moves():
+        if seen(64, 48) not in views:
+            views.append(seen(64, 48))
+        return len(views) > 4
+
+    check(comes(moves), "the scene stands still")
+    moving.do("key", "Tab", "key", "t")
+    stopped = seen(64, 48)
+    time.sleep(0.3)
+    check(seen(64, 48) == stopped, "time goes on")
+    screen().do("key", "t")
+    check(comes(lambda: seen(64, 48) != stopped), "time does not go on")
+    moving.do("key", "t")
+    check(moving.close() == 0, moving.said())
+    return None
+
+
 def test_saved_shaders_are_seen():
     if missing():
         return missing()

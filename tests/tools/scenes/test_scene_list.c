@@ -204,13 +204,13 @@ static void assert_not_found(const char *name, const char *assets, const char *f
 static void the_list_has_the_builtin_scenes_and_the_programs_own(void **state) {
     (void)state;
     const size_t builtin = lobe_builtin_scene_count();
-    assert_int_equal(scene_list_count(), builtin + 2);
+    static const char *const own[] = {"bunny", "dragon", "rain", "cloth"};
+    assert_int_equal(scene_list_count(), builtin + 4);
     for (size_t i = 0; i < scene_list_count(); i++) {
         const listed_scene scene = scene_list_get(i);
-        const bool animal = i >= builtin;
-        assert_string_equal(scene.name, !animal        ? lobe_builtin_scene_get(i)->name
-                                        : i == builtin ? "bunny"
-                                                       : "dragon");
+        const bool animal = i == builtin || i == builtin + 1;
+        assert_string_equal(scene.name,
+                            i < builtin ? lobe_builtin_scene_get(i)->name : own[i - builtin]);
         assert_true(strlen(scene.summary) > 20 && !strchr(scene.summary, '\n'));
         assert_int_equal(scene.needs_assets, animal);
         assert_int_equal(scene_list_needs_assets(scene.name), animal);

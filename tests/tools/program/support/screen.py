@@ -64,7 +64,7 @@ def threads(process):
 class Window:
     """`lobe view`, at the requested size, in the top left corner of a screen."""
 
-    def __init__(self, screen, *arguments, program=PROGRAM, faults=None):
+    def __init__(self, screen, *arguments, program=PROGRAM, faults=None, settles=True):
         self.screen = screen
         self.errors = open(FOLDER / "view.err", "w+", encoding="utf-8")
         settings = {**os.environ, "DISPLAY": screen.name, "LOBE_TEST_FAULT": str(FAULT),
@@ -75,7 +75,8 @@ class Window:
             [program, "view", *map(str, arguments)], cwd=FOLDER, stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=self.errors, env=settings)
         self.number = self.find()
-        self.settle()
+        if settles:
+            self.settle()
         screen.do("windowmove", self.number, 0, 0, "windowfocus", self.number)
 
     def said(self):
