@@ -21,6 +21,23 @@ static lobe_result fill(lobe_buffer *buffer, const void *data) {
                : engine_upload_buffer_now(buffer, data);
 }
 
+static void free_buffer(lobe_buffer **buffer) {
+    if (*buffer)
+        lobe_release((*buffer)->name);
+    lobe_release(*buffer);
+    *buffer = NULL;
+}
+
+static bool allocate(lobe_device *device, engine_uploads *queue, const char *name,
+                     lobe_buffer **buffer) {
+    *buffer = lobe_allocate(device->host.allocator, 1, sizeof **buffer);
+    if (*buffer && ((*buffer)->name = lobe_copy_text(device->host.allocator, name)) &&
+        engine_upload_target_create(queue, &(*buffer)->uploads))
+        return true;
+    free_buffer(buffer);
+    return false;
+}
+
 lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
                                      const lobe_buffer_parameters *parameters,
                                      lobe_buffer **buffer) {
@@ -28,17 +45,12 @@ lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
     if (parameters->size == 0)
         return lobe_host_fail(&device->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "buffer '%s': a size of 0", name);
-    *buffer = lobe_allocate(device->host.allocator, 1, sizeof **buffer);
-    if (!*buffer || !((*buffer)->name = lobe_copy_text(device->host.allocator, name))) {
-        lobe_release(*buffer);
-        *buffer = NULL;
+    if (!allocate(device, queue, name, buffer))
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY, "buffer '%s': out of memory",
                               name);
-    }
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
     (*buffer)->stamp = engine_device_stamp(device);
-    (*buffer)->uploads = engine_upload_state_of(queue);
     lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
                                                      usage, ENGINE_MEMORY_DEVICE,
                                                      &(*buffer)->buffer, &(*buffer)->allocation);
@@ -76,7 +88,5 @@ void lobe_buffer_destroy(lobe_buffer **buffer) {
         return;
     engine_discarded object = {.buffer = (*buffer)->buffer, .allocation = (*buffer)->allocation};
     engine_upload_target_destroy((*buffer)->device, &(*buffer)->uploads, &object);
-    lobe_release((*buffer)->name);
-    lobe_release(*buffer);
-    *buffer = NULL;
+    free_buffer(buffer);
 }

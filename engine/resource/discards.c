@@ -3,14 +3,22 @@
 #include "engine/base/growing_array.h"
 #include "engine/device/device.h"
 
-bool engine_discards_add(lobe_device *device, engine_discards *discards,
-                         const engine_discarded *object) {
-    if (!engine_array_reserve(device->host.allocator, (void **)&discards->items,
-                              &discards->capacity, (uint64_t)discards->count + 1,
-                              sizeof *discards->items))
+bool engine_discards_reserve(lobe_device *device, engine_discards *discards) {
+    if (!engine_array_reserve(
+            device->host.allocator, (void **)&discards->items, &discards->capacity,
+            (uint64_t)discards->count + discards->reserved + 1, sizeof *discards->items))
         return false;
-    discards->items[discards->count++] = *object;
+    discards->reserved++;
     return true;
+}
+
+void engine_discards_unreserve(engine_discards *discards) {
+    discards->reserved--;
+}
+
+void engine_discards_add(engine_discards *discards, const engine_discarded *object) {
+    discards->items[discards->count++] = *object;
+    discards->reserved--;
 }
 
 void engine_discarded_destroy(lobe_device *device, engine_discarded *object) {

@@ -22,11 +22,16 @@ typedef struct engine_discarded {
 typedef struct engine_discards {
     engine_discarded *items;
     uint32_t count, capacity;
+    uint32_t reserved; ///< objects that have room here, but still live
 } engine_discards;
 
-/// False if out of memory: the object is still the caller's.
-bool engine_discards_add(lobe_device *device, engine_discards *discards,
-                         const engine_discarded *object);
+/// Makes room for an object while it is created, so that nothing can fail when it goes. False if
+/// out of memory.
+bool engine_discards_reserve(lobe_device *device, engine_discards *discards);
+/// Gives an object's room back: it went without.
+void engine_discards_unreserve(engine_discards *discards);
+/// Takes over an object that has room.
+void engine_discards_add(engine_discards *discards, const engine_discarded *object);
 /// Destroys the objects whose frames have released everything up to `position`.
 void engine_discards_release(lobe_device *device, engine_discards *discards, uint64_t position);
 /// Destroys all of them: the frames are done.

@@ -41,19 +41,21 @@ static engine_discarded memory_of(const engine_staging_ring *ring) {
 }
 
 static lobe_result grow(lobe_device *device, engine_staging_ring *ring, VkDeviceSize size) {
-    engine_staging grown;
+    engine_staging grown = {0};
     const engine_discarded former = memory_of(ring);
     const VkDeviceSize with_end = size + ALIGNMENT; // so that twice as much holds two frames
-    lobe_result result = engine_staging_create(
-        device, "staging ring", round_up(largest(2 * ring->memory.size, with_end), MINIMUM),
-        ENGINE_MEMORY_UPLOAD, &grown);
-    if (result != LOBE_OK)
-        return result;
-    if (!engine_discards_add(device, &ring->discards, &former)) {
-        engine_staging_destroy(device, &grown);
+    if (!engine_discards_reserve(device, &ring->discards))
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "staging ring: out of memory");
+    const lobe_result result = engine_staging_create(
+        device, "staging ring", round_up(largest(2 * ring->memory.size, with_end), MINIMUM),
+        ENGINE_MEMORY_UPLOAD, &grown);
+    if (result != LOBE_OK) {
+        engine_discards_unreserve(&ring->discards);
+        return result;
     }
+    if (former.buffer)
+        engine_discards_add(&ring->discards, &former);
     engine_discards_release(device, &ring->discards, ring->begin);
     ring->memory = grown;
     ring->origin = ring->end;
@@ -74,20 +76,21 @@ void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
     engine_discards_release(device, &ring->discards, ring->begin);
 }
 
-void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
+void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring, uint64_t created,
                                  engine_discarded *object) {
     object->until = ring->next;
-    if (ring->begin < ring->next && engine_discards_add(device, &ring->discards, object))
-        return;
-    // Nothing is in flight, or nothing can say until when. A lost device has finished, too.
-    if (ring->begin < ring->next)
-        (void)engine_device_wait_all(device);
-    engine_discarded_destroy(device, object);
+    if (largest(ring->begin, created) < ring->next) {
+        engine_discards_add(&ring->discards, object);
+    } else {
+        engine_discards_unreserve(&ring->discards);
+        engine_discarded_destroy(device, object);
+    }
 }
 
 static void give_back(lobe_device *device, engine_staging_ring *ring) {
     engine_discarded former = memory_of(ring);
-    engine_staging_ring_discard(device, ring, &former);
+    if (former.buffer)
+        engine_staging_ring_discard(device, ring, 0, &former);
     ring->memory = (engine_staging){0};
 }
 

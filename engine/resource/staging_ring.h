@@ -40,9 +40,10 @@ lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring
 uint64_t engine_staging_ring_end_frame(lobe_device *device, engine_staging_ring *ring);
 /// The frames that end at `position` or before are done.
 void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring, uint64_t position);
-/// Destroys an object, which the next frame does not use, once the frames in flight are done. Waits
-/// only where the host is out of memory.
-void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
+/// Destroys an object that has room among the discards, and which the next frame does not use, once
+/// the frames in flight are done: those that ended after `created`, the position of the next frame
+/// when it was created. Neither waits nor allocates.
+void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring, uint64_t created,
                                  engine_discarded *object);
 /// All frames must be done.
 void engine_staging_ring_free(lobe_device *device, engine_staging_ring *ring);

@@ -73,6 +73,23 @@ static lobe_result fill(lobe_texture *texture, const lobe_image *image) {
                : engine_upload_texture_now(texture, image, &whole);
 }
 
+static void free_texture(lobe_texture **texture) {
+    if (*texture)
+        lobe_release((*texture)->name);
+    lobe_release(*texture);
+    *texture = NULL;
+}
+
+static bool allocate(lobe_device *device, engine_uploads *queue, const char *name,
+                     lobe_texture **texture) {
+    *texture = lobe_allocate(device->host.allocator, 1, sizeof **texture);
+    if (*texture && ((*texture)->name = lobe_copy_text(device->host.allocator, name)) &&
+        engine_upload_target_create(queue, &(*texture)->uploads))
+        return true;
+    free_texture(texture);
+    return false;
+}
+
 lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue,
                                       const lobe_texture_parameters *parameters,
                                       lobe_texture **texture) {
@@ -80,18 +97,13 @@ lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue
     lobe_result result = check_content(&device->host, name, parameters->image);
     if (result != LOBE_OK)
         return result;
-    *texture = lobe_allocate(device->host.allocator, 1, sizeof **texture);
-    if (!*texture || !((*texture)->name = lobe_copy_text(device->host.allocator, name))) {
-        lobe_release(*texture);
-        *texture = NULL;
+    if (!allocate(device, queue, name, texture))
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "texture '%s': out of memory", name);
-    }
     (*texture)->device = device;
     (*texture)->format = parameters->image->format;
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
-    (*texture)->uploads = engine_upload_state_of(queue);
     result = create_image(*texture);
     if (result == LOBE_OK)
         result = create_views(*texture);
@@ -165,7 +177,5 @@ void lobe_texture_destroy(lobe_texture **texture) {
                                .views = {(*texture)->view, (*texture)->array_view},
                                .allocation = (*texture)->allocation};
     engine_upload_target_destroy((*texture)->device, &(*texture)->uploads, &object);
-    lobe_release((*texture)->name);
-    lobe_release(*texture);
-    *texture = NULL;
+    free_texture(texture);
 }

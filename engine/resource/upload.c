@@ -12,8 +12,9 @@ static uint64_t minimum(uint64_t first, uint64_t second) {
 // ---------------------------------------------------------------------------------------------
 // The queue
 
-engine_upload_state engine_upload_state_of(engine_uploads *queue) {
-    return (engine_upload_state){.queue = queue, .created = queue ? queue->ring.next : 0};
+bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state) {
+    *state = (engine_upload_state){.queue = queue, .created = queue ? queue->ring.next : 0};
+    return !queue || engine_discards_reserve(queue->device, &queue->ring.discards);
 }
 
 static lobe_result out_of_memory(const engine_uploads *queue, const char *name) {
@@ -81,14 +82,14 @@ static void remove_all(engine_uploads *queue, engine_upload_state *state) {
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
                                   engine_discarded *object) {
     engine_uploads *queue = state->queue;
-    if (queue)
+    if (queue) {
         remove_all(queue, state);
-    else // On failure the device is lost, and has finished too.
+        engine_staging_ring_discard(device, &queue->ring, state->created, object);
+    } else {
+        // On failure the device is lost, and has finished too.
         (void)engine_device_wait_all(device);
-    if (queue && state->created < queue->ring.next)
-        engine_staging_ring_discard(device, &queue->ring, object);
-    else
         engine_discarded_destroy(device, object);
+    }
 }
 
 bool engine_uploads_take(const engine_uploads *queue, uint64_t size) {

@@ -38,8 +38,9 @@ typedef struct engine_uploads {
     uint32_t count, capacity, barrier_capacity;
 } engine_uploads;
 
-/// Of a new object: of the graph with this queue; NULL: of none.
-engine_upload_state engine_upload_state_of(engine_uploads *queue);
+/// Prepares a new object, of the graph with this queue (NULL: of none), for
+/// engine_upload_target_destroy. False if out of memory.
+bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state);
 
 /// Whether content of a new object joins the queue: not before the first frame, when there is
 /// nothing yet that waiting could hold up, and not where that would make the ring large.

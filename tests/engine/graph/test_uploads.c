@@ -9,6 +9,7 @@
 
 #include "engine/graph/state.h"
 #include "tests/engine/graph/graph_support.h"
+#include "tests/engine/support/counting_allocator.h"
 
 #define TEST(function)                                                                             \
     cmocka_unit_test_setup_teardown(function, open_after_a_frame, graph_fixture_close)
@@ -533,6 +534,44 @@ static void objects_come_and_go_between_frames(void **state) {
     vkDestroySemaphore(gate.device, gate.semaphore, NULL);
 }
 
+/// Nothing can fail when an object goes while frames are in flight, so nobody has to wait for them:
+/// the host may not even have submitted them.
+static void destruction_allocates_nothing(void **state) {
+    (void)state;
+    enum { OBJECTS = 100 };
+    counting_allocator counting;
+    graph_fixture f = {0};
+    contents content = pattern(1);
+    lobe_texture *textures[OBJECTS];
+    lobe_buffer *buffers[OBJECTS];
+    counting_allocator_start(&counting);
+    log_recorder_start(&f.recorder);
+    f.recorder.host.allocator = &counting.allocator;
+    assert_int_equal(
+        lobe_device_create(&(lobe_device_parameters){.host = &f.recorder.host}, &f.device),
+        LOBE_OK);
+    assert_int_equal(lobe_graph_create(f.device, &f.graph), LOBE_OK);
+    for (int n = 0; n < OBJECTS; n++) {
+        textures[n] = create_texture(&f, &content);
+        buffers[n] = create_buffer(&f, &content);
+    }
+    gate gate = close_gate(&f);
+    lobe_graph_begin(f.graph);
+    lobe_graph_output(f.graph, declare_copy(&f, textures[0], "seen"));
+    submit_behind(&f, &gate, 1);
+    counting.taken = 0;
+    for (int n = 0; n < OBJECTS; n++) {
+        lobe_texture_destroy(&textures[n]);
+        lobe_buffer_destroy(&buffers[n]);
+    }
+    assert_int_equal(counting.taken, 0);
+    open_gate(&gate, 1);
+    lobe_graph_destroy(&f.graph);
+    vkDestroySemaphore(gate.device, gate.semaphore, NULL);
+    lobe_device_destroy(&f.device);
+    assert_nothing_left(&counting);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(the_next_frame_copies),
@@ -549,6 +588,7 @@ int main(void) {
         TEST(a_failed_update_leaves_the_content),
         TEST(gone_objects_are_left_out),
         TEST(objects_come_and_go_between_frames),
+        cmocka_unit_test(destruction_allocates_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
