@@ -81,9 +81,13 @@ lobe_result engine_device_wait_queue(lobe_device *device);
 /// until it is submitted.
 lobe_result engine_device_begin_commands(lobe_device *device, const char *purpose,
                                          VkCommandBuffer *commands);
-/// Ends, submits, waits for and frees the command buffer, even on failure.
-lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
-                                          VkCommandBuffer commands);
+/// Ends and submits the command buffer; the timeline reaches `*value` when it has executed. On
+/// failure it is freed.
+lobe_result engine_device_submit_commands(lobe_device *device, const char *purpose,
+                                          VkCommandBuffer commands, uint64_t *value);
+/// Waits for the command buffer, and frees it even on failure.
+lobe_result engine_device_finish_commands(lobe_device *device, VkCommandBuffer commands,
+                                          uint64_t value);
 
 /// Debug names and labels; do nothing without VK_EXT_debug_utils.
 void engine_device_name(const lobe_device *device, VkObjectType type, uint64_t handle,

@@ -148,18 +148,27 @@ lobe_result engine_device_begin_commands(lobe_device *device, const char *purpos
     return result;
 }
 
-lobe_result engine_device_finish_commands(lobe_device *device, const char *purpose,
-                                          VkCommandBuffer commands) {
-    uint64_t value = 0;
-    lobe_result result =
-        VULKAN_CHECK(&device->host, device->api.vkEndCommandBuffer(commands), "%s", purpose);
-    if (result == LOBE_OK)
-        result = engine_device_submit(device, commands, NULL, &value);
-    pthread_mutex_unlock(&device->commands_mutex); // others may record while this one waits
-    if (result == LOBE_OK)
-        result = engine_device_wait(device, value);
+static void free_commands(lobe_device *device, VkCommandBuffer commands) {
     pthread_mutex_lock(&device->commands_mutex);
     device->api.vkFreeCommandBuffers(device->vulkan, device->commands, 1, &commands);
     pthread_mutex_unlock(&device->commands_mutex);
+}
+
+lobe_result engine_device_submit_commands(lobe_device *device, const char *purpose,
+                                          VkCommandBuffer commands, uint64_t *value) {
+    lobe_result result =
+        VULKAN_CHECK(&device->host, device->api.vkEndCommandBuffer(commands), "%s", purpose);
+    if (result == LOBE_OK)
+        result = engine_device_submit(device, commands, NULL, value);
+    pthread_mutex_unlock(&device->commands_mutex); // others may record now
+    if (result != LOBE_OK)
+        free_commands(device, commands);
+    return result;
+}
+
+lobe_result engine_device_finish_commands(lobe_device *device, VkCommandBuffer commands,
+                                          uint64_t value) {
+    const lobe_result result = engine_device_wait(device, value);
+    free_commands(device, commands);
     return result;
 }

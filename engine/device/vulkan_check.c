@@ -54,8 +54,8 @@ lobe_result engine_vulkan_result(VkResult result) {
 lobe_result engine_vulkan_check(const lobe_host *host, VkResult vulkan, const char *expression,
                                 const char *format, ...) {
     const lobe_result result = engine_vulkan_result(vulkan);
-    if (result == LOBE_OK)
-        return LOBE_OK;
+    if (result == LOBE_OK || !host)
+        return result;
     char purpose[256];
     va_list arguments;
     va_start(arguments, format);

@@ -66,6 +66,7 @@ void lobe_graph_begin(lobe_graph *graph) {
     reset_frame(graph);
     engine_graph_begin_retained(graph);
     engine_graph_propagate(graph, engine_graph_begin_flight(graph));
+    engine_uploads_begin_frame(&graph->kept.uploads);
 }
 
 // ---------------------------------------------------------------------------------------------

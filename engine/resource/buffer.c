@@ -2,6 +2,7 @@
 
 #include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
+#include "engine/resource/content.h"
 #include "engine/resource/upload.h"
 
 static const VkBufferUsageFlags usage =
@@ -12,13 +13,6 @@ static const VkBufferUsageFlags usage =
 /// vkCmdFillBuffer works in words.
 static VkDeviceSize whole_words(VkDeviceSize size) {
     return (size + 3) & ~(VkDeviceSize)3;
-}
-
-static lobe_result fill(lobe_buffer *buffer, const void *data) {
-    engine_uploads *queue = buffer->uploads.queue;
-    return engine_uploads_take(queue, buffer->size)
-               ? engine_uploads_add_buffer(queue, buffer, 0, buffer->size, data)
-               : engine_upload_buffer_now(buffer, data);
 }
 
 static void free_buffer(lobe_buffer **buffer) {
@@ -50,12 +44,11 @@ lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
                               name);
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
-    (*buffer)->stamp = engine_device_stamp(device);
     lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
                                                      usage, ENGINE_MEMORY_DEVICE,
                                                      &(*buffer)->buffer, &(*buffer)->allocation);
     if (result == LOBE_OK)
-        result = fill(*buffer, parameters->data);
+        result = engine_buffer_write(*buffer, parameters->data, true);
     if (result != LOBE_OK)
         lobe_buffer_destroy(buffer);
     return result;
@@ -77,10 +70,7 @@ lobe_result lobe_buffer_update(lobe_buffer *buffer, const void *data) {
     if (!data)
         return lobe_host_fail(&buffer->device->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "buffer '%s': no data given", buffer->name);
-    buffer->stamp = engine_device_stamp(buffer->device);
-    return buffer->uploads.queue
-               ? engine_uploads_add_buffer(buffer->uploads.queue, buffer, 0, buffer->size, data)
-               : engine_upload_buffer_now(buffer, data);
+    return engine_buffer_write(buffer, data, false);
 }
 
 void lobe_buffer_destroy(lobe_buffer **buffer) {

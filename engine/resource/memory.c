@@ -150,9 +150,14 @@ static uint64_t maximum(uint64_t first, uint64_t second) {
     return first > second ? first : second;
 }
 
+/// Where errors are logged; NULL: nowhere.
+static const lobe_host *log_of(const engine_memory *memory, const engine_memory_request *request) {
+    return request->name ? &memory->device->host : NULL;
+}
+
 static lobe_result fail_without_room(const engine_memory *memory,
                                      const engine_memory_request *request, uint64_t room) {
-    return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+    return lobe_host_fail(log_of(memory, request), LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
                           "'%s' needs %llu bytes of device memory, only %llu are available%s",
                           request->name, (unsigned long long)request->requirements.size,
                           (unsigned long long)room, memory->limit ? " (limited)" : "");
@@ -200,12 +205,13 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
         .memoryTypeIndex = block->type,
     };
     const lobe_device *device = memory->device;
+    const lobe_host *log = log_of(memory, request);
     lobe_result result = VULKAN_CHECK(
-        &memory->device->host,
+        log,
         device->api.vkAllocateMemory(device->vulkan, &allocate, device->callbacks, &block->memory),
         "'%s' (%llu bytes)", request->name, (unsigned long long)request->requirements.size);
     if (result == LOBE_OK && request->place != ENGINE_MEMORY_DEVICE)
-        result = VULKAN_CHECK(&memory->device->host,
+        result = VULKAN_CHECK(log,
                               device->api.vkMapMemory(device->vulkan, block->memory, 0,
                                                       VK_WHOLE_SIZE, 0, &block->mapped),
                               "'%s'", request->name);
@@ -214,7 +220,7 @@ static lobe_result take_from_vulkan(engine_memory *memory, const engine_memory_r
 
 static lobe_result fail_host_memory(const engine_memory *memory,
                                     const engine_memory_request *request) {
-    return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_MEMORY,
+    return lobe_host_fail(log_of(memory, request), LOBE_ERROR_OUT_OF_MEMORY,
                           "'%s': out of memory managing device memory", request->name);
 }
 
@@ -269,7 +275,7 @@ static lobe_result allocate(engine_memory *memory, const engine_memory_request *
                             engine_allocation *allocation) {
     const uint32_t type = find_type(memory, request);
     if (type == UINT32_MAX)
-        return lobe_host_fail(&memory->device->host, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
+        return lobe_host_fail(log_of(memory, request), LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
                               "'%s': the device has no suitable memory type", request->name);
     // With a granularity of 1, tiled images and buffers may share blocks.
     const bool linear = request->linear && memory->granularity > 1;

@@ -19,7 +19,7 @@ typedef enum engine_memory_place {
 } engine_memory_place;
 
 typedef struct engine_memory_request {
-    const char *name; ///< for the error line
+    const char *name; ///< for the error line; NULL: none, because the caller has another way
     VkMemoryRequirements requirements;
     engine_memory_place place;
     /// True for buffers and linear images, false for optimally tiled images: the two never share a

@@ -86,7 +86,8 @@ typedef struct engine_view_parameters {
 lobe_result engine_view_create(lobe_device *device, const engine_view_parameters *parameters,
                                VkImageView *view);
 
-/// Creates a buffer without memory, and returns its memory requirements.
+/// Creates a buffer without memory, and returns its memory requirements. `name`, here and below:
+/// NULL: errors are not logged.
 /// Errors: LOBE_ERROR_LIMIT (size above what the device allows for one storage buffer).
 lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDeviceSize size,
                                  VkBufferUsageFlags usage, VkBuffer *buffer,

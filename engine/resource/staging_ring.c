@@ -2,10 +2,7 @@
 
 #include "engine/device/device.h"
 
-enum {
-    ALIGNMENT = 16, ///< the largest texel
-    MINIMUM = 64 << 10,
-};
+enum { MINIMUM = 64 << 10 };
 
 static uint64_t round_up(uint64_t value, uint64_t step) {
     return (value + step - 1) / step * step;
@@ -15,8 +12,8 @@ static uint64_t largest(uint64_t first, uint64_t second) {
     return first > second ? first : second;
 }
 
-/// Takes `size` bytes in a row. False if the memory has no room for them.
-static bool place(engine_staging_ring *ring, VkDeviceSize size, engine_staged *staged) {
+bool engine_staging_ring_place(engine_staging_ring *ring, VkDeviceSize size,
+                               engine_staged *staged) {
     const uint64_t capacity = ring->memory.size;
     if (size > capacity)
         return false;
@@ -28,7 +25,7 @@ static bool place(engine_staging_ring *ring, VkDeviceSize size, engine_staged *s
         first = round_up(first, capacity);
     if (ring->origin + first + size - used > capacity)
         return false;
-    ring->end = ring->origin + first + round_up(size, ALIGNMENT);
+    ring->end = ring->origin + first + round_up(size, ENGINE_STAGING_ALIGNMENT);
     staged->buffer = ring->memory.buffer;
     staged->offset = first % capacity;
     staged->mapped = (char *)ring->memory.mapped + staged->offset;
@@ -40,20 +37,28 @@ static engine_discarded memory_of(const engine_staging_ring *ring) {
         .until = ring->end, .buffer = ring->memory.buffer, .allocation = ring->memory.allocation};
 }
 
-static lobe_result grow(lobe_device *device, engine_staging_ring *ring, VkDeviceSize size) {
-    engine_staging grown = {0};
+/// Takes the memory from the device, and room for it when it goes.
+static lobe_result take(lobe_device *device, engine_discards *discards, VkDeviceSize size,
+                        engine_staging *memory) {
+    if (!engine_discards_reserve(device, discards))
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    const lobe_result result =
+        engine_staging_create(device, NULL, size, ENGINE_MEMORY_UPLOAD, memory);
+    if (result != LOBE_OK)
+        engine_discards_unreserve(discards);
+    return result;
+}
+
+lobe_result engine_staging_ring_grow(lobe_device *device, engine_staging_ring *ring,
+                                     VkDeviceSize size) {
+    engine_staging grown;
     const engine_discarded former = memory_of(ring);
-    const VkDeviceSize with_end = size + ALIGNMENT; // so that twice as much holds two frames
-    if (!engine_discards_reserve(device, &ring->discards))
-        return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
-                              "staging ring: out of memory");
-    const lobe_result result = engine_staging_create(
-        device, "staging ring", round_up(largest(2 * ring->memory.size, with_end), MINIMUM),
-        ENGINE_MEMORY_UPLOAD, &grown);
-    if (result != LOBE_OK) {
-        engine_discards_unreserve(&ring->discards);
+    const lobe_result result = take(device, &ring->discards, round_up(size, MINIMUM), &grown);
+    if (result == LOBE_ERROR_OUT_OF_DEVICE_MEMORY)
         return result;
-    }
+    if (result != LOBE_OK)
+        return lobe_host_fail(&device->host, result, "staging ring: %s", lobe_result_name(result));
+    engine_device_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)grown.buffer, "staging ring");
     if (former.buffer)
         engine_discards_add(&ring->discards, &former);
     engine_discards_release(device, &ring->discards, ring->begin);
@@ -64,9 +69,11 @@ static lobe_result grow(lobe_device *device, engine_staging_ring *ring, VkDevice
 
 lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring *ring,
                                         VkDeviceSize size, engine_staged *staged) {
+    const VkDeviceSize with_end =
+        size + ENGINE_STAGING_ALIGNMENT; // so that twice as much holds two frames
     lobe_result result = LOBE_OK;
-    while (result == LOBE_OK && !place(ring, size, staged))
-        result = grow(device, ring, size);
+    while (result == LOBE_OK && !engine_staging_ring_place(ring, size, staged))
+        result = engine_staging_ring_grow(device, ring, largest(2 * ring->memory.size, with_end));
     return result;
 }
 
@@ -87,7 +94,7 @@ void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring,
     }
 }
 
-static void give_back(lobe_device *device, engine_staging_ring *ring) {
+void engine_staging_ring_give_back(lobe_device *device, engine_staging_ring *ring) {
     engine_discarded former = memory_of(ring);
     if (former.buffer)
         engine_staging_ring_discard(device, ring, 0, &former);
@@ -96,10 +103,10 @@ static void give_back(lobe_device *device, engine_staging_ring *ring) {
 
 uint64_t engine_staging_ring_end_frame(lobe_device *device, engine_staging_ring *ring) {
     ring->unused = ring->end == ring->next ? ring->unused + 1 : 0;
-    ring->end += ALIGNMENT; // no two frames end at the same position
+    ring->end += ENGINE_STAGING_ALIGNMENT; // no two frames end at the same position
     ring->next = ring->end;
     if (ring->unused == ENGINE_STAGING_UNUSED_FRAMES)
-        give_back(device, ring);
+        engine_staging_ring_give_back(device, ring);
     return ring->end;
 }
 

@@ -1,6 +1,7 @@
 #ifndef ENGINE_RESOURCE_STAGING_RING_H
 #define ENGINE_RESOURCE_STAGING_RING_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include <vulkan/vulkan.h>
@@ -8,6 +9,8 @@
 #include "engine/resource/discards.h"
 #include "engine/resource/resource.h"
 
+/// Of each part: the largest texel. Each frame takes as much at its end.
+#define ENGINE_STAGING_ALIGNMENT 16
 /// Frames without content after which the memory goes.
 #define ENGINE_STAGING_UNUSED_FRAMES 100
 
@@ -33,7 +36,13 @@ typedef struct engine_staged {
     void *mapped;
 } engine_staged;
 
-/// Errors: those of engine_staging_create; the ring is as it was.
+/// Takes `size` bytes in a row for the next frame. False if the memory has no room for them.
+bool engine_staging_ring_place(engine_staging_ring *ring, VkDeviceSize size, engine_staged *staged);
+/// Replaces the memory by at least `size` bytes, all free. On failure the ring is as it was.
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY is not logged, because callers can do with less; others are.
+lobe_result engine_staging_ring_grow(lobe_device *device, engine_staging_ring *ring,
+                                     VkDeviceSize size);
+/// Takes `size` bytes in a row, from larger memory if need be. Errors: as above.
 lobe_result engine_staging_ring_reserve(lobe_device *device, engine_staging_ring *ring,
                                         VkDeviceSize size, engine_staged *staged);
 /// Ends the next frame, which is in flight from now on; returns the position at which it ends.
@@ -45,6 +54,8 @@ void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
 /// when it was created. Neither waits nor allocates.
 void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring, uint64_t created,
                                  engine_discarded *object);
+/// Has no memory from now on, until somebody reserves some. The next frame must have taken nothing.
+void engine_staging_ring_give_back(lobe_device *device, engine_staging_ring *ring);
 /// All frames must be done.
 void engine_staging_ring_free(lobe_device *device, engine_staging_ring *ring);
 

@@ -4,6 +4,7 @@
 
 #include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
+#include "engine/resource/content.h"
 #include "engine/resource/upload.h"
 
 static lobe_result check_content(const lobe_host *host, const char *name, const lobe_image *image) {
@@ -63,16 +64,6 @@ static lobe_result create_views(lobe_texture *texture) {
     return result;
 }
 
-static lobe_result fill(lobe_texture *texture, const lobe_image *image) {
-    engine_uploads *queue = texture->uploads.queue;
-    const lobe_rectangle whole = {0, 0, texture->width, texture->height};
-    const uint64_t size = (uint64_t)image->width * image->height * lobe_format_size(image->format);
-    texture->stamp = engine_device_stamp(texture->device);
-    return engine_uploads_take(queue, size)
-               ? engine_uploads_add_texture(queue, texture, image, &whole)
-               : engine_upload_texture_now(texture, image, &whole);
-}
-
 static void free_texture(lobe_texture **texture) {
     if (*texture)
         lobe_release((*texture)->name);
@@ -104,11 +95,12 @@ lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue
     (*texture)->format = parameters->image->format;
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
+    const lobe_rectangle whole = {0, 0, (*texture)->width, (*texture)->height};
     result = create_image(*texture);
     if (result == LOBE_OK)
         result = create_views(*texture);
     if (result == LOBE_OK)
-        result = fill(*texture, parameters->image);
+        result = engine_texture_write(*texture, parameters->image, &whole, true);
     if (result != LOBE_OK)
         lobe_texture_destroy(texture);
     return result;
@@ -164,10 +156,7 @@ lobe_result lobe_texture_update_part(lobe_texture *texture, const lobe_image *im
     result = check_part(texture, part);
     if (result != LOBE_OK)
         return result;
-    texture->stamp = engine_device_stamp(texture->device);
-    return texture->uploads.queue
-               ? engine_uploads_add_texture(texture->uploads.queue, texture, image, part)
-               : engine_upload_texture_now(texture, image, part);
+    return engine_texture_write(texture, image, part, false);
 }
 
 void lobe_texture_destroy(lobe_texture **texture) {

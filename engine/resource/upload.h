@@ -11,11 +11,6 @@
 #include "engine/resource/resource.h"
 #include "engine/resource/staging_ring.h"
 
-/// Maximum number of bytes of mapped memory that content of a new object, or of one without a
-/// graph, uses at a time. Larger content takes several steps, so that a large texture does not need
-/// twice its size.
-#define ENGINE_UPLOAD_STEP ((VkDeviceSize)16 << 20)
-
 /// A copy to a texture or a buffer; to neither: the object is gone.
 typedef struct engine_upload {
     lobe_texture *texture;
@@ -27,6 +22,11 @@ typedef struct engine_upload {
     bool again;         ///< an earlier copy in the queue is to the same object
 } engine_upload;
 
+/// Of a copy, in bytes of host memory: its content, and what describes it.
+static inline uint64_t engine_upload_cost(VkDeviceSize size) {
+    return size + sizeof(engine_upload) + sizeof(VkImageMemoryBarrier2);
+}
+
 /// Copies that the next frame of a graph, or the next submission, makes before anything else. The
 /// content is in the ring already; the caller's memory is not needed. All zero but the device:
 /// none.
@@ -36,42 +36,50 @@ typedef struct engine_uploads {
     engine_upload *copies;
     VkImageMemoryBarrier2 *barriers; ///< room for recording
     uint32_t count, capacity, barrier_capacity;
+    bool started;        ///< a frame has begun
+    uint64_t unsent;     ///< ring position: a frame that ends there may not be submitted yet
+    VkCommandBuffer own; ///< the last submission without a frame, not waited for; or NULL
+    uint64_t own_value, own_end; ///< of the device's timeline, and its position in the ring
 } engine_uploads;
 
 /// Prepares a new object, of the graph with this queue (NULL: of none), for
 /// engine_upload_target_destroy. False if out of memory.
 bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state);
-
-/// Whether content of a new object joins the queue: not before the first frame, when there is
-/// nothing yet that waiting could hold up, and not where that would make the ring large.
-bool engine_uploads_take(const engine_uploads *queue, uint64_t size);
-/// Adds a part of an image to the queue; in place of what that part has there already. The format
-/// and extents must be the texture's. On failure the texture keeps what it has and will have.
-lobe_result engine_uploads_add_texture(engine_uploads *queue, lobe_texture *texture,
-                                       const lobe_image *image, const lobe_rectangle *part);
-/// The same for a range of a buffer: all of it, if the buffer has something in the queue already.
-/// `data`: `size` bytes; NULL: zeroes.
-lobe_result engine_uploads_add_buffer(engine_uploads *queue, lobe_buffer *buffer,
-                                      VkDeviceSize first, VkDeviceSize size, const void *data);
 /// Removes the copies to an object, and destroys it when the frames that may use it are done: at
 /// once if there are none. Waits for them if it belongs to no graph.
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
                                   engine_discarded *object);
 
+/// Adds a copy to the object with this state, whose content is in the ring, or will be when the
+/// copies are made. Earlier copies to the object go where this one is to all of it.
+lobe_result engine_uploads_add(engine_uploads *queue, const char *name, engine_upload_state *state,
+                               const engine_upload *copy);
+/// Removes all copies to an object.
+void engine_uploads_remove(engine_uploads *queue, engine_upload_state *state);
+
 /// Records the copies, after everything before and before everything after.
 void engine_uploads_record(engine_uploads *queue, VkCommandBuffer commands);
-/// The recorded copies will be made: empties the queue. Returns the position to release when they
-/// have been.
-uint64_t engine_uploads_commit(engine_uploads *queue);
+/// The recorded copies will be made: empties the queue. `by_host`: the host submits them, by the
+/// beginning of the next frame. Returns the position to release when they have been made.
+uint64_t engine_uploads_commit(engine_uploads *queue, bool by_host);
 /// The copies committed at `position` or before are done.
 void engine_uploads_release(engine_uploads *queue, uint64_t position);
+
+/// Whether copies can go without a frame: only after all that the host was to submit, whose copies
+/// would otherwise come later, from memory that is no longer theirs.
+bool engine_uploads_may_submit(const engine_uploads *queue);
+/// Submits the copies without a frame, after waiting for the last such submission: while one is
+/// under way, the next is filled.
+lobe_result engine_uploads_submit(engine_uploads *queue);
+/// Submits the copies, if there are any, and waits for them and all frames before: all of the ring
+/// is free.
+lobe_result engine_uploads_finish(engine_uploads *queue);
+/// The same, and gives the ring's memory back.
+lobe_result engine_uploads_flush(engine_uploads *queue);
+/// A frame begins: the host has submitted the former ones.
+void engine_uploads_begin_frame(engine_uploads *queue);
+
 /// All frames must be done; copies in the queue are dropped.
 void engine_uploads_free(engine_uploads *queue);
-
-/// Writes a part of a texture, or all of a buffer (NULL: zeroes), in submissions of its own, and
-/// waits for them.
-lobe_result engine_upload_texture_now(lobe_texture *texture, const lobe_image *image,
-                                      const lobe_rectangle *part);
-lobe_result engine_upload_buffer_now(lobe_buffer *buffer, const void *data);
 
 #endif

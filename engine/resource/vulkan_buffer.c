@@ -6,11 +6,12 @@
 lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDeviceSize size,
                                  VkBufferUsageFlags usage, VkBuffer *buffer,
                                  VkMemoryRequirements *requirements) {
+    const lobe_host *log = name ? &device->host : NULL;
     *buffer = VK_NULL_HANDLE;
     if (size == 0)
-        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
+        return lobe_host_fail(log, LOBE_ERROR_LIMIT, "buffer '%s': a size of 0", name);
     if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) && size > device->limits.maxStorageBufferRange)
-        return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+        return lobe_host_fail(log, LOBE_ERROR_LIMIT,
                               "buffer '%s': %llu bytes are more than the %u the device allows",
                               name, (unsigned long long)size, device->limits.maxStorageBufferRange);
     const VkBufferCreateInfo create = {
@@ -18,14 +19,14 @@ lobe_result engine_buffer_create(lobe_device *device, const char *name, VkDevice
         .size = size,
         .usage = usage,
     };
-    const lobe_result result =
-        VULKAN_CHECK(&device->host,
-                     device->api.vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
-                     "buffer '%s'", name);
+    const lobe_result result = VULKAN_CHECK(
+        log, device->api.vkCreateBuffer(device->vulkan, &create, device->callbacks, buffer),
+        "buffer '%s'", name);
     if (result != LOBE_OK)
         return result;
     device->api.vkGetBufferMemoryRequirements(device->vulkan, *buffer, requirements);
-    engine_device_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)*buffer, name);
+    if (name)
+        engine_device_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)*buffer, name);
     return LOBE_OK;
 }
 
@@ -39,7 +40,7 @@ lobe_result engine_buffer_create_placed(lobe_device *device, const char *name, V
     if (result == LOBE_OK)
         result = engine_memory_allocate(device->memory, &request, allocation);
     if (result == LOBE_OK)
-        result = VULKAN_CHECK(&device->host,
+        result = VULKAN_CHECK(name ? &device->host : NULL,
                               device->api.vkBindBufferMemory(
                                   device->vulkan, *buffer, allocation->memory, allocation->offset),
                               "buffer '%s'", name);

@@ -132,7 +132,7 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
     if (result != LOBE_OK)
         return result;
     flight->busy = true;
-    flight->copied = engine_uploads_commit(&graph->kept.uploads);
+    flight->copied = engine_uploads_commit(&graph->kept.uploads, !flight->submission);
     if (flight->submission)
         engine_pipelines_end_use_after(graph->device, &flight->pipelines, flight->submission);
     engine_graph_stamp_retained(graph);

@@ -107,11 +107,14 @@ LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
 /// lobe_texture_update, lobe_texture_update_part and lobe_buffer_update, is copied during the call
 /// to memory that the graph keeps for that, and to the device at the start of the graph's next
 /// frame, in that frame's submission: nothing is waited for, and while frames follow each other no
-/// Vulkan object is created. (Content of new objects before the first frame, and more than 16 MiB
-/// of it between two frames, is submitted and waited for.) If a frame fails, the next one copies.
+/// Vulkan object is created. Only what comes before the first frame, what new objects have beyond
+/// 16 MiB between two frames, and what is too large for the device memory that is left, is
+/// submitted and waited for in steps of 4 MiB. If a frame fails, the next one copies.
 /// lobe_texture_destroy and lobe_buffer_destroy do not wait either, and come before
-/// lobe_graph_destroy. Errors: as of lobe_texture_create and lobe_buffer_create; an update that
-/// fails leaves the content.
+/// lobe_graph_destroy. Errors: as of lobe_texture_create and lobe_buffer_create. An update that
+/// fails leaves the content (a part of it, if the device failed between two steps); one that would
+/// need steps fails with LOBE_ERROR_OUT_OF_DEVICE_MEMORY while a frame is in a command buffer of
+/// the host, until lobe_graph_wait or the next lobe_graph_begin.
 LOBE_API lobe_result lobe_graph_create_texture(lobe_graph *graph,
                                                const lobe_texture_parameters *parameters,
                                                lobe_texture **texture);

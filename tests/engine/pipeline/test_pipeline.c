@@ -88,6 +88,7 @@ static VkDescriptorSet bind_buffer(const engine_pipeline *pipeline, VkBuffer buf
 static void run_fill(const engine_pipeline *pipeline, uint32_t count, engine_staging *target) {
     VkDescriptorPool pool;
     VkCommandBuffer commands;
+    uint64_t value;
     const VkDescriptorSet set = bind_buffer(pipeline, target->buffer, &pool);
     assert_int_equal(engine_device_begin_commands(device, "fill", &commands), LOBE_OK);
     engine_device_begin_label(device, commands, "fill");
@@ -97,7 +98,8 @@ static void run_fill(const engine_pipeline *pipeline, uint32_t count, engine_sta
                        &count);
     vkCmdDispatch(commands, (count + pipeline->local_size[0] - 1) / pipeline->local_size[0], 1, 1);
     engine_device_end_label(device, commands);
-    assert_int_equal(engine_device_finish_commands(device, "fill", commands), LOBE_OK);
+    assert_int_equal(engine_device_submit_commands(device, "fill", commands, &value), LOBE_OK);
+    assert_int_equal(engine_device_finish_commands(device, commands, value), LOBE_OK);
     vkDestroyDescriptorPool(device->vulkan, pool, NULL);
 }
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "engine/device/device.h"
+#include "engine/resource/content.h"
 #include "engine/resource/resource.h"
-#include "engine/resource/upload.h"
 #include "tests/engine/support/log_recorder.h"
 
 static log_recorder recorder;
@@ -50,6 +50,7 @@ static void barrier_before_copy(VkCommandBuffer commands, const lobe_texture *te
 static void assert_texture_holds(const lobe_texture *texture, const void *expected, size_t size) {
     engine_staging staging;
     VkCommandBuffer commands;
+    uint64_t value;
     assert_int_equal(
         engine_staging_create(device, "read back", size, ENGINE_MEMORY_READ_BACK, &staging),
         LOBE_OK);
@@ -64,7 +65,8 @@ static void assert_texture_holds(const lobe_texture *texture, const void *expect
                            });
     barrier_before_copy(commands, texture, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    assert_int_equal(engine_device_finish_commands(device, "read back", commands), LOBE_OK);
+    assert_int_equal(engine_device_submit_commands(device, "read back", commands, &value), LOBE_OK);
+    assert_int_equal(engine_device_finish_commands(device, commands, value), LOBE_OK);
     assert_memory_equal(staging.mapped, expected, size);
     engine_staging_destroy(device, &staging);
 }
@@ -72,12 +74,14 @@ static void assert_texture_holds(const lobe_texture *texture, const void *expect
 static void assert_buffer_holds(const lobe_buffer *buffer, const void *expected, size_t size) {
     engine_staging staging;
     VkCommandBuffer commands;
+    uint64_t value;
     assert_int_equal(
         engine_staging_create(device, "read back", size, ENGINE_MEMORY_READ_BACK, &staging),
         LOBE_OK);
     assert_int_equal(engine_device_begin_commands(device, "read back", &commands), LOBE_OK);
     vkCmdCopyBuffer(commands, buffer->buffer, staging.buffer, 1, &(VkBufferCopy){.size = size});
-    assert_int_equal(engine_device_finish_commands(device, "read back", commands), LOBE_OK);
+    assert_int_equal(engine_device_submit_commands(device, "read back", commands, &value), LOBE_OK);
+    assert_int_equal(engine_device_finish_commands(device, commands, value), LOBE_OK);
     assert_memory_equal(staging.mapped, expected, size);
     engine_staging_destroy(device, &staging);
 }
@@ -114,7 +118,7 @@ static void texture_larger_than_a_step_is_whole(void **state) {
     (void)state;
     const uint32_t width = 1500, height = 1001;
     const size_t size = (size_t)width * height * 16;
-    assert_true(size > ENGINE_UPLOAD_STEP);
+    assert_true(size > ENGINE_CONTENT_STEP);
     lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, width, height, calloc(size, 1)};
     for (size_t i = 0; i < size / 4; i++)
         ((float *)image.texels)[i] = (float)i;
@@ -218,7 +222,7 @@ static void texture_beyond_the_memory_limit_is_refused(void **state) {
 
 static void buffer_holds_what_it_was_given(void **state) {
     (void)state;
-    static const size_t sizes[] = {1, 3, 4, 4099, ENGINE_UPLOAD_STEP + 12};
+    static const size_t sizes[] = {1, 3, 4, 4099, ENGINE_CONTENT_STEP + 12};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         void *data = pattern(sizes[i], 5);
         lobe_buffer *buffer = NULL;

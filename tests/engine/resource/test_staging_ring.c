@@ -169,7 +169,7 @@ static void a_ring_that_cannot_grow_is_as_it_was(void **state) {
     engine_staged none;
     assert_int_equal(engine_staging_ring_reserve(small, &own, 64 << 20, &none),
                      LOBE_ERROR_OUT_OF_DEVICE_MEMORY);
-    assert_int_equal(recorder.errors, 1);
+    assert_int_equal(recorder.errors, 0); // the caller may have another way
     assert_memory_equal(&own, &before, sizeof own);
     assert_holds(&staged, 1000, 7);
     assert_int_equal(engine_staging_ring_reserve(small, &own, 1000, &none), LOBE_OK);

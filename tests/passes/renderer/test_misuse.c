@@ -117,6 +117,75 @@ static void memory_may_run_out(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+static const uint32_t first = 0;
+static const lobe_scene_changes first_image = {.images = &first, .image_count = 1};
+
+/// A map of 9 MiB, too large to have two of them.
+static lobe_scene *large_map_scene(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
+    material.normal_map = scene_add_map(scene, random_normal_map(768, 768, 0.4, 90));
+    scene_end_with_square(scene, &material);
+    return scene;
+}
+
+static void change_map(lobe_scene *scene, uint32_t width, uint32_t height, uint64_t seed) {
+    lobe_image_free(&scene->images[0].image);
+    scene->images[0].image = random_normal_map(width, height, 0.4, seed);
+}
+
+static uint64_t picture(const fixture *f, lobe_renderer *renderer) {
+    lobe_frame frame;
+    const lobe_render_parameters parameters = {
+        .filter = filter_named("direct"), .width = 8, .height = 8};
+    if (lobe_renderer_render(renderer, &parameters, &frame) != LOBE_OK)
+        fail_msg("%s", f->error);
+    const uint64_t hash = image_hash(&frame.radiance);
+    lobe_frame_free(&frame);
+    return hash;
+}
+
+/// Of a renderer that has all memory it needs, and never saw another scene.
+static uint64_t fresh_picture(const fixture *f, const lobe_scene *scene) {
+    lobe_renderer *renderer;
+    assert_int_equal(lobe_renderer_create(f->device, &f->host, &renderer), LOBE_OK);
+    assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
+    const uint64_t hash = picture(f, renderer);
+    lobe_renderer_destroy(&renderer);
+    return hash;
+}
+
+/// A renderer on a device with little memory, after a picture.
+static void open_scarce(fixture *f, fixture *shared, const lobe_scene *scene) {
+    *f = (fixture){.host = {.write = shared->host.write, .user = f}};
+    f->device =
+        fixture_device(f, (lobe_device_parameters){.memory_limit = 16u << 20, .validation = true});
+    assert_int_equal(lobe_renderer_create(f->device, &f->host, &f->renderer), LOBE_OK);
+    if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
+        fail_msg("%s", f->error);
+    assert_true(picture(f, f->renderer) == fresh_picture(shared, scene));
+}
+
+static void close_scarce(fixture *f, lobe_scene **scene) {
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
+    lobe_renderer_destroy(&f->renderer);
+    lobe_device_destroy(&f->device);
+    lobe_scene_destroy(scene);
+}
+
+static void updates_need_little_memory(void **state) {
+    fixture f, *shared = *state;
+    lobe_scene *scene = large_map_scene();
+    open_scarce(&f, shared, scene);
+    for (uint64_t n = 0; n < 3; n++) {
+        change_map(scene, 768, 768, 100 + n);
+        if (lobe_renderer_update_scene(f.renderer, &first_image) != LOBE_OK)
+            fail_msg("%s", f.error);
+        assert_true(picture(&f, f.renderer) == fresh_picture(shared, scene));
+    }
+    close_scarce(&f, &scene);
+}
+
 static void nothing_is_destroyed_twice(void **state) {
     fixture *f = *state;
     lobe_renderer *renderer = NULL;
@@ -141,6 +210,7 @@ int main(void) {
         cmocka_unit_test(settings_out_of_range_are_refused),
         cmocka_unit_test(images_have_limits),
         cmocka_unit_test(memory_may_run_out),
+        cmocka_unit_test(updates_need_little_memory),
         cmocka_unit_test(nothing_is_destroyed_twice),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
