@@ -65,8 +65,10 @@ void lobe_graph_begin(lobe_graph *graph) {
         return;
     reset_frame(graph);
     engine_graph_begin_retained(graph);
-    engine_graph_propagate(graph, engine_graph_begin_flight(graph));
-    engine_uploads_begin_frame(&graph->kept.uploads);
+    lobe_result result = engine_graph_begin_flight(graph);
+    if (result == LOBE_OK)
+        result = engine_uploads_begin_frame(&graph->kept.uploads);
+    engine_graph_propagate(graph, result);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -15,6 +15,24 @@ static VkDeviceSize whole_words(VkDeviceSize size) {
     return (size + 3) & ~(VkDeviceSize)3;
 }
 
+static lobe_result create_buffer(lobe_buffer *buffer) {
+    lobe_device *device = buffer->device;
+    engine_memory_request request = {
+        .name = buffer->name, .place = ENGINE_MEMORY_DEVICE, .linear = true};
+    lobe_result result = engine_buffer_create(device, buffer->name, whole_words(buffer->size),
+                                              usage, &buffer->buffer, &request.requirements);
+    if (result == LOBE_OK)
+        result = engine_upload_target_allocate(device, buffer->uploads.queue, &request,
+                                               &buffer->allocation);
+    if (result == LOBE_OK)
+        result = VULKAN_CHECK(&device->host,
+                              device->api.vkBindBufferMemory(device->vulkan, buffer->buffer,
+                                                             buffer->allocation.memory,
+                                                             buffer->allocation.offset),
+                              "buffer '%s'", buffer->name);
+    return result;
+}
+
 static void free_buffer(lobe_buffer **buffer) {
     if (*buffer)
         lobe_release((*buffer)->name);
@@ -44,9 +62,7 @@ lobe_result engine_buffer_create_for(lobe_device *device, engine_uploads *queue,
                               name);
     (*buffer)->device = device;
     (*buffer)->size = parameters->size;
-    lobe_result result = engine_buffer_create_placed(device, name, whole_words(parameters->size),
-                                                     usage, ENGINE_MEMORY_DEVICE,
-                                                     &(*buffer)->buffer, &(*buffer)->allocation);
+    lobe_result result = create_buffer(*buffer);
     if (result == LOBE_OK)
         result = engine_buffer_write(*buffer, parameters->data, true);
     if (result != LOBE_OK)

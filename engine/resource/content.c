@@ -203,20 +203,21 @@ static lobe_result add_steps(engine_uploads *queue, const engine_content *conten
 }
 
 /// The last of the steps, and zeroes, are left for the next submission.
-static lobe_result add_in_steps(engine_uploads *queue, const engine_content *content) {
+static lobe_result add_in_steps(engine_uploads *queue, const engine_content *content,
+                                VkDeviceSize memory) {
     if (are_zeroes(content)) {
         const engine_upload all = rows_of(content, 0, content->row_count);
         return add_rows(queue, content, &all);
     }
-    const lobe_result result =
-        take_memory(queue, content, minimum(size_of(content), ENGINE_CONTENT_MEMORY));
+    const lobe_result result = take_memory(queue, content, memory);
     return result == LOBE_OK ? add_steps(queue, content) : result;
 }
 
 /// From memory that goes again.
 static lobe_result write_at_once(const engine_content *content) {
     engine_uploads queue = {.device = content->device};
-    lobe_result result = add_in_steps(&queue, content);
+    lobe_result result =
+        add_in_steps(&queue, content, minimum(size_of(content), ENGINE_CONTENT_MEMORY));
     if (result == LOBE_OK)
         result = engine_uploads_finish(&queue);
     engine_uploads_remove(&queue, content->state);
@@ -248,7 +249,7 @@ static lobe_result write_with_less(engine_uploads *queue, const engine_content *
 static lobe_result add(engine_uploads *queue, const engine_content *content, bool fresh) {
     const uint64_t taken = queue->ring.end - queue->ring.next;
     if (!queue->started)
-        return write_at_once(content);
+        return add_in_steps(queue, content, ENGINE_CONTENT_MEMORY);
     if (fresh && taken + size_of(content) > ENGINE_CONTENT_OF_FRAME)
         return write_at_once(content);
     const lobe_result result = join(queue, content);

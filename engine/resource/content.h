@@ -9,7 +9,7 @@
 
 /// How content gets to an object. That of a graph's object joins the copies of the graph's next
 /// frame: nothing is submitted, nobody waits. It goes in steps, submitted without a frame:
-/// - before the first frame, which there is nothing to hold up;
+/// - before the first frame, which there is nothing to hold up; many objects share a submission;
 /// - where the object belongs to no graph;
 /// - where it is new and much, so that staging does not grow with it;
 /// - where memory is too short for all of it at once.

@@ -34,7 +34,8 @@ static lobe_result create_image(lobe_texture *texture) {
     lobe_result result =
         engine_image_create(device, &parameters, &texture->image, &request.requirements);
     if (result == LOBE_OK)
-        result = engine_memory_allocate(device->memory, &request, &texture->allocation);
+        result = engine_upload_target_allocate(device, texture->uploads.queue, &request,
+                                               &texture->allocation);
     if (result == LOBE_OK)
         result = VULKAN_CHECK(&device->host,
                               device->api.vkBindImageMemory(device->vulkan, texture->image,

@@ -11,6 +11,34 @@ bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *sta
     return !queue || engine_discards_reserve(queue->device, &queue->ring.discards);
 }
 
+/// Whether the ring's memory can go, to be used for something else.
+static bool can_be_flushed(const engine_uploads *queue) {
+    return queue && queue->ring.memory.size > 0 && engine_uploads_may_submit(queue);
+}
+
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY is not logged.
+static lobe_result try_to_allocate(lobe_device *device, engine_memory_request request,
+                                   engine_allocation *allocation) {
+    const char *name = request.name;
+    request.name = NULL;
+    const lobe_result result = engine_memory_allocate(device->memory, &request, allocation);
+    if (result == LOBE_OK || result == LOBE_ERROR_OUT_OF_DEVICE_MEMORY)
+        return result;
+    return lobe_host_fail(&device->host, result, "'%s': %s", name, lobe_result_name(result));
+}
+
+lobe_result engine_upload_target_allocate(lobe_device *device, engine_uploads *queue,
+                                          const engine_memory_request *request,
+                                          engine_allocation *allocation) {
+    if (!can_be_flushed(queue))
+        return engine_memory_allocate(device->memory, request, allocation);
+    lobe_result result = try_to_allocate(device, *request, allocation);
+    if (result != LOBE_ERROR_OUT_OF_DEVICE_MEMORY)
+        return result;
+    result = engine_uploads_flush(queue);
+    return result == LOBE_OK ? engine_memory_allocate(device->memory, request, allocation) : result;
+}
+
 static engine_upload_state *target_of(const engine_upload *copy) {
     if (copy->texture)
         return &copy->texture->uploads;
@@ -241,9 +269,11 @@ lobe_result engine_uploads_flush(engine_uploads *queue) {
     return result;
 }
 
-void engine_uploads_begin_frame(engine_uploads *queue) {
+lobe_result engine_uploads_begin_frame(engine_uploads *queue) {
     queue->unsent = 0;
-    queue->started = true;
+    const lobe_result result = queue->started ? LOBE_OK : engine_uploads_flush(queue);
+    queue->started |= result == LOBE_OK;
+    return result;
 }
 
 void engine_uploads_free(engine_uploads *queue) {

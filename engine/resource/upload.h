@@ -45,6 +45,10 @@ typedef struct engine_uploads {
 /// Prepares a new object, of the graph with this queue (NULL: of none), for
 /// engine_upload_target_destroy. False if out of memory.
 bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state);
+/// Allocates its memory. Where too little is left, the queue is flushed, and its memory helps out.
+lobe_result engine_upload_target_allocate(lobe_device *device, engine_uploads *queue,
+                                          const engine_memory_request *request,
+                                          engine_allocation *allocation);
 /// Removes the copies to an object, and destroys it when the frames that may use it are done: at
 /// once if there are none. Waits for them if it belongs to no graph.
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
@@ -76,8 +80,9 @@ lobe_result engine_uploads_submit(engine_uploads *queue);
 lobe_result engine_uploads_finish(engine_uploads *queue);
 /// The same, and gives the ring's memory back.
 lobe_result engine_uploads_flush(engine_uploads *queue);
-/// A frame begins: the host has submitted the former ones.
-void engine_uploads_begin_frame(engine_uploads *queue);
+/// A frame begins. What came before the first one is flushed, so that this frame can have the
+/// memory that it went through.
+lobe_result engine_uploads_begin_frame(engine_uploads *queue);
 
 /// All frames must be done; copies in the queue are dropped.
 void engine_uploads_free(engine_uploads *queue);

@@ -266,6 +266,52 @@ static void steps_do_not_overtake_the_host(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Before the first frame
 
+static void many_objects_share_a_submission(void **state) {
+    enum { OBJECTS = 200 };
+    fixture *f = *state;
+    lobe_buffer *buffers[OBJECTS];
+    lobe_texture *textures[2];
+    uint64_t bytes = 0;
+    for (int n = 0; n < 2; n++) {
+        fill(f->expected, (float)n);
+        textures[n] = create(f, f->expected);
+    }
+    fill(f->expected, 1);
+    for (int n = 0; n < OBJECTS; n++) {
+        const lobe_buffer_parameters parameters = {.size = 4000 * (size_t)(n + 1),
+                                                   .data = n % 10 == 9 ? NULL : f->expected + n};
+        assert_int_equal(lobe_graph_create_buffer(f->graph.graph, &parameters, &buffers[n]),
+                         LOBE_OK);
+        bytes += parameters.data ? parameters.size : 0;
+    }
+    bytes += 2 * COUNT * 4;
+    const uint64_t full = bytes / ENGINE_CONTENT_STEP;
+    assert_in_range(submissions(f), full - 1, full + 4);
+    assert_in_range(f->graph.graph->kept.uploads.ring.memory.size, 1,
+                    ENGINE_CONTENT_MEMORY + (64 << 10));
+    lobe_graph_begin(f->graph.graph);
+    assert_int_equal(f->graph.graph->kept.uploads.ring.memory.size, 0);
+    lobe_resource seen[OBJECTS];
+    for (int n = 0; n < OBJECTS; n++) {
+        seen[n] = lobe_graph_import_buffer(f->graph.graph, buffers[n]);
+        lobe_graph_read_back(f->graph.graph, seen[n], (lobe_range){0});
+    }
+    graph_fixture_execute(&f->graph);
+    float *zeroes = calloc(OBJECTS, 4000);
+    for (int n = 0; n < OBJECTS; n++) {
+        size_t size;
+        const void *data = lobe_graph_data(f->graph.graph, seen[n], &size);
+        assert_int_equal(size, 4000 * (n + 1));
+        assert_memory_equal(data, n % 10 == 9 ? zeroes : f->expected + n, size);
+    }
+    free(zeroes);
+    assert_holds(f, textures[1]);
+    for (int n = 0; n < OBJECTS; n++)
+        lobe_buffer_destroy(&buffers[n]);
+    for (int n = 0; n < 2; n++)
+        lobe_texture_destroy(&textures[n]);
+}
+
 /// Updates, and objects that go again, before there was a frame.
 static void objects_change_before_the_first_frame(void **state) {
     fixture *f = *state;
@@ -290,13 +336,10 @@ static void a_graph_without_frames_goes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        SCARCE(an_update_goes_in_steps),
-        SCARCE(steps_get_smaller),
-        SCARCE(without_any_memory_content_stays),
-        SCARCE(the_last_content_counts),
-        SCARCE(buffers_go_in_steps_too),
-        SCARCE(steps_do_not_overtake_the_host),
-        EMPTY(objects_change_before_the_first_frame),
+        SCARCE(an_update_goes_in_steps),          SCARCE(steps_get_smaller),
+        SCARCE(without_any_memory_content_stays), SCARCE(the_last_content_counts),
+        SCARCE(buffers_go_in_steps_too),          SCARCE(steps_do_not_overtake_the_host),
+        EMPTY(many_objects_share_a_submission),   EMPTY(objects_change_before_the_first_frame),
         EMPTY(a_graph_without_frames_goes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,6 +129,27 @@ static void check_update(fixture *f, const lobe_scene *scene, const lobe_scene_c
     assert_true(hash == fresh_picture(f, scene));
 }
 
+/// All objects of a new scene share submissions, which only memory that they pass through waits
+/// for.
+static void a_scene_comes_in_few_submissions(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    const calls before = calls_until_now();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    assert_calls(&before, 0, 0, -1);
+    picture(f, f->renderer);
+    assert_calls(&before, 2, 2, -1);
+    // Twice what is submitted at a time, and less than half of that again.
+    lobe_image_free(&scene->images[map].image);
+    scene->images[map].image = random_normal_map(768, 768, 0.5, 7);
+    const calls large = calls_until_now();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    assert_calls(&large, 2, 1, -1);
+    picture(f, f->renderer);
+    assert_calls(&large, 4, 4, -1);
+    stop(f, &scene);
+}
+
 static void texels_take_one_copy(void **state) {
     const lobe_scene_changes changes = {.images = &map, .image_count = 1};
     fixture *f = *state;
@@ -400,6 +421,7 @@ static void the_frame_after_a_failed_one_has_the_change(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scene_comes_in_few_submissions),
         cmocka_unit_test(texels_take_one_copy),
         cmocka_unit_test(frames_with_changes_create_nothing),
         cmocka_unit_test(equal_constants_are_not_written),
