@@ -82,8 +82,7 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
         renderer->reported_filter = NULL;
     if (result == LOBE_OK && changes->environment)
         passes_environment_light_invalidate(&renderer->environment);
-    if (result != LOBE_OK && result != LOBE_ERROR_INVALID_ARGUMENT &&
-        result != LOBE_ERROR_MALFORMED)
+    if (renderer->scene->torn)
         forget_scene(renderer);
     return result;
 }

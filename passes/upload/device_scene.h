@@ -86,6 +86,7 @@ typedef struct device_scene {
     lobe_buffer **indices;
     mesh_measures *measures; ///< one for each mesh
     device_instance *instances;
+    bool torn; ///< an update failed half-way: the copy can only be destroyed
 } device_scene;
 
 #endif

@@ -167,19 +167,28 @@ static void mark_instances(scene_update *update) {
 // ---------------------------------------------------------------------------------------------
 // The change
 
-/// Reuses the texture where extent and format stay the same. Where there is none, materials that
-/// need one create it.
-static lobe_result update_image(const scene_update *update, size_t n) {
-    const uint32_t index = update->changes->images[n];
+static bool keeps_texture(const scene_update *update, uint32_t index) {
     const lobe_scene_image *image = &update->scene->scene->images[index];
-    lobe_texture **texture = &update->scene->images[index];
+    return !image->on_device && lobe_texture_takes(update->scene->images[index], &image->image);
+}
+
+/// Where extent and format stay the same.
+static lobe_result update_texels(const scene_update *update, size_t n) {
+    const uint32_t index = update->changes->images[n];
     update->scene->metals[index].known = false;
-    if (!*texture)
+    if (!keeps_texture(update, index))
         return LOBE_OK;
-    if (!image->on_device && lobe_texture_takes(*texture, &image->image))
-        return lobe_texture_update_part(*texture, &image->image, changed_part(update, n));
-    lobe_texture_destroy(texture);
-    return LOBE_OK;
+    return lobe_texture_update_part(update->scene->images[index],
+                                    &update->scene->scene->images[index].image,
+                                    changed_part(update, n));
+}
+
+/// Where there is no texture, materials that need one create it.
+static void drop_other_textures(const scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    for (size_t i = 0; i < changes->image_count; i++)
+        if (!keeps_texture(update, changes->images[i]))
+            lobe_texture_destroy(&update->scene->images[changes->images[i]]);
 }
 
 static lobe_result update_mesh(const scene_update *update, uint32_t index) {
@@ -187,14 +196,16 @@ static lobe_result update_mesh(const scene_update *update, uint32_t index) {
     return scene->vertices[index] ? passes_device_scene_upload_mesh(scene, index) : LOBE_OK;
 }
 
-static lobe_result update_environment(const scene_update *update) {
-    device_scene *scene = update->scene;
-    const lobe_environment *environment = scene->scene->environment;
-    if (environment && scene->environment &&
-        lobe_texture_takes(scene->environment, &environment->image))
-        return lobe_texture_update(scene->environment, &environment->image);
-    lobe_texture_destroy(&scene->environment);
-    return passes_device_scene_upload_environment(scene);
+static bool environment_keeps_texture(const scene_update *update) {
+    const lobe_environment *environment = update->scene->scene->environment;
+    return environment && lobe_texture_takes(update->scene->environment, &environment->image);
+}
+
+static lobe_result replace_environment(const scene_update *update) {
+    if (environment_keeps_texture(update))
+        return LOBE_OK;
+    lobe_texture_destroy(&update->scene->environment);
+    return passes_device_scene_upload_environment(update->scene);
 }
 
 /// Other texels are other lobes.
@@ -206,23 +217,43 @@ static void mark_new_texels(const scene_update *update) {
                 ++update->scene->materials[m].version;
 }
 
-static lobe_result apply(const scene_update *update) {
+/// Whatever fails here, the copy can be drawn: each texture has its former content or the new.
+static lobe_result apply_texels(const scene_update *update) {
+    const lobe_scene_changes *changes = update->changes;
+    lobe_result result = LOBE_OK;
+    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
+        result = update_texels(update, i);
+    if (result == LOBE_OK && changes->environment && environment_keeps_texture(update))
+        result = lobe_texture_update(update->scene->environment,
+                                     &update->scene->scene->environment->image);
+    mark_new_texels(update);
+    return result;
+}
+
+static lobe_result apply_rest(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = LOBE_OK;
-    for (size_t i = 0; result == LOBE_OK && i < changes->image_count; i++)
-        result = update_image(update, i);
+    drop_other_textures(update);
     for (size_t i = 0; result == LOBE_OK && i < scene->material_count; i++)
         if (update->materials[i])
             result = passes_device_scene_upload_material(update->scene, (uint32_t)i, update->host);
-    mark_new_texels(update);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
         result = update_mesh(update, changes->meshes[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; i++)
         if (update->instances[i])
             result = passes_device_scene_upload_instance(update->scene, i, update->host);
     if (result == LOBE_OK && changes->environment)
-        result = update_environment(update);
+        result = replace_environment(update);
+    return result;
+}
+
+static lobe_result apply(const scene_update *update) {
+    lobe_result result = apply_texels(update);
+    if (result == LOBE_OK) {
+        result = apply_rest(update);
+        update->scene->torn = result != LOBE_OK;
+    }
     return result;
 }
 

@@ -56,8 +56,9 @@ typedef struct lobe_scene_changes {
 /// Takes over changes that the host made to the current scene. Uploads only what is listed; the
 /// next frame rebuilds only the maps that depend on it. The scene's arrays must keep their lengths.
 /// What the device needs is copied during the call, and reaches it at the start of the next frame,
-/// in that frame's submission: nothing is submitted or waited for, whatever frames are in flight
-/// (except what new images and meshes have beyond 16 MiB, and before the first frame).
+/// in that frame's submission: nothing is submitted or waited for, whatever frames are in flight.
+/// Only what new images and meshes have beyond 16 MiB, what comes before the first frame, and what
+/// is too large for the memory that is left, is submitted and waited for in steps of 4 MiB.
 /// Where extents, formats and counts stay the same, no Vulkan object is created, once there is
 /// memory for as much as frames copy. Constants of materials that are equal to those of the device
 /// are not written.
@@ -65,7 +66,9 @@ typedef struct lobe_scene_changes {
 /// instances are read in every frame and need not be listed.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
-/// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, no scene is set.
+/// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, the scene can still be drawn, with some of the
+/// new texels, and updated again, if it failed for texels of images that keep their extents and
+/// formats; otherwise no scene is set.
 LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,
                                                 const lobe_scene_changes *changes);
 

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/resource/resource.h"
 #include "scenes/scene/scene.h"
 #include "tests/passes/support/misuse.h"
 #include "tests/passes/support/picture.h"
@@ -186,6 +187,44 @@ static void updates_need_little_memory(void **state) {
     close_scarce(&f, &scene);
 }
 
+/// Takes what memory is left, in pieces as small as content passes through.
+static size_t occupy(lobe_device *device, engine_staging staging[], size_t most) {
+    size_t count = 0;
+    for (VkDeviceSize size = 1 << 20; size >= 1 << 10 && count < most;)
+        if (engine_staging_create(device, NULL, size, ENGINE_MEMORY_UPLOAD, &staging[count]) ==
+            LOBE_OK)
+            count++;
+        else
+            size /= 2;
+    return count;
+}
+
+/// The scene remains where only texels could not be written.
+static void a_failed_update_leaves_the_scene(void **state) {
+    fixture f, *shared = *state;
+    engine_staging occupied[64];
+    lobe_scene *scene = large_map_scene();
+    open_scarce(&f, shared, scene);
+    const uint64_t before = picture(&f, f.renderer);
+    size_t count = occupy(f.device, occupied, 64);
+    change_map(scene, 768, 768, 100);
+    fixture_forget_messages(&f);
+    assert_failure(&f, lobe_renderer_update_scene(f.renderer, &first_image),
+                   LOBE_ERROR_OUT_OF_DEVICE_MEMORY, "no device memory is left");
+    assert_true(picture(&f, f.renderer) == before);
+    while (count > 0)
+        engine_staging_destroy(f.device, &occupied[--count]);
+    assert_int_equal(lobe_renderer_update_scene(f.renderer, &first_image), LOBE_OK);
+    assert_true(picture(&f, f.renderer) == fresh_picture(shared, scene));
+    // There is no memory for a map of another extent, and its former texture is gone.
+    change_map(scene, 1024, 1536, 101);
+    fixture_forget_messages(&f);
+    assert_failure(&f, lobe_renderer_update_scene(f.renderer, &first_image),
+                   LOBE_ERROR_OUT_OF_DEVICE_MEMORY, "memory");
+    check_render_failure(&f, &(lobe_render_parameters){0}, LOBE_ERROR_INVALID_ARGUMENT, "no scene");
+    close_scarce(&f, &scene);
+}
+
 static void nothing_is_destroyed_twice(void **state) {
     fixture *f = *state;
     lobe_renderer *renderer = NULL;
@@ -211,6 +250,7 @@ int main(void) {
         cmocka_unit_test(images_have_limits),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(updates_need_little_memory),
+        cmocka_unit_test(a_failed_update_leaves_the_scene),
         cmocka_unit_test(nothing_is_destroyed_twice),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
