@@ -27,6 +27,7 @@ typedef struct work {
     lobe_texture *texture;
     lobe_buffer *vertices;
     lobe_graph *graph;
+    lobe_texture *large; ///< of the graph
 } work;
 
 /// A host with its own Vulkan device, which lobe imports many times.
@@ -34,15 +35,18 @@ typedef struct host {
     host_device vulkan;
     host_image image;
     VkSemaphore timeline;
-    uint64_t reached; ///< by the timeline, or soon
+    uint64_t reached;      ///< by the timeline, or soon
+    uint64_t memory_limit; ///< of lobe's device; 0: none
 } host;
 
 static const float triangle[] = {-1, -1, -1, 3, 3, -1};
 
 /// `host`: whose device to use; NULL: one of lobe's own.
 static lobe_result open_device(work *w, host *host) {
-    const lobe_device_parameters parameters = {
-        .get_instance_proc_addr = host ? NULL : test_vulkan_loader, .host = &w->recorder.host};
+    const lobe_device_parameters parameters = {.get_instance_proc_addr =
+                                                   host ? NULL : test_vulkan_loader,
+                                               .memory_limit = host ? host->memory_limit : 0,
+                                               .host = &w->recorder.host};
     return host ? lobe_vulkan_import_device(&host->vulkan.vulkan, &parameters, &w->device)
                 : lobe_device_create(&parameters, &w->device);
 }
@@ -129,6 +133,7 @@ static lobe_result run_frame(work *w, uint32_t extent) {
 }
 
 static void close_work(work *w) {
+    lobe_texture_destroy(&w->large);
     lobe_graph_destroy(&w->graph);
     lobe_buffer_destroy(&w->vertices);
     lobe_texture_destroy(&w->texture);
@@ -197,6 +202,24 @@ static lobe_result run_on_hosts_device(work *w, host *host) {
     result = result ? result : submit_frame(w, host, 8);
     result = result ? result : lobe_graph_wait(w->graph);
     return result ? result : record_frame(w, host, 8);
+}
+
+enum { LITTLE = 7 << 19 }; ///< bytes: 1.5 MiB more than the texture below
+
+/// A texture for whose new content there is no memory, except in steps; some of it waits already.
+static lobe_result run_with_little_memory(work *w, host *host) {
+    static uint8_t texels[724][724][4];
+    const lobe_image image = {LOBE_FORMAT_RGBA8_UNORM, 724, 724, texels};
+    const lobe_rectangle part = {1, 2, 300, 300};
+    lobe_result result = open_work(w, host);
+    result = result ? result
+                    : lobe_graph_create_texture(
+                          w->graph, &(lobe_texture_parameters){.image = &image}, &w->large);
+    result = result ? result : run_frame(w, 4);
+    result = result ? result : lobe_texture_update_part(w->large, &image, &part);
+    result = result ? result : lobe_texture_update(w->large, &image);
+    result = result ? result : lobe_texture_update_part(w->large, &image, &part);
+    return result ? result : run_frame(w, 4);
 }
 
 /// A device with every option, and a named object on it.
@@ -327,6 +350,15 @@ static void each_call_fails_once_on_a_hosts_device(void **state) {
     close_host(&host);
 }
 
+static void each_call_fails_once_with_little_memory(void **state) {
+    (void)state;
+    host host;
+    open_host(&host, true);
+    host.memory_limit = LITTLE;
+    check_each_call(run_with_little_memory, &host, 60);
+    close_host(&host);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Loaders
 
@@ -422,6 +454,15 @@ static void each_allocation_of_an_own_device_fails_once(void **state) {
     check_each_allocation(open_device, NULL, 10);
 }
 
+static void each_allocation_fails_once_with_little_memory(void **state) {
+    (void)state;
+    host host;
+    open_host(&host, false);
+    host.memory_limit = LITTLE;
+    check_each_allocation(run_with_little_memory, &host, 90);
+    close_host(&host);
+}
+
 static void each_allocation_fails_once_on_a_hosts_device(void **state) {
     (void)state;
     host host;
@@ -443,10 +484,12 @@ int main(void) {
         cmocka_unit_test(each_call_fails_once),
         IN_TEST_FOLDER(each_call_fails_once_with_validation),
         cmocka_unit_test(each_call_fails_once_on_a_hosts_device),
+        cmocka_unit_test(each_call_fails_once_with_little_memory),
         cmocka_unit_test(each_function_failed),
         cmocka_unit_test(a_missing_loader_is_named),
         cmocka_unit_test(a_function_that_the_loader_lacks_is_named),
         cmocka_unit_test(each_allocation_of_an_own_device_fails_once),
+        cmocka_unit_test(each_allocation_fails_once_with_little_memory),
         cmocka_unit_test(each_allocation_fails_once_on_a_hosts_device),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
