@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-TEST = "tests/passes/renderer/test_nonsense.c"
+TEST = "tests/passes/renderer/errors/test_nonsense.c"
 DECLARATION = re.compile(r"LOBE_API\b[^;]*?\b(lobe_\w+)\([^;]*;")
 
 

@@ -41,9 +41,9 @@ static bool blends(const filter_context *context) {
 /// Whether any instance has microfacets of this distribution.
 static bool uses_distribution(const filter_context *context, uint32_t distribution) {
     const device_scene *scene = context->scene;
-    for (size_t i = 0; i < scene->scene->instance_count; i++) {
-        const lobe_material *material = scene->materials[scene->instances[i].material].material;
-        if (material->model == LOBE_MATERIAL_MICROFACET &&
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        const lobe_material *material = scene->materials[i].material;
+        if (scene->materials[i].first_instance && material->model == LOBE_MATERIAL_MICROFACET &&
             (uint32_t)material->distribution == distribution)
             return true;
     }

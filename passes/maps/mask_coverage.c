@@ -10,10 +10,10 @@
 static float vertex_alpha(const device_scene *scene, uint32_t material) {
     const lobe_material *source = scene->materials[material].material;
     float least = INFINITY, largest = -INFINITY;
-    for (size_t i = 0; i < scene->scene->instance_count; i++) {
-        const device_instance *instance = &scene->instances[i];
-        if (instance->material != material)
-            continue;
+    uint32_t next = scene->materials[material].first_instance;
+    while (next > 0) {
+        const device_instance *instance = &scene->instances[next - 1];
+        next = instance->next_of_material;
         least = fminf(least, scene->measures[instance->mesh].least_alpha);
         largest = fmaxf(largest, scene->measures[instance->mesh].largest_alpha);
     }

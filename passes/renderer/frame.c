@@ -48,9 +48,9 @@ static void draw(rendering *r, bool aov, const shading_targets *imported,
     add_passes_before(graph, &r->parameters->host, targets);
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     if (passes_samples_several(&r->context))
-        passes_samples(&r->context, r->renderer->appearances, &light, targets);
+        passes_samples(&r->context, &r->renderer->draws, &light, targets);
     else
-        passes_shading(&r->context, r->renderer->appearances, &light, &centre, NULL, targets);
+        passes_shading(&r->context, &r->renderer->draws, &light, &centre, NULL, targets);
     add_passes(graph, &r->parameters->host, LOBE_RENDER_AFTER_SHADING, targets);
 }
 

@@ -3,9 +3,9 @@
 #include <string.h>
 
 static bool is_drawn(const device_scene *scene, uint32_t image) {
-    for (size_t i = 0; i < scene->scene->instance_count; i++) {
-        const device_material *material = &scene->materials[scene->instances[i].material];
-        for (uint32_t map = 0; map < MAP_COUNT; map++)
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        const device_material *material = &scene->materials[i];
+        for (uint32_t map = 0; material->first_instance && map < MAP_COUNT; map++)
             if (material->maps[map].use && material->maps[map].image == (int32_t)image)
                 return true;
     }

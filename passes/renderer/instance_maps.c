@@ -2,18 +2,9 @@
 
 #include <string.h>
 
-/// The first instance before `instance` whose maps it can share; `instance` if there is none.
-static size_t instance_to_share_with(const filter_context *context, size_t instance) {
+static bool has_own_maps(const filter_context *context, size_t instance) {
     const lobe_filter *filter = context->filter;
-    if (filter->for_each_instance && filter->for_each_instance(context, instance))
-        return instance;
-    const device_instance *instances = context->scene->instances;
-    for (size_t i = 0; i < instance; i++) {
-        if (instances[i].material == instances[instance].material &&
-            !(filter->for_each_instance && filter->for_each_instance(context, i)))
-            return i;
-    }
-    return instance;
+    return filter->for_each_instance && filter->for_each_instance(context, instance);
 }
 
 /// Without what the filter keeps for the material, nothing is built and the frame fails.
@@ -34,24 +25,35 @@ static void build_appearance(rendering *r, size_t instance, filtered_appearance 
                         lobe_result_message(result));
 }
 
+/// Built unless the instance shares them with an earlier one of its material.
+static const filtered_appearance *appearance_of(rendering *r, size_t instance, lobe_frame *frame) {
+    const uint32_t material = r->context.scene->instances[instance].material;
+    const filtered_appearance **shared = &r->renderer->shared_appearances[material];
+    const bool own = has_own_maps(&r->context, instance);
+    if (!own && *shared)
+        return *shared;
+    filtered_appearance *appearance = &r->renderer->appearances[instance];
+    build_appearance(r, instance, appearance);
+    frame->filtered_bytes += appearance->bytes;
+    frame->base_texels += appearance->base_texels;
+    if (!own)
+        *shared = appearance;
+    return appearance;
+}
+
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
-    filtered_appearance *appearances = r->renderer->appearances;
     passes_given_images_take(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
+    memset(r->renderer->shared_appearances, 0,
+           scene->material_count * sizeof *r->renderer->shared_appearances);
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
-    for (size_t i = 0; i < scene->instance_count; i++) {
-        size_t shared = instance_to_share_with(&r->context, i);
-        if (shared < i) {
-            appearances[i] = appearances[shared];
-            continue;
-        }
-        build_appearance(r, i, &appearances[i]);
-        frame->filtered_bytes += appearances[i].bytes;
-        frame->base_texels += appearances[i].base_texels;
-    }
+    passes_draw_list_begin(&r->renderer->draws, r->context.scene);
+    for (size_t i = 0; i < scene->instance_count; i++)
+        passes_draw_list_add(&r->renderer->draws, r->context.scene, i, appearance_of(r, i, frame));
+    passes_draw_list_end(&r->renderer->draws, &r->context);
     frame->filtered_bytes += r->images.bytes;
 }
 

@@ -5,13 +5,17 @@
 
 #include "passes/environment/light.h"
 #include "passes/filters/slots.h"
+#include "passes/renderer/draw_list.h"
 
 struct lobe_renderer {
     lobe_device *device;
     lobe_host host;
     lobe_graph *graph;
-    device_scene *scene;                ///< NULL: none is set
-    filtered_appearance *appearances;   ///< one per instance of the scene
+    device_scene *scene;              ///< NULL: none is set
+    filtered_appearance *appearances; ///< one per instance of the scene
+    /// For each material, the one that instances share in this frame; NULL: none yet.
+    const filtered_appearance **shared_appearances;
+    draw_list draws;
     lobe_resource *filtered_images;     ///< one per image of the scene, then one per material
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
@@ -38,7 +42,7 @@ void passes_instance_maps_warn(const rendering *r);
 void passes_given_images_take(rendering *r);
 
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the
-/// filter allows it. Fills the renderer's appearances, and the frame's sizes of the maps.
+/// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.
 void passes_instance_maps_build(rendering *r, lobe_frame *frame);
 
 /// See passes/renderer/delivery.h.

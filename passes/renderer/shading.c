@@ -25,7 +25,7 @@ enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
 /// What the passes of one picture share.
 typedef struct shading {
     const filter_context *context;
-    const filtered_appearance *appearances;
+    const draw_list *draws;
     const shading_sample *sample;
     const shading_selection *selection; ///< NULL: all pixels
     light_counts lights;                ///< of the scene
@@ -177,27 +177,34 @@ static void select_draw(const shading_selection *selection, size_t number, lobe_
     draw->indirect_offset = (selection->first_argument + number) * sizeof(lobe_draw_arguments);
 }
 
-size_t passes_shading_draw_count(const filter_context *context) {
-    return FIRST_INSTANCE_DRAW + context->scene->scene->instance_count;
+size_t passes_shading_draw_count(const draw_list *draws) {
+    return FIRST_INSTANCE_DRAW + draws->batch_count;
 }
 
-uint32_t passes_shading_index_count(const filter_context *context, size_t draw) {
+static uint32_t index_count(const filter_context *context, const instance_batch *batch) {
+    const device_instance *instance = &context->scene->instances[batch->instance];
+    return (uint32_t)context->scene->scene->meshes[instance->mesh].index_count;
+}
+
+shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
+                                              size_t draw) {
     if (draw < FIRST_INSTANCE_DRAW)
-        return 3;
-    const device_instance *drawn = &context->scene->instances[draw - FIRST_INSTANCE_DRAW];
-    return (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count;
+        return (shading_draw_count){3, 1};
+    const instance_batch *batch = &draws->batches[draw - FIRST_INSTANCE_DRAW];
+    return (shading_draw_count){index_count(context, batch), batch->count};
 }
 
 /// The constants of a draw: for its material, its mesh, the lights and the settings, then the
 /// filter's own.
-static void specialise_draw(const drawing *d, size_t instance,
-                            const filtered_appearance *appearance, specialisation_list *list) {
+static void specialise_draw(const drawing *d, const instance_batch *batch,
+                            specialisation_list *list) {
     const filter_context *context = d->context;
     const lobe_scene *scene = context->scene->scene;
-    const device_instance *drawn = &context->scene->instances[instance];
+    const device_instance *drawn = &context->scene->instances[batch->instance];
+    const filtered_appearance *appearance = batch->appearance;
     passes_material_specialise(&context->scene->materials[drawn->material], list);
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
-    passes_specialise(list, SPECIALISE_MIRRORED, drawn->mirrored);
+    passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     const uint32_t *of_type = d->lights->of_type;
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
     passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);
@@ -214,12 +221,13 @@ static void specialise_draw(const drawing *d, size_t instance,
 }
 
 static size_t bind_draw(const filter_context *context, const environment_light *light,
-                        size_t instance, const filtered_appearance *appearance,
-                        lobe_binding *bindings) {
+                        const instance_batch *batch, lobe_binding *bindings) {
     lobe_graph *graph = context->graph;
-    const device_instance *drawn = &context->scene->instances[instance];
+    const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
+    const filtered_appearance *appearance = batch->appearance;
     size_t count = 0;
+    bindings[count++] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
     bindings[count++] = (lobe_binding){
         .name = "vertex_block",
         .resource = lobe_graph_import_buffer(graph, context->scene->vertices[drawn->mesh])};
@@ -255,29 +263,25 @@ static void name_shader(const drawing *d, const device_material *material,
              closes_surface(d->context, material) ? "_closed_surface" : "");
 }
 
-static void draw_instance(const drawing *d, size_t instance,
-                          const filtered_appearance *appearance) {
+static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     const filter_context *context = d->context;
-    const device_instance *drawn = &context->scene->instances[instance];
+    const instance_batch *batch = &draws->batches[index];
+    const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
-    const float *transform = context->scene->scene->instances[instance].transform;
-    struct instance_constants constants;
-    for (int row = 0; row < 3; row++) {
-        for (int column = 0; column < 4; column++)
-            constants.rows[row][column] = transform[4 * column + row];
-    }
-    lobe_binding bindings[4 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
-    size_t binding_count = bind_draw(context, d->light, instance, appearance, bindings);
+    const struct draw_constants constants = {.first_instance = batch->first};
+    lobe_binding bindings[5 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
+    size_t binding_count = bind_draw(context, d->light, batch, bindings);
     specialisation_list list = {.graph = context->graph};
-    specialise_draw(d, instance, appearance, &list);
+    specialise_draw(d, batch, &list);
     char fragment_shader[SHADER_NAME_SIZE];
     name_shader(d, material, fragment_shader);
-    lobe_cull outside = drawn->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
+    lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
         .fragment_shader = fragment_shader,
         .indices = lobe_graph_import_buffer(context->graph, context->scene->indices[drawn->mesh]),
-        .index_count = (uint32_t)context->scene->scene->meshes[drawn->mesh].index_count,
+        .index_count = index_count(context, batch),
+        .instance_count = batch->count,
         .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
         .depth_test = true,
         .depth_write = true,
@@ -288,7 +292,7 @@ static void draw_instance(const drawing *d, size_t instance,
         .bindings = bindings,
         .binding_count = binding_count,
     };
-    select_draw(d->selection, FIRST_INSTANCE_DRAW + instance, &draw);
+    select_draw(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
     lobe_pass_draw(d->pass, &draw);
 }
 
@@ -345,8 +349,8 @@ static void draw_part(const shading *s, light_part lights, const shading_light *
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background)
         draw_background(&d, s->sample, aov);
-    for (size_t i = 0; i < context->scene->scene->instance_count; i++)
-        draw_instance(&d, i, &s->appearances[i]);
+    for (size_t i = 0; i < s->draws->batch_count; i++)
+        draw_batch(&d, s->draws, i);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -410,10 +414,10 @@ static bool shows_light(const filter_context *context) {
     return view == VIEW_RADIANCE || view == VIEW_SAMPLES;
 }
 
-void passes_shading(const filter_context *context, const filtered_appearance *appearances,
+void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
                     const shading_selection *selection, shading_targets *targets) {
-    const shading s = {context, appearances, sample, selection,
+    const shading s = {context, draws, sample, selection,
                        passes_light_counts(context->scene->scene)};
     const light_part first = passes_light_part(context, 0);
     const bool several = shows_light(context) && first.count < context->scene->scene->light_count;

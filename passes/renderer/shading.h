@@ -3,6 +3,7 @@
 
 #include "passes/context/filter.h"
 #include "passes/environment/light.h"
+#include "passes/renderer/draw_list.h"
 
 /// What the shading pass draws into. passes_shading_targets_declare declares the images; each
 /// shading pass clears them and stores their new versions here.
@@ -41,15 +42,21 @@ shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 
 /// Adds the passes that draw all instances with the filter's shader: one, unless there are many
-/// lights (passes/renderer/light_parts.h). `appearances`: one per instance.
+/// lights (passes/renderer/light_parts.h).
 /// `selection`: NULL: all pixels.
-void passes_shading(const filter_context *context, const filtered_appearance *appearances,
+void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
                     const shading_selection *selection, shading_targets *targets);
 
-/// The number of draws of a shading pass with a selection, and for each the number of its indices
-/// (or vertices).
-size_t passes_shading_draw_count(const filter_context *context);
-uint32_t passes_shading_index_count(const filter_context *context, size_t draw);
+/// What a draw draws.
+typedef struct shading_draw_count {
+    uint32_t indices; ///< or vertices
+    uint32_t instances;
+} shading_draw_count;
+
+/// The number of draws of a shading pass with a selection, and what each draws.
+size_t passes_shading_draw_count(const draw_list *draws);
+shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
+                                              size_t draw);
 
 #endif

@@ -38,29 +38,6 @@ static bool is_atlas(const lobe_mesh *mesh, const lobe_texture_use *use) {
     return area <= 1 + 10 * slack;
 }
 
-// In double precision: products of three elements must be in range at any scale.
-
-static bool mirrors(const float transform[16]) {
-    const float *a = transform, *b = transform + 4, *c = transform + 8;
-    return a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) +
-               a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
-               a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]) <
-           0;
-}
-
-static double dot(const float a[3], const float b[3]) {
-    return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2];
-}
-
-/// Whether the linear part is a rotation or reflection times a uniform scale: its columns have
-/// equal length and are at right angles.
-static bool keeps_angles(const float transform[16]) {
-    const float *x = transform, *y = transform + 4, *z = transform + 8;
-    double square = dot(x, x), slack = 1e-3 * square;
-    return fabs(dot(y, y) - square) <= slack && fabs(dot(z, z) - square) <= slack &&
-           fabs(dot(x, y)) <= slack && fabs(dot(y, z)) <= slack && fabs(dot(z, x)) <= slack;
-}
-
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host) {
     const lobe_instance *instance = &scene->instances[index];
@@ -95,8 +72,6 @@ static void measure_instance(device_scene *scene, size_t index) {
     device_instance *instance = &scene->instances[index];
     instance->mesh = source->mesh;
     instance->material = source->material;
-    instance->mirrored = mirrors(source->transform);
-    instance->keeps_angles = keeps_angles(source->transform);
     find_atlas(scene, instance);
 }
 
@@ -125,4 +100,15 @@ lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t inde
     if (status == LOBE_OK)
         measure_instance(scene, index);
     return status;
+}
+
+void passes_device_scene_link_instances(device_scene *scene) {
+    for (size_t i = 0; i < scene->scene->material_count; i++)
+        scene->materials[i].first_instance = 0;
+    for (size_t i = scene->scene->instance_count; i-- > 0;) {
+        device_instance *instance = &scene->instances[i];
+        uint32_t *first = &scene->materials[instance->material].first_instance;
+        instance->next_of_material = *first;
+        *first = (uint32_t)i + 1;
+    }
 }

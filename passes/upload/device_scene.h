@@ -35,6 +35,7 @@ typedef struct device_material {
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
+    uint32_t first_instance;     ///< 1 + index of the first that has it; 0: none
     bool metallic_varies;        ///< the width map determines where the material is metal
     float metallic;              ///< its metallic factor, times the map's where that is constant
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
@@ -50,9 +51,7 @@ typedef struct grid_layout {
 
 typedef struct device_instance {
     uint32_t mesh, material;
-    bool mirrored; ///< the transform mirrors
-    /// The transform preserves angles: directions of the mesh can be rotated into the world's.
-    bool keeps_angles;
+    uint32_t next_of_material; ///< 1 + index of the next with the material; 0: none
     /// The texture coordinates of the lobes' grid stay within [0, 1] and do not overlap: each texel
     /// belongs to one place of the mesh.
     bool is_atlas;

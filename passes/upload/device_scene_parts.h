@@ -25,5 +25,7 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
 /// what follows from its transform, mesh and maps.
 lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t index,
                                                 const lobe_host *host);
+/// Lets each material find the instances that have it, after instances were uploaded.
+void passes_device_scene_link_instances(device_scene *scene);
 
 #endif

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "passes/upload/number_check.h"
+#include "passes/upload/transform.h"
 
 static number_owner owner_of(const lobe_scene *scene, const char *kind, size_t index,
                              const lobe_host *host) {
@@ -12,41 +13,53 @@ static number_owner owner_of(const lobe_scene *scene, const char *kind, size_t i
 // ---------------------------------------------------------------------------------------------
 // Instances
 
-static double determinant_of(const float m[16]) {
-    return m[0] * ((double)m[5] * m[10] - (double)m[6] * m[9]) -
-           m[4] * ((double)m[1] * m[10] - (double)m[2] * m[9]) +
-           m[8] * ((double)m[1] * m[6] - (double)m[2] * m[5]);
-}
-
-/// The volume that the three axes would span at right angles.
-static double largest_volume(const float m[16]) {
-    double volume = 1;
+/// The square of the volume that the three axes would span at right angles.
+static double square_of_largest_volume(const float m[16]) {
+    double square = 1;
     for (const float *axis = m; axis < m + 12; axis += 4)
-        volume *=
-            sqrt((double)axis[0] * axis[0] + (double)axis[1] * axis[1] + (double)axis[2] * axis[2]);
-    return volume;
+        square *= (double)axis[0] * axis[0] + (double)axis[1] * axis[1] + (double)axis[2] * axis[2];
+    return square;
 }
 
-lobe_result passes_check_transform(const lobe_scene *scene, size_t instance,
-                                   const lobe_host *host) {
+static bool is_finite(const float m[16]) {
+    float sum = 0;
+    for (int i = 0; i < 16; i++)
+        sum += 0 * m[i];
+    return sum == 0;
+}
+
+static bool is_affine(const float m[16]) {
+    return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+}
+
+static bool is_degenerate(const float m[16]) {
+    const double determinant = passes_transform_determinant(m);
+    return !(determinant * determinant > 1e-18 * square_of_largest_volume(m));
+}
+
+static lobe_result fail_transform(const lobe_scene *scene, size_t instance, const lobe_host *host) {
     const number_owner owner = owner_of(scene, "instance", instance, host);
     const float *m = scene->instances[instance].transform;
-    lobe_result result = passes_check_numbers(&owner, "transform", m, 16, -INFINITY, INFINITY);
-    if (result != LOBE_OK)
-        return result;
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    if (!is_finite(m))
+        return passes_check_numbers(&owner, "transform", m, 16, -INFINITY, INFINITY);
+    if (!is_affine(m))
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "%s: instance %zu: the last row of its transform is (%g, %g, %g, "
                               "%g); expected (0, 0, 0, 1)",
                               scene->name, instance, (double)m[3], (double)m[7], (double)m[11],
                               (double)m[15]);
-    const double determinant = determinant_of(m);
-    if (fabs(determinant) > 1e-9 * largest_volume(m))
-        return LOBE_OK;
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                           "%s: instance %zu: its transform has the determinant %g: it is "
                           "degenerate",
-                          scene->name, instance, determinant);
+                          scene->name, instance, passes_transform_determinant(m));
+}
+
+lobe_result passes_check_transform(const lobe_scene *scene, size_t instance,
+                                   const lobe_host *host) {
+    const float *m = scene->instances[instance].transform;
+    if (is_finite(m) && is_affine(m) && !is_degenerate(m))
+        return LOBE_OK;
+    return fail_transform(scene, instance, host);
 }
 
 // ---------------------------------------------------------------------------------------------

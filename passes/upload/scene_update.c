@@ -243,6 +243,8 @@ static lobe_result apply_rest(const scene_update *update) {
     for (size_t i = 0; result == LOBE_OK && i < scene->instance_count; i++)
         if (update->instances[i])
             result = passes_device_scene_upload_instance(update->scene, i, update->host);
+    if (result == LOBE_OK)
+        passes_device_scene_link_instances(update->scene);
     if (result == LOBE_OK && changes->environment)
         result = replace_environment(update);
     return result;

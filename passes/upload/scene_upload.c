@@ -69,8 +69,10 @@ lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
         status = passes_device_scene_upload_environment(*result);
     for (size_t i = 0; status == LOBE_OK && i < scene->instance_count; i++)
         status = passes_device_scene_upload_instance(*result, i, host);
-    if (status == LOBE_OK)
+    if (status == LOBE_OK) {
+        passes_device_scene_link_instances(*result);
         return LOBE_OK;
+    }
 fail:
     passes_device_scene_destroy(result);
     return status;

@@ -89,7 +89,9 @@ mat3 mixture_frame(surface_point surface) {
     // Mixtures are built for a mesh's front; on the back, both they and the frame are reversed.
     mat3 world_from_front = front_side() ? surface.world_from_tangent : -surface.world_from_tangent;
     if (SPACE == SPACE_OBJECT) {
-        // For a rotation with a uniform scale, the transpose is the inverse up to a factor.
+        // The draw's only instance. For a rotation with a uniform scale, the transpose is the
+        // inverse up to a factor.
+        instance_constants instance = instances[draw.first_instance];
         mat3 world_from_object =
             transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));
         mat3 frame = transpose(world_from_object) * world_from_front;

@@ -3,10 +3,16 @@
 
 #include "types.h"
 
-// Push constants of a draw: an affine object-to-world transform.
+// An affine object-to-world transform.
 struct instance_constants {
     float4 rows[3]; // each: three of the linear part, then the translation
 };
 INTERFACE_SIZE(instance_constants, 48)
+
+// Push constants of a draw of instances.
+struct draw_constants {
+    uint first_instance; // index of its transform; those of the others follow
+};
+INTERFACE_SIZE(draw_constants, 4)
 
 #endif

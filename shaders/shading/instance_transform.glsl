@@ -1,7 +1,7 @@
 #ifndef INSTANCE_TRANSFORM_GLSL
 #define INSTANCE_TRANSFORM_GLSL
 
-// From object to world space, by the push constants of the draw.
+// From object to world space, by the transform of `instance`.
 
 mat3 object_to_world_linear() {
     return transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));

@@ -7,7 +7,8 @@ layout(local_size_x = 64) in;
 
 layout(push_constant) uniform constants_block { uint draws; };
 layout(set = 0, binding = 0, std430) readonly buffer list_block { uint list[]; };
-layout(set = 0, binding = 1, std430) readonly buffer index_count_block { uint index_counts[]; };
+// Of each draw: indices (or vertices), instances.
+layout(set = 0, binding = 1, std430) readonly buffer count_block { uvec2 counts[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer argument_block { uint arguments[]; };
 
 void write(uint record, uint a, uint b, uint c) {
@@ -26,5 +27,5 @@ void main() {
         write(0u, min(groups, 65535u), (groups + 65534u) / 65535u, 1u);
     }
     else if (record <= draws)
-        write(record, index_counts[record - 1u], min(list[0], 1u), 0u);
+        write(record, counts[record - 1u].x, list[0] > 0u ? counts[record - 1u].y : 0u, 0u);
 }

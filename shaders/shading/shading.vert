@@ -9,7 +9,10 @@
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
 layout(set = 0, binding = 1, std430) readonly buffer vertex_block { vertex vertices[]; };
-layout(push_constant) uniform instance_block { instance_constants instance; };
+layout(set = 0, binding = 12, std430) readonly buffer instance_block {
+    instance_constants instances[];
+};
+layout(push_constant) uniform draw_block { draw_constants draw; };
 
 layout(location = 0) out vec3 world_position;
 layout(location = 1) out vec3 world_normal;
@@ -17,10 +20,13 @@ layout(location = 2) out vec4 world_tangent;
 layout(location = 3) out vec4 coordinates;
 layout(location = 4) out vec4 colour;
 
+instance_constants instance;
+
 #include "shading/instance_transform.glsl"
 
 void main() {
     vertex v = vertices[gl_VertexIndex];
+    instance = instances[draw.first_instance + gl_InstanceIndex];
     world_position = transform_point(vec3(v.position[0], v.position[1], v.position[2]));
     world_normal = transform_normal(vec3(v.normal[0], v.normal[1], v.normal[2]));
     world_tangent = transform_tangent(vec4(v.tangent[0], v.tangent[1], v.tangent[2], v.tangent[3]));

@@ -34,7 +34,10 @@ layout(constant_id = SPECIALISE_DEPTH_AS_COVERAGE) const bool DEPTH_AS_COVERAGE 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
 layout(set = 0, binding = 10, std140) uniform knob_block { shared_knobs knobs; };
 layout(set = 0, binding = 3, std140) uniform material_block { material_constants material; };
-layout(push_constant) uniform instance_block { instance_constants instance; };
+layout(set = 0, binding = 12, std430) readonly buffer instance_block {
+    instance_constants instances[];
+};
+layout(push_constant) uniform draw_block { draw_constants draw; };
 
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 5) uniform sampler2D normal_map;

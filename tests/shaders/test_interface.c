@@ -73,6 +73,7 @@ static known_member known[] = {
     MEMBER(frame_constants, dither, 8),
     MEMBER(frame_constants, first_light, 9),
     MEMBER(instance_constants, rows, 0),
+    MEMBER(draw_constants, first_instance, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),
     MEMBER(irradiance_harmonics_constants, size, 0),
     MEMBER(irradiance_harmonics_sum_constants, band_factors, 0),

@@ -8,6 +8,7 @@
 #include "passes/maps/lobe_map.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
+#include "passes/upload/transform.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/specialisation.h"
 
@@ -101,8 +102,10 @@ static lobe_map_space space_of(const filter_context *context, size_t instance) {
     // Tangent space is cheapest, exact where the surface hardly turns under a pixel, and as
     // accurate elsewhere: relative L2 over object and camera space 0.31, 0.31, 0.32 for a helmet
     // and 0.47, 0.44, 0.45 for a tea set, whose maps are atlases.
-    bool possible = drawn->is_atlas && drawn->keeps_angles;
-    return space == LOBE_SPACE_AUTOMATIC || !possible ? LOBE_SPACE_TANGENT : space;
+    if (space == LOBE_SPACE_AUTOMATIC || !drawn->is_atlas ||
+        !passes_transform_keeps_angles(context->scene->scene->instances[instance].transform))
+        return LOBE_SPACE_TANGENT;
+    return space;
 }
 
 static bool for_each_instance(const filter_context *context, size_t instance) {
@@ -126,11 +129,11 @@ static bool has_one_direction(const device_material *material) {
 }
 
 static bool is_in_tangent_space(const filter_context *context, uint32_t material) {
-    const lobe_scene *scene = context->scene->scene;
-    for (size_t i = 0; i < scene->instance_count; i++)
-        if (scene->instances[i].material == material && space_of(context, i) == LOBE_SPACE_TANGENT)
-            return true;
-    return false;
+    const device_scene *scene = context->scene;
+    uint32_t next = scene->materials[material].first_instance;
+    while (next > 0 && space_of(context, next - 1) != LOBE_SPACE_TANGENT)
+        next = scene->instances[next - 1].next_of_material;
+    return next > 0;
 }
 
 /// Whether the material's maps decide its subdivision.

@@ -61,31 +61,33 @@ static void choose(const filter_context *context, lobe_resource radiance, bool b
                                               .constants_size = sizeof constants});
 }
 
-/// The number of indices of each draw of a shading pass; all zero if out of memory.
-static lobe_resource upload_index_counts(const filter_context *context) {
-    const size_t count = passes_shading_draw_count(context);
-    uint32_t *counts = lobe_allocate(lobe_host_allocator(context->host), count, sizeof *counts);
+/// The counts of each draw of a shading pass; all zero if out of memory.
+static lobe_resource upload_counts(const filter_context *context, const draw_list *draws) {
+    const size_t count = passes_shading_draw_count(draws);
+    shading_draw_count *counts =
+        lobe_allocate(lobe_host_allocator(context->host), count, sizeof *counts);
     if (!counts) {
         lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for draws",
                         context->scene->scene->name);
         return (lobe_resource){0};
     }
     for (size_t i = 0; i < count; i++)
-        counts[i] = passes_shading_index_count(context, i);
+        counts[i] = passes_shading_draw_counts(context, draws, i);
     lobe_resource resource =
-        lobe_graph_upload(context->graph, "index counts", counts, count * sizeof *counts);
+        lobe_graph_upload(context->graph, "draw counts", counts, count * sizeof *counts);
     lobe_release(counts);
     return resource;
 }
 
-static void write_arguments(const filter_context *context, sample_choice *choice) {
-    const uint32_t draws = (uint32_t)passes_shading_draw_count(context);
+static void write_arguments(const filter_context *context, const draw_list *list,
+                            sample_choice *choice) {
+    const uint32_t draws = (uint32_t)passes_shading_draw_count(list);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "sample_arguments");
     choice->arguments =
         declare_buffer(context, "sample arguments", (1 + draws) * sizeof(lobe_draw_arguments));
     lobe_pass_read(pass, &(lobe_binding){.name = "list_block", .resource = choice->list});
-    lobe_pass_read(pass, &(lobe_binding){.name = "index_count_block",
-                                         .resource = upload_index_counts(context)});
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "count_block", .resource = upload_counts(context, list)});
     choice->arguments = lobe_pass_write(
         pass, &(lobe_binding){.name = "argument_block", .resource = choice->arguments});
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/sample_arguments.comp",
@@ -94,10 +96,10 @@ static void write_arguments(const filter_context *context, sample_choice *choice
                                               .constants_size = sizeof draws});
 }
 
-sample_choice passes_sample_choice(const filter_context *context, lobe_resource radiance,
-                                   bool blended) {
+sample_choice passes_sample_choice(const filter_context *context, const draw_list *draws,
+                                   lobe_resource radiance, bool blended) {
     sample_choice choice;
     choose(context, radiance, blended, &choice);
-    write_arguments(context, &choice);
+    write_arguments(context, draws, &choice);
     return choice;
 }

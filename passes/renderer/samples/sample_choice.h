@@ -1,7 +1,7 @@
 #ifndef PASSES_RENDERER_SAMPLES_SAMPLE_CHOICE_H
 #define PASSES_RENDERER_SAMPLES_SAMPLE_CHOICE_H
 
-#include "passes/context/filter.h"
+#include "passes/renderer/draw_list.h"
 
 /// Which pixels take how many samples.
 typedef struct sample_choice {
@@ -16,7 +16,7 @@ typedef struct sample_choice {
 /// Adds the passes that choose the number of samples of each pixel, within what the knob `samples`
 /// asks for. `radiance`: the first sample of each; alpha is its depth. `blended`: the picture will
 /// be blended over another, of unknown content.
-sample_choice passes_sample_choice(const filter_context *context, lobe_resource radiance,
-                                   bool blended);
+sample_choice passes_sample_choice(const filter_context *context, const draw_list *draws,
+                                   lobe_resource radiance, bool blended);
 
 #endif

@@ -35,9 +35,8 @@ static lobe_resource copy_occluder(const filter_context *context, const shading_
 
 /// Draws the first sample of every pixel. Returns its radiance; alpha is the depth, 0 where nothing
 /// is hit.
-static lobe_resource draw_first(const filter_context *context,
-                                const filtered_appearance *appearances, const shading_light *light,
-                                shading_targets *targets) {
+static lobe_resource draw_first(const filter_context *context, const draw_list *draws,
+                                const shading_light *light, shading_targets *targets) {
     shading_sample sample = {.footprint = 1};
     shading_targets first = *targets;
     first.radiance = declare(context, "sum of samples", LOBE_FORMAT_RGBA32_FLOAT);
@@ -45,7 +44,7 @@ static lobe_resource draw_first(const filter_context *context,
     first.keep_radiance = false;
     first.depth_as_coverage = true;
     passes_sample_position_around_centre(0, sample.position);
-    passes_shading(context, appearances, light, &sample, NULL, &first);
+    passes_shading(context, draws, light, &sample, NULL, &first);
     targets->depth = first.depth;
     targets->normal_depth = first.normal_depth;
     targets->lobes_level = first.lobes_level;
@@ -66,10 +65,10 @@ static lobe_resource add_sample(const filter_context *context, const sample_choi
 }
 
 /// Draws and adds the samples that follow, each in the pixels that take it.
-static lobe_resource draw_others(const filter_context *context,
-                                 const filtered_appearance *appearances, const shading_light *light,
-                                 const sample_choice *choice, const shading_targets *targets,
-                                 lobe_resource occluder, lobe_resource sum) {
+static lobe_resource draw_others(const filter_context *context, const draw_list *draws,
+                                 const shading_light *light, const sample_choice *choice,
+                                 const shading_targets *targets, lobe_resource occluder,
+                                 lobe_resource sum) {
     const sample_count count = passes_sample_count(context);
     const shading_selection selection = {.counts = choice->counts,
                                          .occluder = occluder,
@@ -87,7 +86,7 @@ static lobe_resource draw_others(const filter_context *context,
         // Evenly spread thresholds meet a mask's coverage as closely as the samples' number allows.
         shading_sample sample = {.footprint = count.footprint, .dither = passes_radical_inverse(i)};
         passes_sample_position_around_centre(i, sample.position);
-        passes_shading(context, appearances, light, &sample, &selection, &one);
+        passes_shading(context, draws, light, &sample, &selection, &one);
         sum = add_sample(context, choice, i, one.radiance, sum);
     }
     return sum;
@@ -118,11 +117,11 @@ static void resolve(const filter_context *context, lobe_resource counts, lobe_re
                          });
 }
 
-void passes_samples(const filter_context *context, const filtered_appearance *appearances,
+void passes_samples(const filter_context *context, const draw_list *draws,
                     const shading_light *light, shading_targets *targets) {
     const lobe_resource occluder = copy_occluder(context, targets);
-    lobe_resource sum = draw_first(context, appearances, light, targets);
-    const sample_choice choice = passes_sample_choice(context, sum, targets->keep_radiance);
-    sum = draw_others(context, appearances, light, &choice, targets, occluder, sum);
+    lobe_resource sum = draw_first(context, draws, light, targets);
+    const sample_choice choice = passes_sample_choice(context, draws, sum, targets->keep_radiance);
+    sum = draw_others(context, draws, light, &choice, targets, occluder, sum);
     resolve(context, choice.counts, sum, targets);
 }

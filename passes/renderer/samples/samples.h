@@ -10,7 +10,7 @@ bool passes_samples_several(const filter_context *context);
 /// Adds the passes that draw the picture with as many samples per pixel as each needs, into the
 /// targets' radiance. Depth and output variables are those of the first sample, at the pixel's
 /// centre.
-void passes_samples(const filter_context *context, const filtered_appearance *appearances,
+void passes_samples(const filter_context *context, const draw_list *draws,
                     const shading_light *light, shading_targets *targets);
 
 #endif

@@ -195,7 +195,12 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
                               .view = {.camera = &scene->camera},
                               .host = &f->host};
     filtered_appearance appearance = {0};
+    draw_list draws = {0};
+    assert_true(passes_draw_list_create(&draws, scene, NULL));
     lobe_graph_begin(f->graph);
+    passes_draw_list_begin(&draws, uploaded);
+    passes_draw_list_add(&draws, uploaded, 0, &appearance);
+    passes_draw_list_end(&draws, &context);
     shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
     shading_light light = passes_shading_light_prepare(&context, &environment);
     lobe_resource sum = lobe_graph_image(
@@ -207,7 +212,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     for (uint32_t i = 0; i < samples; i++) {
         shading_sample sample = {.number = i};
         passes_sample_position(i, samples, sample.position);
-        passes_shading(&context, &appearance, &light, &sample, NULL, &targets);
+        passes_shading(&context, &draws, &light, &sample, NULL, &targets);
         sum = passes_accumulation(f->graph, targets.radiance, sum, extent, extent);
     }
     lobe_graph_read_back(f->graph, sum, (lobe_range){0});
@@ -217,6 +222,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     for (uint32_t i = 0; i < extent * extent * 4; i++)
         mean[i] = data[i] / (float)samples;
     lobe_graph_begin(f->graph);
+    passes_draw_list_destroy(&draws);
     passes_device_scene_destroy(&uploaded);
 }
 

@@ -60,8 +60,10 @@ static void choose(fixture *f, const step *step, const char *samples, bool blend
     pass_run_begin(&run, f, scene, "lobes", (const char *[]){samples, NULL});
     run.context.view.width = WIDTH;
     run.context.view.height = HEIGHT;
-    const sample_choice choice =
-        passes_sample_choice(&run.context, lobe_graph_import_texture(f->graph, texture), blended);
+    instance_batch batch = {.count = 5};
+    const draw_list draws = {.batches = &batch, .batch_count = 1};
+    const sample_choice choice = passes_sample_choice(
+        &run.context, &draws, lobe_graph_import_texture(f->graph, texture), blended);
     lobe_graph_read_back(f->graph, choice.counts, (lobe_range){0});
     lobe_graph_read_back(f->graph, choice.list, (lobe_range){0});
     lobe_graph_read_back(f->graph, choice.arguments, (lobe_range){0});
@@ -70,7 +72,7 @@ static void choose(fixture *f, const step *step, const char *samples, bool blend
     read(f->graph, choice.list, 0, &result->listed, 4);
     read(f->graph, choice.list, 4, result->pixels, sizeof result->pixels);
     read(f->graph, choice.arguments, 0, &result->dispatch, sizeof result->dispatch);
-    assert_int_equal(passes_shading_draw_count(&run.context), 3);
+    assert_int_equal(passes_shading_draw_count(&draws), 3);
     read(f->graph, choice.arguments, sizeof *result->draws, result->draws, sizeof result->draws);
     pass_run_end(&run);
     lobe_texture_destroy(&texture);
@@ -98,7 +100,7 @@ static void check_columns(const chosen *c, bool chosen_ones) {
     assert_int_equal(c->dispatch.groups[0], chosen_ones ? 1 : 0);
     for (int i = 0; i < 3; i++) {
         assert_int_equal(c->draws[i].index_count, i < 2 ? 3 : 6);
-        assert_int_equal(c->draws[i].instance_count, chosen_ones);
+        assert_int_equal(c->draws[i].instance_count, !chosen_ones ? 0 : i < 2 ? 1 : 5);
         assert_int_equal(c->draws[i].first_index, 0);
     }
 }

@@ -1,0 +1,105 @@
+#include "passes/renderer/draw_list.h"
+
+#include <string.h>
+
+#include "passes/upload/transform.h"
+
+/// As many transforms as one buffer of a frame may hold (lobe_graph_upload).
+enum { MOST_TRANSFORMS = (4 << 20) / sizeof(struct instance_constants) };
+
+bool passes_draw_list_create(draw_list *list, const lobe_scene *scene,
+                             const lobe_allocator *allocator) {
+    const size_t count = scene->instance_count;
+    list->batches = lobe_allocate(allocator, count, sizeof *list->batches);
+    list->batch_of = lobe_allocate(allocator, count, sizeof *list->batch_of);
+    list->of_mesh = lobe_allocate(allocator, scene->mesh_count, sizeof *list->of_mesh);
+    list->transforms = lobe_allocate(allocator, count, sizeof *list->transforms);
+    return list->batches && list->batch_of && list->of_mesh && list->transforms;
+}
+
+void passes_draw_list_destroy(draw_list *list) {
+    lobe_release(list->batches);
+    lobe_release(list->batch_of);
+    lobe_release(list->of_mesh);
+    lobe_release(list->transforms);
+    *list = (draw_list){0};
+}
+
+void passes_draw_list_begin(draw_list *list, const device_scene *scene) {
+    list->batch_count = 0;
+    memset(list->of_mesh, 0, scene->scene->mesh_count * sizeof *list->of_mesh);
+}
+
+/// Whether an instance of the batch's mesh belongs to it.
+static bool belongs(const instance_batch *batch, const device_scene *scene, uint32_t material,
+                    bool mirrored, const filtered_appearance *appearance) {
+    return batch->appearance == appearance && batch->count < MOST_TRANSFORMS &&
+           batch->mirrored == mirrored && scene->instances[batch->instance].material == material;
+}
+
+void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t index,
+                          const filtered_appearance *appearance) {
+    const device_instance *instance = &scene->instances[index];
+    const bool mirrored =
+        passes_transform_determinant(scene->scene->instances[index].transform) < 0;
+    uint32_t number = list->of_mesh[instance->mesh];
+    while (number > 0 &&
+           !belongs(&list->batches[number - 1], scene, instance->material, mirrored, appearance))
+        number = list->batches[number - 1].next_of_mesh;
+    if (number == 0) {
+        list->batches[list->batch_count++] =
+            (instance_batch){.instance = index,
+                             .mirrored = mirrored,
+                             .appearance = appearance,
+                             .next_of_mesh = list->of_mesh[instance->mesh]};
+        number = list->batch_count;
+        list->of_mesh[instance->mesh] = number;
+    }
+    ++list->batches[number - 1].count;
+    list->batch_of[index] = number - 1;
+}
+
+static void fill(const float transform[16], struct instance_constants *constants) {
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            constants->rows[row][column] = transform[4 * column + row];
+}
+
+/// In the order of their batches.
+static void fill_transforms(draw_list *list, const lobe_scene *scene) {
+    uint32_t start = 0;
+    for (uint32_t i = 0; i < list->batch_count; i++) {
+        list->batches[i].start = start;
+        start += list->batches[i].count;
+        list->batches[i].count = 0;
+    }
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        instance_batch *batch = &list->batches[list->batch_of[i]];
+        fill(scene->instances[i].transform, &list->transforms[batch->start + batch->count++]);
+    }
+}
+
+/// The transforms of batches [first, end) in one buffer.
+static void upload(draw_list *list, const filter_context *context, uint32_t first, uint32_t end) {
+    const instance_batch *last = &list->batches[end - 1];
+    const uint32_t start = list->batches[first].start;
+    const lobe_resource transforms =
+        lobe_graph_upload(context->graph, "transforms", &list->transforms[start],
+                          (last->start + last->count - start) * sizeof *list->transforms);
+    for (uint32_t i = first; i < end; i++) {
+        list->batches[i].transforms = transforms;
+        list->batches[i].first = list->batches[i].start - start;
+    }
+}
+
+void passes_draw_list_end(draw_list *list, const filter_context *context) {
+    fill_transforms(list, context->scene->scene);
+    for (uint32_t first = 0, end; first < list->batch_count; first = end) {
+        const uint32_t start = list->batches[first].start;
+        end = first + 1;
+        while (end < list->batch_count &&
+               list->batches[end].start + list->batches[end].count - start <= MOST_TRANSFORMS)
+            ++end;
+        upload(list, context, first, end);
+    }
+}

@@ -1,0 +1,46 @@
+#ifndef PASSES_RENDERER_DRAW_LIST_H
+#define PASSES_RENDERER_DRAW_LIST_H
+
+#include "passes/context/filter.h"
+#include "shaders/interface/instance.h"
+
+/// The draws of a picture: instances of one mesh and one material are drawn together where they
+/// share filtered maps, so that the host's work grows with the number of draws.
+
+/// Instances that are drawn together. They have the same mesh and material, and all mirror or none.
+typedef struct instance_batch {
+    size_t instance; ///< the first of them
+    uint32_t count;
+    bool mirrored; ///< the transforms mirror
+    const filtered_appearance *appearance;
+    lobe_resource transforms; ///< buffer of struct instance_constants
+    uint32_t first;           ///< index of the first instance's
+    uint32_t start;           ///< the same among the transforms of the whole list
+    uint32_t next_of_mesh;    ///< 1 + index of another batch of the mesh; 0: none
+} instance_batch;
+
+/// In the order of their first instances.
+typedef struct draw_list {
+    instance_batch *batches;
+    uint32_t batch_count;
+    // Memory that is kept from frame to frame.
+    uint32_t *batch_of;                    ///< of each instance
+    uint32_t *of_mesh;                     ///< as `next_of_mesh`: of each mesh
+    struct instance_constants *transforms; ///< of each instance, batch by batch
+} draw_list;
+
+/// Memory for the scene's instances. False if there is not enough; then the list is to be destroyed
+/// all the same.
+bool passes_draw_list_create(draw_list *list, const lobe_scene *scene,
+                             const lobe_allocator *allocator);
+void passes_draw_list_destroy(draw_list *list);
+
+/// Empties the list.
+void passes_draw_list_begin(draw_list *list, const device_scene *scene);
+/// Adds the next instance. `appearance`: of its maps; instances with the same one may share them.
+void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t instance,
+                          const filtered_appearance *appearance);
+/// Uploads the transforms for this frame, after the last instance.
+void passes_draw_list_end(draw_list *list, const filter_context *context);
+
+#endif
