@@ -24,7 +24,8 @@ ALLOWED = {
 # Headers of libraries that only some folders may use.
 OWNED = {
     re.compile(r"vulkan/"): {"engine"},
-    re.compile(r"spirv_cross/|glslang/"): {"engine"},
+    re.compile(r"spirv_cross/(?!spirv\.hpp)|glslang/"): {"engine"},
+    re.compile(r"spirv_cross/spirv\.hpp"): {"third_party"},  # only SPIR-V's numbers
     re.compile(r"openexr"): {"engine"},
     re.compile(r"tiny_gltf|jpeglib\.h|zlib\.h"): {"third_party"},
     re.compile(r"png\.h"): {"engine", "third_party"},
