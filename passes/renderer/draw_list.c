@@ -74,6 +74,8 @@ static void fill_transforms(draw_list *list, const lobe_scene *scene) {
         list->batches[i].count = 0;
     }
     for (size_t i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].hidden)
+            continue;
         instance_batch *batch = &list->batches[list->batch_of[i]];
         fill(scene->instances[i].transform, &list->transforms[batch->start + batch->count++]);
     }

@@ -24,9 +24,9 @@ typedef struct draw_list {
     instance_batch *batches;
     uint32_t batch_count;
     // Memory that is kept from frame to frame.
-    uint32_t *batch_of;                    ///< of each instance
+    uint32_t *batch_of;                    ///< of each instance that is drawn
     uint32_t *of_mesh;                     ///< as `next_of_mesh`: of each mesh
-    struct instance_constants *transforms; ///< of each instance, batch by batch
+    struct instance_constants *transforms; ///< of these instances, batch by batch
 } draw_list;
 
 /// Memory for the scene's instances. False if there is not enough; then the list is to be destroyed
@@ -37,7 +37,8 @@ void passes_draw_list_destroy(draw_list *list);
 
 /// Empties the list.
 void passes_draw_list_begin(draw_list *list, const device_scene *scene);
-/// Adds the next instance. `appearance`: of its maps; instances with the same one may share them.
+/// Adds the next instance that is not hidden. `appearance`: of its maps; instances with the same
+/// one may share them.
 void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t instance,
                           const filtered_appearance *appearance);
 /// Uploads the transforms for this frame, after the last instance.

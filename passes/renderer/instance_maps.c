@@ -52,7 +52,9 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     frame->filtered_bytes = frame->base_texels = 0;
     passes_draw_list_begin(&r->renderer->draws, r->context.scene);
     for (size_t i = 0; i < scene->instance_count; i++)
-        passes_draw_list_add(&r->renderer->draws, r->context.scene, i, appearance_of(r, i, frame));
+        if (!scene->instances[i].hidden)
+            passes_draw_list_add(&r->renderer->draws, r->context.scene, i,
+                                 appearance_of(r, i, frame));
     passes_draw_list_end(&r->renderer->draws, &r->context);
     frame->filtered_bytes += r->images.bytes;
 }

@@ -324,17 +324,25 @@ static void draw_background(const drawing *d, const shading_sample *sample, bool
     passes_background(d->pass, d->context, d->light->cube, sample, aov, &draw);
 }
 
+/// What the draws of all instances read.
+static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
+                      const shading_light *light, const shading_targets *targets) {
+    if (s->draws->batch_count == 0)
+        return;
+    lobe_resource frame = upload_frame(s, lights, targets);
+    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
+    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    passes_knobs_bind(s->context, pass);
+    passes_environment_light_bind(&light->environment, s->context, pass, s->sample);
+}
+
 /// Draws one part of the lights.
 static void draw_part(const shading *s, light_part lights, const shading_light *light,
                       shading_targets *targets) {
     const filter_context *context = s->context;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER,
                                           s->selection ? "sample_shading" : "shading");
-    lobe_resource frame = upload_frame(s, lights, targets);
-    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
-    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
-    passes_knobs_bind(context, pass);
-    passes_environment_light_bind(&light->environment, context, pass, s->sample);
+    bind_pass(pass, s, lights, light, targets);
     bool aov = targets->normal_depth.version || targets->normal_depth.index;
     attach(pass, context, targets);
     drawing d = {.context = context,

@@ -62,8 +62,8 @@ typedef struct lobe_scene_changes {
 /// Where extents, formats and counts stay the same, no Vulkan object is created, once there is
 /// memory for as much as frames copy. Constants of materials that are equal to those of the device
 /// are not written.
-/// Lights (and their number), the scene's camera, background and bounds, and the transforms of
-/// instances are read in every frame and need not be listed.
+/// Lights (and their number), the scene's camera, background and bounds, the transforms of
+/// instances and whether they are hidden are read in every frame and need not be listed.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
 /// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, the scene can still be drawn, with some of the

@@ -161,6 +161,7 @@ typedef struct lobe_instance {
     uint32_t mesh, material;
     float transform[16]; ///< object to world, column-major, affine, invertible; the determinant
                          ///< is above 0: an import gives mirrored instances a mirrored mesh
+    bool hidden;         ///< not drawn; nothing is built for it alone
 } lobe_instance;
 
 typedef enum lobe_light_type {

@@ -223,6 +223,46 @@ static void transforms_are_those_of_the_frame(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+static void grey(const double direction[3], float radiance[3]) {
+    (void)direction;
+    radiance[0] = radiance[1] = radiance[2] = 0.25f;
+}
+
+/// Neither hides what is behind it, nor are maps built for it, nor need it be announced.
+static void hidden_instances_are_not_there(void **state) {
+    static const char *const knobs[] = {NULL, "samples=4", NULL};
+    fixture *f = *state;
+    lobe_scene *all = crowd(false), *few = crowd(false);
+    few->instance_count = 3;
+    for (int i = 0; i < 3; i++) {
+        if (i == 2) {
+            scene_surround(all, 8, grey);
+            scene_surround(few, 8, grey);
+            all->environment_visible = few->environment_visible = true;
+        }
+        const picture_request request = {
+            .filter = "moments", .settings = {knobs[i]}, .width = extent, .height = extent};
+        lobe_frame expected = draw_scene(f, few, &request);
+        for (uint32_t j = 0; j < INSTANCES; j++)
+            all->instances[j].hidden = true;
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, all), LOBE_OK);
+        lobe_frame nothing = draw(f, &request);
+        assert_float_equal(largest_value(&nothing.radiance), i < 2 ? 0 : 0.25, 1e-3);
+        assert_int_equal(nothing.filtered_bytes, 0);
+        for (uint32_t j = 0; j < 3; j++)
+            all->instances[j].hidden = false;
+        lobe_frame frame = draw(f, &request);
+        assert_true(largest_value(&frame.radiance) > 0.05);
+        assert_true(largest_difference(&frame.radiance, &expected.radiance) == 0);
+        lobe_frame_free(&nothing);
+        lobe_frame_free(&frame);
+        lobe_frame_free(&expected);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&all);
+    lobe_scene_destroy(&few);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_instances_are_drawn_together),
@@ -230,6 +270,7 @@ int main(void) {
         cmocka_unit_test(long_lists_take_several_buffers),
         cmocka_unit_test(pictures_are_those_of_instances_drawn_alone),
         cmocka_unit_test(transforms_are_those_of_the_frame),
+        cmocka_unit_test(hidden_instances_are_not_there),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
