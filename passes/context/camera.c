@@ -40,6 +40,7 @@ static lobe_result check_numbers(const number_owner *owner, const lobe_camera *c
                     : passes_check_numbers(owner, "target", camera->target, 3, -INFINITY, INFINITY);
     result =
         result ? result : passes_check_numbers(owner, "up", camera->up, 3, -INFINITY, INFINITY);
+    result = result ? result : passes_check_numbers(owner, "shift", camera->shift, 2, -1e6, 1e6);
     // The greatest float below pi.
     result =
         result ? result : passes_check_number(owner, "vertical_field_of_view", angle, 0, 3.1415925);
@@ -140,19 +141,24 @@ static void orthographic(const lobe_camera *camera, float aspect, float far_plan
     projection[3][2] = 1 + camera->near_plane / depth;
 }
 
+void passes_camera_shift(const lobe_camera *camera, uint32_t width, uint32_t height,
+                         const float sample[2], float shift[2]) {
+    // Rasterisation samples at the pixel's centre: the picture moves instead.
+    shift[0] = (1 - 2 * sample[0] - 2 * camera->shift[0] * (float)height) / (float)width;
+    shift[1] = (1 - 2 * sample[1]) / (float)height - 2 * camera->shift[1];
+}
+
 void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
                               const float sample[2], const float minimum[3], const float maximum[3],
                               mat4 world_to_clip) {
     float aspect = (float)width / (float)height;
-    mat4 projection, shift, view;
+    mat4 projection, move, view;
     if (camera->vertical_field_of_view > 0)
         perspective(camera, aspect, projection);
     else
         orthographic(camera, aspect, far_plane_of(camera, minimum, maximum), projection);
-    // Rasterisation samples at the pixel's centre: move the picture instead.
-    glm_mat4_identity(shift);
-    shift[3][0] = (1 - 2 * sample[0]) / (float)width;
-    shift[3][1] = (1 - 2 * sample[1]) / (float)height;
+    glm_mat4_identity(move);
+    passes_camera_shift(camera, width, height, sample, move[3]);
     mat3 rotation;
     passes_camera_rotation(camera, rotation);
     glm_mat4_identity(view);
@@ -162,9 +168,9 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
     glm_mat3_mulv(rotation, eye, moved);
     for (int i = 0; i < 3; i++)
         view[3][i] = -moved[i];
-    mat4 shifted;
-    glm_mat4_mul(shift, projection, shifted);
-    glm_mat4_mul(shifted, view, world_to_clip);
+    mat4 projected;
+    glm_mat4_mul(move, projection, projected);
+    glm_mat4_mul(projected, view, world_to_clip);
 }
 
 void passes_camera_slope_scale(const lobe_camera *camera, uint32_t height, const float minimum[3],

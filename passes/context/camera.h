@@ -22,6 +22,11 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
                               const float sample[2], const float minimum[3], const float maximum[3],
                               mat4 world_to_clip);
 
+/// By how much a picture moves in clip space for the camera's shift, and so that the samples are at
+/// the centres of its pixels.
+void passes_camera_shift(const lobe_camera *camera, uint32_t width, uint32_t height,
+                         const float sample[2], float shift[2]);
+
 /// How depths become slopes. The depth buffer's values are linear across the picture on any plane.
 /// Where they are not, their second difference between neighbouring pixels, divided by the depth
 /// times `scale` plus `offset`, is about the change of the surface's slope against the view, from

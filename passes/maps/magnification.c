@@ -23,9 +23,11 @@ static pixel_measure measure_pixels(const filter_context *context) {
         return measure;
     }
     const float tangent = tanf(0.5f * camera->vertical_field_of_view);
-    const float aspect = (float)context->view.width / height;
-    // Towards the corner of the picture, at angle t to the axis, the area shrinks by cos t.
-    const float cosine = 1 / sqrtf(1 + tangent * tangent * (1 + aspect * aspect));
+    // Towards the farthest corner of the picture, at angle t to the axis, the area shrinks by cos
+    // t.
+    const float right = (float)context->view.width / height + 2 * fabsf(camera->shift[0]),
+                down = 1 + 2 * fabsf(camera->shift[1]);
+    const float cosine = 1 / sqrtf(1 + tangent * tangent * (down * down + right * right));
     measure.per_depth = 2 * tangent / height * sqrtf(cosine);
     return measure;
 }

@@ -32,13 +32,14 @@ static void environment_from_world(const lobe_environment *environment, const fl
     }
 }
 
-/// Moves the picture so that the samples are at its pixels' centres.
+/// Moves the picture for the camera's shift and the sample.
 static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
                            const vec3 down, vec3 centre) {
-    float x = (1 - 2 * sample[0]) / (float)context->view.width;
-    float y = (1 - 2 * sample[1]) / (float)context->view.height;
+    float shift[2];
+    passes_camera_shift(context->view.camera, context->view.width, context->view.height, sample,
+                        shift);
     for (int i = 0; i < 3; i++)
-        centre[i] -= x * right[i] + y * down[i];
+        centre[i] -= shift[0] * right[i] + shift[1] * down[i];
 }
 
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,

@@ -250,6 +250,62 @@ static void cameras_see_what_they_should(void **state) {
     }
 }
 
+static void sky(const double direction[3], float radiance[3]) {
+    for (int i = 0; i < 3; i++)
+        radiance[i] = (float)(0.5 + 0.4 * direction[i]);
+}
+
+static lobe_scene *square_below_sky(bool perspective) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = material_of(LOBE_MATERIAL_MICROFACET, LOBE_DISTRIBUTION_GGX);
+    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.5, 191));
+    scene_add_square(scene, &material, 2, NULL);
+    scene_surround(scene, 32, sky);
+    scene->environment_visible = true;
+    scene_end(scene);
+    scene->camera = (lobe_camera){.eye = {0.5f, 0.7f, 1.6f},
+                                  .target = {0.1f, 0.2f, -0.1f},
+                                  .up = {0, 1, 0},
+                                  .vertical_field_of_view = perspective ? 1 : 0,
+                                  .orthographic_height = 1.5f,
+                                  .near_plane = 0.1f};
+    scene->has_camera = true;
+    return scene;
+}
+
+/// The picture's quarters, each drawn by a camera of half the height.
+static void shifted_cameras_draw_tiles(void **state) {
+    enum { WIDTH = 24, HEIGHT = 16 };
+    for (int perspective = 0; perspective < 2; perspective++) {
+        lobe_scene *scene = square_below_sky(perspective);
+        picture_request request = {.filter = "moments", .width = WIDTH, .height = HEIGHT};
+        lobe_frame whole = draw_scene(*state, scene, &request);
+        lobe_camera *camera = &scene->camera;
+        if (perspective)
+            camera->vertical_field_of_view =
+                2 * atanf(0.5f * tanf(0.5f * camera->vertical_field_of_view));
+        camera->orthographic_height *= 0.5f;
+        request.width = WIDTH / 2;
+        request.height = HEIGHT / 2;
+        for (uint32_t tile = 0; tile < 4; tile++) {
+            const uint32_t left = tile % 2 * request.width, top = tile / 2 * request.height;
+            camera->shift[0] = (tile % 2 ? 0.5f : -0.5f) * WIDTH / HEIGHT;
+            camera->shift[1] = tile / 2 ? 0.5f : -0.5f;
+            lobe_frame frame = draw_scene(*state, scene, &request);
+            for (uint32_t i = 0; i < request.width * request.height; i++) {
+                const uint32_t x = i % request.width, y = i / request.width;
+                const float *found = pixel_at(&frame.radiance, x, y),
+                            *expected = pixel_at(&whole.radiance, left + x, top + y);
+                for (int channel = 0; channel < 3; channel++)
+                    assert_float_equal(found[channel], expected[channel], 1e-3);
+            }
+            lobe_frame_free(&frame);
+        }
+        lobe_frame_free(&whole);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// More lights than fit in the smallest of buffers.
 static void many_lights_add_up(void **state) {
     enum { COUNT = 3000 };
@@ -507,6 +563,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(base_materials_reflect_all_kinds_of_light),
         cmocka_unit_test(cameras_see_what_they_should),
+        cmocka_unit_test(shifted_cameras_draw_tiles),
         cmocka_unit_test(many_lights_add_up),
         cmocka_unit_test(lobes_are_refined_by_algorithm_1),
         cmocka_unit_test(microfacets_keep_their_shape),

@@ -329,21 +329,22 @@ typedef struct broken_camera {
 
 static void broken_cameras_are_refused(void **state) {
     static const broken_camera cases[] = {
-        {"eye[2] is nan", {{0, 0, NAN}, {0, 0, 0}, {0, 1, 0}, 1, 0, 0.1f}},
-        {"target[0] is inf", {{0, 0, 1}, {INFINITY, 0, 0}, {0, 1, 0}, 1, 0, 0.1f}},
-        {"up[1] is nan", {{0, 0, 1}, {0, 0, 0}, {0, NAN, 0}, 1, 0, 0.1f}},
-        {"up is (0, 0, 0)", {{0, 0, 1}, {0, 0, 0}, {0, 0, 0}, 1, 0, 0.1f}},
-        {"eye is (3, 4, 5); the target", {{3, 4, 5}, {3, 4, 5}, {0, 1, 0}, 1, 0, 0.1f}},
-        {"vertical_field_of_view is nan", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, NAN, 1, 0.1f}},
-        {"vertical_field_of_view is -1", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, -1, 1, 0.1f}},
+        {"eye[2] is nan", {{0, 0, NAN}, {0, 0, 0}, {0, 1, 0}, 1, 0, 0.1f, {0, 0}}},
+        {"target[0] is inf", {{0, 0, 1}, {INFINITY, 0, 0}, {0, 1, 0}, 1, 0, 0.1f, {0, 0}}},
+        {"up[1] is nan", {{0, 0, 1}, {0, 0, 0}, {0, NAN, 0}, 1, 0, 0.1f, {0, 0}}},
+        {"up is (0, 0, 0)", {{0, 0, 1}, {0, 0, 0}, {0, 0, 0}, 1, 0, 0.1f, {0, 0}}},
+        {"eye is (3, 4, 5); the target", {{3, 4, 5}, {3, 4, 5}, {0, 1, 0}, 1, 0, 0.1f, {0, 0}}},
+        {"vertical_field_of_view is nan", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, NAN, 1, 0.1f, {0, 0}}},
+        {"vertical_field_of_view is -1", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, -1, 1, 0.1f, {0, 0}}},
         {"vertical_field_of_view is 3.14159",
-         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 3.14159265f, 1, 0.1f}},
+         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 3.14159265f, 1, 0.1f, {0, 0}}},
         {"near_plane is 0; expected a finite number above 0",
-         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 0, 0}},
-        {"near_plane is -1", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 0, -1}},
-        {"near_plane is inf", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0, 1, INFINITY}},
+         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 0, 0, {0, 0}}},
+        {"near_plane is -1", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 0, -1, {0, 0}}},
+        {"near_plane is inf", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0, 1, INFINITY, {0, 0}}},
         {"orthographic_height (the field of view is 0) is 0",
-         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0, 0, 0.1f}},
+         {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 0, 0, 0.1f, {0, 0}}},
+        {"shift[1] is nan", {{0, 0, 1}, {0, 0, 0}, {0, 1, 0}, 1, 0, 0.1f, {0, NAN}}},
     };
     fixture *f = *state;
     lobe_scene *scene = small_scene();
