@@ -7,23 +7,16 @@
 // and normals made unit length after that. The passes run over the texels of the larger map and
 // read both maps at a few points inside each texel.
 
-#include "interface/material.h"
-#include "interface/specialisation.h"
-#include "lib/lobe/base_lobe.glsl"
 #include "lib/map/normal_map.glsl"
 #include "lib/map/texel_point.glsl"
+#include "maps/base_widths.glsl"
 
-layout(constant_id = SPECIALISE_MODEL) const uint MODEL = MODEL_MICROFACET;
-layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBUTION_GGX;
-layout(constant_id = SPECIALISE_LOBE_COUNT) const uint LOBE_COUNT = 1;
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
-layout(constant_id = SPECIALISE_NORMAL_CONCENTRATION) const bool NORMAL_CONCENTRATION = false;
 layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
 // Points of a texel at which the maps are read: its centre where no map is interpolated.
 const int POINTS = INTERPOLATED ? TEXEL_POINTS : 1;
 
-layout(set = 0, binding = 3, std140) uniform material_block { material_constants material; };
 layout(set = 0, binding = 5) uniform sampler2D normal_map;
 layout(set = 0, binding = 6) uniform sampler2D width_map;
 
@@ -50,22 +43,6 @@ float width_at(vec2 point) {
         return 1.0;
     vec4 value = textureLod(width_map, point, 0.0);
     return MODEL == MODEL_MICROFACET ? value.g : value.r;
-}
-
-// The parameter of base lobe `i`, normals inside a texel included.
-float base_parameter(int i, float factor) {
-    float parameter = MODEL == MODEL_MICROFACET
-                          ? microfacet_parameter(DISTRIBUTION, material.roughness * factor)
-                          : base_lobe_parameter(DISTRIBUTION,
-                                                material.lobe_direction[i].w * factor);
-    if (NORMAL_CONCENTRATION)
-        parameter = convolved_parameter(DISTRIBUTION, parameter, material.normal_concentration);
-    return parameter;
-}
-
-// Its concentration kappa as a von Mises-Fisher lobe.
-float base_concentration(int i, float factor) {
-    return base_lobe_concentration(DISTRIBUTION, base_parameter(i, factor));
 }
 
 #endif

@@ -1,6 +1,8 @@
 #ifndef LIB_ORDERED_DITHER_GLSL
 #define LIB_ORDERED_DITHER_GLSL
 
+#include "lib/number/hash.glsl"
+
 // A threshold in (0, 1) for each pixel, fixed to the picture. Of the pixels of an aligned block of
 // 2^k x 2^k, k <= 4, exactly one is in each of the 4^k equal parts of (0, 1): Bayer's order
 // (Bayer 1973, An optimum method for two-level rendition of continuous-tone pictures). The four
@@ -9,20 +11,13 @@
 
 const int DITHER_LEVELS = 4;
 
-// Wellons 2018, Prospecting for hash functions: lowbias32.
-uint dither_hash(uint value) {
-    value = (value ^ (value >> 16u)) * 0x7feb352du;
-    value = (value ^ (value >> 15u)) * 0x846ca68bu;
-    return value ^ (value >> 16u);
-}
-
 // `layer`: each number has its own order.
 float ordered_dither(uvec2 pixel, uint layer) {
     uint index = 1u; // base 4, after a leading one that tells the levels apart
     for (int level = 0; level < DITHER_LEVELS; ++level) {
         uvec2 bits = pixel & 1u;
         pixel >>= 1u;
-        uint order = dither_hash(dither_hash(dither_hash(layer + index) + pixel.x) + pixel.y) & 3u;
+        uint order = hash(hash(hash(layer + index) + pixel.x) + pixel.y) & 3u;
         index = 4u * index + ((((bits.x ^ bits.y) << 1u) | bits.y) ^ order);
     }
     float parts = exp2(float(2 * DITHER_LEVELS));
