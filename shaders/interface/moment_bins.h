@@ -21,6 +21,8 @@
 #define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 21) // uint, PARTITION_...
 #define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 22) // bool: bins have colours
 #define SPECIALISE_BIN_WIDTHS (SPECIALISE_FILTER + 23) // bool: base lobes differ in width
+// bool: texels of colour maps may exceed one
+#define SPECIALISE_BRIGHT_TEXELS (SPECIALISE_FILTER + 24)
 
 // Numbers of the filter's knobs (see knobs.h).
 struct moments_knobs {
@@ -50,13 +52,16 @@ INTERFACE_OFFSET(moment_bin, range, 32)
 typedef struct moment_bin moment_bin;
 #endif
 
-// Uniform block of moment_binning and of the filter (std140). Not specialisation constants, because
-// each material and each change of one would then need its own pipelines.
+// Uniform block of moment_binning and of the filter (std140), and what moment_refit writes. Not
+// specialisation constants, because each material and each change of one would then need its own
+// pipelines.
 struct moment_binning_constants {
     // Partitions by hats: x, y: the middle; z: 1 / width of a hat; w: variance from which a lobe
     // is rough.
     float4 hats;
-    float4 largest; // x: mass of a texel's lobes; y: colour
+    // x: mass of a texel's lobes; y: texel of the maps of the bins' colours, which times the
+    // material's largest_colour is their unit.
+    float4 largest;
     moment_bin bins[MOMENT_MAXIMUM_BINS];
 };
 INTERFACE_SIZE(moment_binning_constants, 320)

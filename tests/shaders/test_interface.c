@@ -21,6 +21,7 @@
 #include "shaders/interface/material.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
+#include "shaders/interface/moment_refit.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "tests/engine/support/cmocka_all.h"
@@ -103,6 +104,16 @@ static known_member known[] = {
     MEMBER(moment_binning_constants, largest, 1),
     MEMBER(moment_binning_constants, bins, 2),
     MEMBER(moments_knobs, least_share, 0),
+    MEMBER(cell_survey_constants, width, 0),
+    MEMBER(cell_survey_constants, height, 1),
+    MEMBER(cell_survey_constants, columns, 2),
+    MEMBER(cell_survey_constants, rows, 3),
+    MEMBER(survey_extremes, places, 0),
+    MEMBER(survey_extremes, factors, 1),
+    MEMBER(refit_constants, cells, 0),
+    MEMBER(refit_constants, lobes, 1),
+    MEMBER(refit_constants, points, 2),
+    MEMBER(refit_constants, bins, 3),
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
     MEMBER(vertex, position, 0),

@@ -15,6 +15,18 @@ vec2 plane_from_direction(vec3 direction) {
     return direction.xy * sqrt(2.0 / opposite);
 }
 
+// How far along each axis of the plane directions lie that have this one's slope along it: what is
+// interpolated between directions has a slope between theirs, but its place may lie beyond theirs.
+vec2 reach_from_direction(vec3 direction) {
+    vec2 along = direction.xy;
+    vec2 size = sqrt(along * along + direction.z * direction.z);
+    vec2 square = size * (size + direction.z);
+    return vec2(square.x < 1e-6 ? (along.x < 0.0 ? -2.0 : 2.0) * size.x
+                                : along.x * sqrt(2.0 / square.x),
+                square.y < 1e-6 ? (along.y < 0.0 ? -2.0 : 2.0) * size.y
+                                : along.y * sqrt(2.0 / square.y));
+}
+
 // The unit direction of a place; beyond the disc, that of the nearest point on its rim.
 vec3 direction_from_plane(vec2 place) {
     float square = min(dot(place, place), 4.0);
