@@ -8,8 +8,9 @@
 #include "passes/upload/device_scene.h"
 #include "shaders/interface/moment_bins.h"
 
-/// How a material's lobes are distributed over bins, decided once on the host from its maps, and
-/// the ranges of the bins' moments (all but those of colours), so that 16 bits hold them precisely.
+/// How a material's lobes are distributed over bins, and the ranges of the bins' moments (all but
+/// those of colours), so that 16 bits hold them precisely: decided once, on the host, from the
+/// material's maps. For other texels of these, moments/refit.h adapts the constants.
 ///
 /// A fitted partition is a mixture of Gaussians for the whole material, from expectation
 /// maximisation over some thousand of its lobes. Each lobe counts as several points; their number
@@ -20,6 +21,7 @@ typedef struct moment_partition {
     uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
     bool own_colours;       ///< bins have specular colours of their own
     uint32_t width, height; ///< of the base maps, texels: the larger of normal and width map
+    float points;           ///< that a lobe counts as; 0: the host cannot read the maps
     struct moment_binning_constants constants;
 } moment_partition;
 

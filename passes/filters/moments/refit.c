@@ -1,0 +1,55 @@
+#include "passes/filters/moments/refit.h"
+
+#include <stdio.h>
+
+#include "passes/context/material_specialisation.h"
+#include "passes/filters/moments/cell_survey.h"
+#include "shaders/interface/moment_refit.h"
+
+static void read_inputs(const filter_context *context, uint32_t index,
+                        const moment_partition *partition, const cell_survey *survey,
+                        lobe_pass *pass) {
+    const device_material *material = &context->scene->materials[index];
+    const lobe_resource first = lobe_graph_upload(
+        context->graph, "first bins", &partition->constants, sizeof partition->constants);
+    const lobe_resource constants =
+        lobe_graph_import_buffer(context->graph, material->map_constants);
+    lobe_pass_read(pass, &(lobe_binding){.name = "material_block", .resource = constants});
+    lobe_pass_read(pass, &(lobe_binding){.name = "extremes_block", .resource = survey->extremes});
+    lobe_pass_read(pass, &(lobe_binding){.name = "lobes_block", .resource = survey->lobes});
+    lobe_pass_read(pass, &(lobe_binding){.name = "first_block", .resource = first});
+}
+
+static void dispatch(lobe_graph *graph, const device_material *material,
+                     const moment_partition *partition, bool bright_texels,
+                     const struct refit_constants *constants, lobe_pass *pass) {
+    specialisation_list list = {.graph = graph};
+    passes_material_specialise(material, &list);
+    passes_specialise(&list, SPECIALISE_PARTITION, partition->kind);
+    passes_specialise(&list, SPECIALISE_BRIGHT_TEXELS, bright_texels);
+    lobe_pass_dispatch(pass, &(lobe_dispatch){
+                                 .shader = "filters/moments/refit.comp",
+                                 .constants = constants,
+                                 .constants_size = sizeof *constants,
+                                 .specialisation = list.items,
+                                 .specialisation_count = list.count,
+                             });
+}
+
+lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
+                                  const moment_partition *partition, bool bright_texels) {
+    const cell_survey survey = passes_moment_cell_survey(context, index, bright_texels);
+    const struct refit_constants constants = {survey.cells, survey.lobe_count, partition->points,
+                                              partition->bins};
+    char name[64];
+    snprintf(name, sizeof name, "bins of material %u", index);
+    lobe_resource bins = lobe_graph_buffer(
+        context->graph, &(lobe_buffer_description){
+                            .name = name, .size = sizeof partition->constants, .retained = true});
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_refit");
+    read_inputs(context, index, partition, &survey, pass);
+    bins = lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
+    dispatch(context->graph, &context->scene->materials[index], partition, bright_texels,
+             &constants, pass);
+    return bins;
+}

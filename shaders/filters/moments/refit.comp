@@ -1,0 +1,520 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Fits the bins of a material to other texels: expectation maximisation over the sample that
+// moment_cell_survey drew, from the bins that were fitted to the material's first texels, so that a
+// bin stays the same bin from fit to fit. If other starts lead to a better fit, the best of those
+// is taken. Then the units of the bins' moments. In C for a material's first texels:
+// passes/filters/moments/partition.h. One group, all sums in a fixed order.
+//
+// Everything that the group adds up goes through one function, called at one place: lavapipe
+// compiles for seconds what it inlines at several, with a barrier at each.
+
+#include "interface/moment_bins.h"
+#include "interface/moment_refit.h"
+#include "lib/lobe/bin_membership.glsl"
+#include "lib/lobe/plane_lobe.glsl"
+#include "maps/base_widths.glsl"
+
+const uint THREADS = 128;
+
+layout(local_size_x = THREADS) in;
+
+layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
+layout(constant_id = SPECIALISE_BRIGHT_TEXELS) const bool BRIGHT_TEXELS = false;
+
+// The numbers of all survey_extremes.
+layout(set = 0, binding = 16, std430) readonly buffer extremes_block { float extremes[]; };
+layout(set = 0, binding = 17, std430) readonly buffer lobes_block { vec4 lobes[]; };
+layout(set = 0, binding = 18, std140) uniform first_block { moment_binning_constants first_bins; };
+layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
+    moment_binning_constants binning;
+};
+
+layout(push_constant) uniform constants_block { refit_constants constants; };
+
+// Of a fit; more do not change a picture. And between one added bin and the next.
+const int ROUNDS = 30, ROUNDS_OF_ADDED = 5;
+
+// lavapipe leaves all loops of a thread when it has gone through them 65535 times in all. No more
+// is tried after so many, which leaves enough for the range and the last measurement.
+const uint MOST_ITERATIONS = 60000;
+
+// The part of its score by which a fit must be better than that from the first bins.
+const float GAIN = 0.02;
+
+// A bin with a smaller part of all lobes starts anew.
+const float LEAST_PART = 1e-9;
+
+// For lobes that are not in the sample. What exceeds it is clipped, if the storage format demands
+// that.
+const float MARGIN = 1.25;
+
+shared moment_bin bins[MOMENT_MAXIMUM_BINS];
+shared vec4 gaussians[MOMENT_MAXIMUM_BINS]; // of the bins: covariance (xx, yy, xy), and their part
+shared moment_bin kept_bins[MOMENT_MAXIMUM_BINS];
+
+uint thread() {
+    return gl_LocalInvocationID.x;
+}
+
+// ---------------------------------------------------------------------------------------------
+// What the lobes are within
+
+struct plane_range {
+    vec2 low, high;  // of their places
+    float sharpest;  // root of the concentration
+    float broadest;  // variance
+    float heaviest;  // mass of a texel's lobes
+    float brightest; // texel of the bins' colours
+};
+
+const uint EXTREMES = 8; // numbers of survey_extremes
+shared float least[EXTREMES];
+
+// The largest mass that plane_mass can give this lobe, for either setting of the knob `base`.
+float largest_mass(float kappa) {
+    float mass = plane_mass(MODEL, DISTRIBUTION_VMF, kappa);
+    if (MODEL != MODEL_MICROFACET)
+        return mass;
+    float square = min(2.0 / max(kappa, 1e-6), GGX_SQUARE_MAXIMUM);
+    return max(mass, max(1.0 / (1.0 - square), 1.0 + plane_variance(DISTRIBUTION_VMF, kappa)));
+}
+
+// The largest mass of a lobe between two concentrations.
+float largest_mass_between(float least, float most) {
+    const int STEPS = 32;
+    float low = max(least, 1e-3), ratio = max(most, low) / low;
+    // The peak, at the broadest lobe that the plane holds.
+    float mass = largest_mass(clamp(1.0 / PLANE_VARIANCE_MAXIMUM, least, most));
+    for (int i = 0; i <= STEPS; ++i)
+        mass = max(mass, largest_mass(low * pow(ratio, float(i) / float(STEPS))));
+    return mass;
+}
+
+void measure_widths(vec2 factors, inout plane_range range) {
+    range.sharpest = 0.45;
+    range.broadest = 0.0;
+    range.heaviest = 0.0; // of all lobes, which one bin may get
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        float a = base_concentration(i, factors.x), b = base_concentration(i, factors.y);
+        float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
+        range.heaviest += share * largest_mass_between(min(a, b), max(a, b));
+        range.sharpest = max(range.sharpest, sqrt(max(a, b)));
+        range.broadest =
+            max(range.broadest,
+                max(plane_variance(DISTRIBUTION, base_parameter(i, factors.x)),
+                    plane_variance(DISTRIBUTION, base_parameter(i, factors.y))));
+    }
+    range.heaviest = max(range.heaviest, 1e-6);
+}
+
+plane_range find_range() {
+    if (thread() < EXTREMES) {
+        float value = 1e30;
+        for (uint i = thread(); i < EXTREMES * constants.cells; i += EXTREMES)
+            value = min(value, extremes[i]);
+        least[thread()] = value;
+    }
+    barrier();
+    plane_range range;
+    range.low = vec2(least[0], least[1]);
+    range.high = -vec2(least[2], least[3]);
+    range.brightest = -least[6];
+    measure_widths(vec2(least[4], -least[5]), range);
+    return range;
+}
+
+// A corner of the range of all places, where samples are rare. Without weight.
+vec4 corner_of(plane_range range, uint index) {
+    return vec4((index & 1u) != 0u ? range.low.x : range.high.x,
+                (index & 2u) != 0u ? range.low.y : range.high.y,
+                (index & 4u) != 0u ? range.broadest : 1.0 / (range.sharpest * range.sharpest),
+                0.0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// What the bins have of the sample
+
+// Sums over all lobes, w the weight of what the bin has of them, d their place from its centre, v
+// their variance:
+const uint WEIGHT = 0;     // w
+const uint PLACE = 1;      // w d
+const uint VARIANCE = 3;   // w v
+const uint MOMENTS = 4;    // w d d: xx, yy, xy
+const uint LIKELIHOOD = 7; // of a lobe under all bins, times its weight
+const uint OVERLAP = 8;    // of the bin's Gaussian with a lobe's, times its weight
+const uint SUMS = 9;
+// Largest numbers. With the bin's share r of a lobe:
+const uint REACH = 9;       // max(|d_x|, |d_y|) sqrt(r): of r |d| / s and r d^2 / s^2 none exceeds
+                            // one in units s of it
+const uint BROADEST = 10;   // r v
+const uint SHARPEST = 11;   // r sqrt(concentration)
+const uint SMALLEST = 12;   // -v
+const uint WORST = 13;      // what a lobe's likelihood lacks of the mean, times its weight,
+const uint WORST_LOBE = 14; // and the first lobe for which that is largest
+const uint NUMBERS = 15;
+
+shared float own_numbers[NUMBERS][THREADS];
+shared float numbers[MOMENT_MAXIMUM_BINS][NUMBERS];
+
+// Likelihoods of a lobe under bins.
+struct bin_likelihoods {
+    float own; // under one of them
+    float most, sum; // the sum of all is sum exp(most)
+};
+
+float likelihood_of(vec4 lobe, uint index, uint count) {
+    return index < count ? bin_likelihood(bins[index], lobe.xy, lobe.z) : -1e30;
+}
+
+// In threes, for fewer iterations.
+bin_likelihoods likelihoods_of(vec4 lobe, uint index, uint count) {
+    bin_likelihoods result = bin_likelihoods(0.0, -1e30, 0.0);
+    for (uint i = 0; i < count; i += 3) {
+        vec3 values = vec3(likelihood_of(lobe, i, count), likelihood_of(lobe, i + 1, count),
+                           likelihood_of(lobe, i + 2, count));
+        float most = max(max(values.x, values.y), max(values.z, result.most));
+        result.sum = result.sum * exp(result.most - most) + dot(exp(values - most), vec3(1.0));
+        result.most = most;
+        if (index >= i && index < i + 3)
+            result.own = values[index - i];
+    }
+    return result;
+}
+
+struct merged_number {
+    float value, lobe;
+};
+
+// A number of `count` threads, each `step` after the other.
+merged_number merge_threads(uint number, uint first, uint count, uint step) {
+    merged_number result =
+        merged_number(own_numbers[number][first], own_numbers[WORST_LOBE][first]);
+    for (uint i = 1; i < count; ++i) {
+        float other = own_numbers[number][first + i * step];
+        if (other > result.value)
+            result.lobe = own_numbers[WORST_LOBE][first + i * step];
+        result.value = number < SUMS ? result.value + other : max(result.value, other);
+    }
+    return result;
+}
+
+// Adds up what all threads have: in parts, and then those. Always in the same order.
+void merge(uint index) {
+    const uint PARTS = 8, SIZE = THREADS / PARTS;
+    uint number = thread() / PARTS, first = thread() % PARTS * SIZE;
+    barrier();
+    if (number < WORST_LOBE) {
+        merged_number part = merge_threads(number, first, SIZE, 1);
+        own_numbers[number][first] = part.value;
+        if (number == WORST)
+            own_numbers[WORST_LOBE][first] = part.lobe;
+    }
+    barrier();
+    if (thread() < WORST_LOBE) {
+        merged_number whole = merge_threads(thread(), 0, PARTS, SIZE);
+        numbers[index][thread()] = whole.value;
+        if (thread() == WORST)
+            numbers[index][WORST_LOBE] = whole.lobe;
+    }
+    barrier();
+}
+
+// Up to a constant factor.
+float evaluate_gaussian(vec2 d, vec3 covariance) {
+    float determinant = max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-16);
+    float square = dot(vec3(covariance.yx, -2.0 * covariance.z), vec3(d * d, d.x * d.y));
+    return exp(-0.5 * square / determinant) / sqrt(determinant);
+}
+
+// What the rounds do.
+const uint FROM_FIRST = 0;  // improve the first bins
+const uint GROW = 1;        // improve one bin, and add others
+const uint BY_DISTANCE = 2; // improve bins of equal steps of the distance from the middle
+const uint BY_WIDTH = 3;    // and of the logarithm of the variance
+const uint MEASURE = 4;     // nothing: the numbers of the best of all are wanted
+
+struct progress {
+    uint step, round;
+    uint count;       // of bins
+    float likelihood; // of the last round
+    float score;      // the same
+    float kept_score; // of the bins kept
+    bool gained;      // those are not from the first
+    uint iterations;  // of a thread's loops
+    // Of all lobes: the middle, how far they are from it, and logarithms of the variance.
+    vec2 middle;
+    float reach, narrowest, broadest;
+};
+
+// In the first round of these, lobes belong to bins by a key.
+bool sorts(progress at) {
+    return at.round == 0 && (at.step == BY_DISTANCE || at.step == BY_WIDTH);
+}
+
+uint sorted_bin(vec4 lobe, progress at) {
+    vec2 d = abs(lobe.xy - at.middle);
+    float part = at.step == BY_DISTANCE
+                     ? max(d.x, d.y) / at.reach
+                     : (log(lobe.z) - at.narrowest) / (at.broadest - at.narrowest);
+    return uint(clamp(part, 0.0, 0.999) * float(at.count));
+}
+
+// Fills the numbers of one bin.
+void visit(uint index, progress at, plane_range range) {
+    vec4 sums = vec4(0.0), moments = vec4(0.0), largest = vec4(0.0, 0.0, 0.0, -1e30);
+    float worst = -1e30, worst_lobe = 0.0, overlap = 0.0;
+    vec2 centre = bins[index].centre.xy;
+    uint corners = PARTITION == PARTITION_FITTED ? 8 : 0;
+    for (uint n = thread(); n < constants.lobes + corners; n += THREADS) {
+        vec4 lobe = n < constants.lobes ? lobes[n] : corner_of(range, n - constants.lobes);
+        bin_likelihoods all = likelihoods_of(lobe, index, at.count);
+        float member = exp(all.own - all.most) / all.sum;
+        if (sorts(at))
+            member = sorted_bin(lobe, at) == index ? 1.0 : 0.0;
+        vec2 d = lobe.xy - centre;
+        overlap += lobe.w * evaluate_gaussian(d, gaussians[index].xyz + vec3(lobe.zz, 0.0));
+        float weight = member * lobe.w, total = all.most + log(all.sum);
+        float lack = lobe.w * (at.likelihood - total);
+        sums += weight * vec4(1.0, d, lobe.z);
+        moments += vec4(weight * vec3(d * d, d.x * d.y), lobe.w * total);
+        // The root of the concentration is larger than 1 / sqrt(variance) for GGX.
+        largest = max(largest, vec4(sqrt(member) * max(abs(d.x), abs(d.y)), member * lobe.z,
+                                    member * sqrt((1.0 + 2.0 * lobe.z) / lobe.z), -lobe.z));
+        worst_lobe = lack > worst ? float(n) : worst_lobe;
+        worst = max(worst, lack);
+    }
+    for (uint i = 0; i < 4; ++i) {
+        own_numbers[i][thread()] = sums[i];
+        own_numbers[4 + i][thread()] = moments[i];
+        own_numbers[REACH + i][thread()] = largest[i];
+    }
+    own_numbers[OVERLAP][thread()] = overlap;
+    own_numbers[WORST][thread()] = worst;
+    own_numbers[WORST_LOBE][thread()] = worst_lobe;
+    merge(index);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Expectation and maximisation
+
+// The bin of a Gaussian with this part of all lobes.
+void set_bin(uint index, float part, vec2 mean, vec3 covariance) {
+    float determinant = max(covariance.x * covariance.y - covariance.z * covariance.z, 1e-16);
+    vec3 inverse = vec3(covariance.yx, -covariance.z) / determinant;
+    float half_points = 0.5 * constants.points;
+    bins[index].centre = vec4(mean, log(part) - half_points * log(determinant),
+                              half_points * (inverse.x + inverse.y));
+    bins[index].shape.xyz = half_points * inverse;
+    gaussians[index] = vec4(covariance, part);
+}
+
+// At the lobe that the bins serve worst.
+void set_bin_anew(uint index, uint count) {
+    vec4 lobe = lobes[uint(numbers[0][WORST_LOBE])];
+    set_bin(index, 1.0 / float(count), lobe.xy, vec3(lobe.zz, 0.0));
+}
+
+void maximise(uint index, float total) {
+    float weight = numbers[index][WEIGHT];
+    vec2 step = vec2(numbers[index][PLACE], numbers[index][PLACE + 1]) / weight;
+    vec3 covariance = vec3(numbers[index][MOMENTS], numbers[index][MOMENTS + 1],
+                           numbers[index][MOMENTS + 2]) /
+                          weight -
+                      vec3(step * step, step.x * step.y);
+    covariance.xy = max(covariance.xy, 0.0) + numbers[index][VARIANCE] / weight;
+    set_bin(index, weight / total, bins[index].centre.xy + step, covariance);
+}
+
+float total_weight(uint count) {
+    float total = 0.0;
+    for (uint i = 0; i < count; ++i)
+        total += numbers[i][WEIGHT];
+    return total;
+}
+
+// The last of the bins that have lost all lobes; `count` if there is none.
+uint lost_bin(uint count, float total) {
+    uint lost = count;
+    for (uint i = 0; i < count; ++i)
+        lost = numbers[i][WEIGHT] < LEAST_PART * total ? i : lost;
+    return lost;
+}
+
+// Each thread one bin.
+void improve(uint count, uint lost, float total) {
+    if (thread() == lost)
+        set_bin_anew(lost, count);
+    else if (thread() < count && numbers[thread()][WEIGHT] >= LEAST_PART * total)
+        maximise(thread(), total);
+}
+
+// ---------------------------------------------------------------------------------------------
+// The units of the bins' moments
+
+// The origin is the bin's centre, so that the moments of a small bin keep their digits.
+void set_fitted_ranges(uint index, plane_range range) {
+    // A bin without any lobe has units, too.
+    float reach = max(MARGIN * numbers[index][REACH], 1e-3);
+    float broadest = max(MARGIN * numbers[index][BROADEST], 1e-6);
+    float sharpest = max(MARGIN * numbers[index][SHARPEST], 1e-3);
+    bins[index].range = vec4(bins[index].centre.xy, reach, min(sharpest, range.sharpest));
+    bins[index].shape.w = min(broadest, range.broadest);
+}
+
+// Of hats: of any lobes, except that only bin 0 has rough ones.
+void set_common_ranges(uint index, plane_range range, float rough) {
+    vec2 half_size = 0.501 * (range.high - range.low);
+    bins[index].centre = vec4(0.0);
+    bins[index].shape = vec4(0.0, 0.0, 0.0,
+                             index == 0 ? range.broadest : min(range.broadest, rough));
+    bins[index].range = vec4(0.5 * (range.low + range.high),
+                             max(max(half_size.x, half_size.y), 1e-3), range.sharpest);
+}
+
+// Two standard deviations of the lobes' places wide, from the numbers of a bin that has all lobes
+// and is centred at their mean. Lobes count as rough if their variance is above the geometric mean
+// of the smallest and the largest, if those differ.
+vec4 hats_of() {
+    float variance = 0.5 * (numbers[0][MOMENTS] + numbers[0][MOMENTS + 1]) / numbers[0][WEIGHT];
+    float most = numbers[0][BROADEST], least = -numbers[0][SMALLEST];
+    return vec4(bins[0].centre.xy, 0.5 / sqrt(max(variance, 1e-8)),
+                most > 1.2 * least ? sqrt(least * most) : 1e9);
+}
+
+// ---------------------------------------------------------------------------------------------
+// All steps
+
+void keep_bins(inout progress at) {
+    if (thread() < constants.bins)
+        kept_bins[thread()] = bins[thread()];
+    at.kept_score = at.score;
+}
+
+// When a single bin has all lobes.
+void measure_whole(inout progress at) {
+    at.middle = bins[0].centre.xy;
+    at.reach = max(numbers[0][REACH], 1e-6);
+    at.narrowest = log(-numbers[0][SMALLEST]);
+    at.broadest = log(numbers[0][BROADEST]);
+}
+
+// Nothing more is tried.
+void finish(inout progress at) {
+    at.step = MEASURE;
+    at.count = constants.bins;
+    if (thread() < constants.bins)
+        bins[thread()] = kept_bins[thread()];
+}
+
+// The step after a fit of all bins.
+void end_step(inout progress at) {
+    bool first = at.step == FROM_FIRST;
+    if (first || at.score < at.kept_score * (at.gained ? 1.0 : 1.0 + GAIN)) {
+        at.gained = !first;
+        keep_bins(at);
+    }
+    ++at.step;
+    if (at.step == BY_WIDTH && !(at.broadest > at.narrowest + 0.2))
+        ++at.step;
+    if (at.step == GROW)
+        at.count = 1;
+    if (at.step == MEASURE || constants.bins == 1)
+        finish(at);
+}
+
+// When a fit has settled: what comes next.
+void go_on(inout progress at) {
+    at.round = 0;
+    if (at.count == constants.bins) {
+        end_step(at);
+        return;
+    }
+    if (at.count == 1)
+        measure_whole(at);
+    if (thread() == 0)
+        set_bin_anew(at.count, at.count + 1);
+    ++at.count;
+}
+
+// The squared error of the bins as Gaussians, integrated over the plane, without what does not
+// depend on them: the integral of bins^2 - 2 bins lobes. (Likelihoods do not tell which of two fits
+// a picture is better with.)
+float score_of(progress at, float total) {
+    float score = 0.0;
+    for (uint i = 0; i < at.count; ++i) {
+        score -= 2.0 * gaussians[i].w * numbers[i][OVERLAP] / total;
+        for (uint k = 0; k < at.count; ++k)
+            score += gaussians[i].w * gaussians[k].w *
+                     evaluate_gaussian(bins[i].centre.xy - bins[k].centre.xy,
+                                       gaussians[i].xyz + gaussians[k].xyz);
+    }
+    return score;
+}
+
+// About those of a thread's loops in a round.
+uint iterations_of_round(uint count) {
+    uint lobes = constants.lobes / THREADS + 2;
+    return count * (lobes * (1 + (count + 2) / 3) + 30 + count);
+}
+
+void take_round(inout progress at) {
+    float total = total_weight(at.count), former = at.likelihood;
+    uint lost = lost_bin(at.count, total);
+    at.likelihood = numbers[0][LIKELIHOOD] / total;
+    ++at.round;
+    at.iterations += iterations_of_round(at.count);
+    bool settled = at.round > 2 && lost == at.count && at.likelihood <= former + 1e-4;
+    at.score = score_of(at, total);
+    barrier();
+    improve(at.count, lost, total);
+    barrier();
+    if (at.iterations > MOST_ITERATIONS)
+        finish(at);
+    else if (settled || at.round == (at.count < constants.bins ? ROUNDS_OF_ADDED : ROUNDS))
+        go_on(at);
+    barrier();
+}
+
+void fit(plane_range range) {
+    bool fitted = PARTITION == PARTITION_FITTED;
+    progress at;
+    at.step = FROM_FIRST;
+    at.count = fitted ? constants.bins : 1; // for hats, one that moves to the mean
+    at.round = 0;
+    at.iterations = 0;
+    at.likelihood = at.score = at.kept_score = 0.0;
+    at.gained = false;
+    for (;;) {
+        for (uint i = 0; i < at.count; ++i)
+            visit(i, at, range);
+        if (at.step == MEASURE)
+            break;
+        take_round(at);
+        if (!fitted)
+            at.step = MEASURE;
+    }
+}
+
+void main() {
+    if (thread() < MOMENT_MAXIMUM_BINS)
+        bins[thread()] = first_bins.bins[thread()];
+    plane_range range = find_range();
+    fit(range);
+    vec4 hats = PARTITION == PARTITION_FITTED ? first_bins.hats : hats_of();
+    barrier();
+    if (thread() < constants.bins) {
+        if (PARTITION == PARTITION_FITTED)
+            set_fitted_ranges(thread(), range);
+        else
+            set_common_ranges(thread(), range, hats.w);
+    }
+    if (thread() < MOMENT_MAXIMUM_BINS)
+        binning.bins[thread()] = bins[thread()];
+    if (thread() == 0) {
+        binning.hats = hats;
+        binning.largest = vec4(1.001 * range.heaviest,
+                               BRIGHT_TEXELS ? range.brightest : first_bins.largest.y, 0.0, 0.0);
+    }
+}
