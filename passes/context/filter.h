@@ -72,6 +72,9 @@ struct lobe_filter {
     /// Logs nothing: a failure fails the frame, with one line. The slot must then still be valid
     /// for `forget` or another attempt. NULL: the filter keeps nothing.
     lobe_result (*prepare)(const filter_context *context, uint32_t material, void **slot);
+    /// What is kept of a material serves other texels in the same maps, too: `build` adds passes
+    /// that adapt it. The slot then stays valid when nothing but texels has changed.
+    bool adapts_to_texels;
     /// Frees what `prepare` put into a slot; never called with NULL. Required if there is a
     /// `prepare`.
     void (*forget)(void *slot);

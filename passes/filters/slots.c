@@ -2,7 +2,7 @@
 
 typedef struct filter_slot {
     void *prepared;
-    uint32_t version; ///< of the material that it was prepared for
+    uint32_t version; ///< of the material that it was prepared for, as version_of has it
 } filter_slot;
 
 struct filter_slots {
@@ -12,6 +12,11 @@ struct filter_slots {
     size_t count;           ///< one for each material of the scene
     filter_slot slots[];
 };
+
+/// The version of a material that what the filter keeps is valid for.
+static uint32_t version_of(const lobe_filter *filter, const device_material *material) {
+    return filter->adapts_to_texels ? material->parameter_version : material->version;
+}
 
 static void forget(const lobe_filter *filter, filter_slot *slot) {
     if (slot->prepared)
@@ -54,7 +59,7 @@ lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_conte
     if (!own)
         return LOBE_ERROR_OUT_OF_MEMORY;
     filter_slot *slot = &own->slots[material];
-    slot->version = context->scene->materials[material].version;
+    slot->version = version_of(context->filter, &context->scene->materials[material]);
     lobe_result result = context->filter->prepare(context, material, &slot->prepared);
     *prepared = slot->prepared;
     return result;
@@ -63,7 +68,7 @@ lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_conte
 void passes_filter_slots_update(filter_slots *slots, const device_scene *scene) {
     for (; slots; slots = slots->next)
         for (size_t i = 0; i < slots->count; i++)
-            if (slots->slots[i].version != scene->materials[i].version)
+            if (slots->slots[i].version != version_of(slots->filter, &scene->materials[i]))
                 forget(slots->filter, &slots->slots[i]);
 }
 

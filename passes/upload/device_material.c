@@ -1,5 +1,6 @@
 #include "passes/upload/device_scene_parts.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "passes/upload/material_lobes.h"
@@ -16,6 +17,18 @@ static void fill_lobes(const lobe_material *material, struct material_constants 
     }
 }
 
+static float largest_colour(const lobe_material *material) {
+    const bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    float largest = 1;
+    for (int i = 0; i < 3; i++) {
+        largest = fmaxf(largest, material->base_colour[i]);
+        for (uint32_t k = 0; !microfacet && k < material->lobe_count; k++)
+            largest = fmaxf(largest, material->lobes[k].colour[i] /
+                                         fmaxf(passes_material_lobe_share(material, k), 1e-6f));
+    }
+    return largest;
+}
+
 static void fill_constants(const device_material *material, struct material_constants *constants) {
     const lobe_material *source = material->material;
     memset(constants, 0, sizeof *constants);
@@ -27,6 +40,7 @@ static void fill_constants(const device_material *material, struct material_cons
     constants->normal_scale = source->normal_scale;
     constants->normal_concentration = source->normal_concentration;
     constants->occlusion_strength = source->occlusion_strength;
+    constants->largest_colour = largest_colour(source);
     if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         fill_lobes(source, constants);
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
@@ -100,7 +114,13 @@ static lobe_result find_maps(device_scene *result, device_material *material,
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
-        material->maps[map] = (device_map){use, use->image, image->width, image->height};
+        float first[4];
+        material->maps[map] = (device_map){.use = use,
+                                           .image = use->image,
+                                           .width = image->width,
+                                           .height = image->height,
+                                           .format = image->format,
+                                           .readable = passes_image_texel(image, 0, 0, first)};
         material->map_bits |= 1u << map;
         if (use->texture_coordinates)
             material->second_coordinates |= 1u << map;
@@ -113,6 +133,7 @@ static void forget_paint(struct material_constants *constants) {
     memset(constants->base_colour, 0, sizeof constants->base_colour);
     memset(constants->emissive, 0, sizeof constants->emissive);
     constants->occlusion_strength = 0;
+    constants->largest_colour = 0;
 }
 
 /// What neither the directions nor the widths of lobes depend on.
@@ -160,10 +181,15 @@ static lobe_result store_constants(lobe_graph *graph, device_material *material)
     return store(graph, name, &constants, &material->map_constants);
 }
 
-/// Whether the material has the lobes that it had, apart from changes in the images.
+static bool is_same_map(const device_map *a, const device_map *b) {
+    return a->image == b->image && a->width == b->width && a->height == b->height &&
+           a->format == b->format && a->readable == b->readable;
+}
+
+/// Whether the material has the lobes that it had, apart from other texels in its maps.
 static bool keeps_lobes(const device_material *before, const device_material *after) {
     for (uint32_t map = 0; map < MAP_COUNT; map++)
-        if (before->maps[map].image != after->maps[map].image)
+        if (!is_same_map(&before->maps[map], &after->maps[map]))
             return false;
     return before->model == after->model && before->distribution == after->distribution &&
            before->lobe_count == after->lobe_count &&
@@ -184,13 +210,17 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
                                   .constants = before.constants,
                                   .map_constants = before.map_constants,
                                   .values = before.values,
-                                  .version = before.version};
+                                  .version = before.version,
+                                  .parameter_version = before.parameter_version};
+    memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);
         status = store_constants(scene->graph, material);
     }
-    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material))
+    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material)) {
         ++material->version;
+        ++material->parameter_version;
+    }
     return status;
 }

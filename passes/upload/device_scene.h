@@ -13,6 +13,8 @@ typedef struct device_map {
     const lobe_texture_use *use; ///< NULL: the material has no such map
     int32_t image;               ///< of the scene, when the map was uploaded
     uint32_t width, height;      ///< texels
+    lobe_format format;
+    bool readable; ///< by the host
 } device_map;
 
 /// The third channel of an image's texels: metal, where a material uses it so.
@@ -41,6 +43,9 @@ typedef struct device_material {
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
     /// emission or occlusion alone. 0: not on the device.
     uint32_t version;
+    /// The same without changes that left everything but texels as it was.
+    uint32_t parameter_version;
+    uint32_t texel_versions[MAP_COUNT]; ///< increase with each change of the map's texels
 } device_material;
 
 /// How a lobe_grid lies on a mesh.

@@ -82,9 +82,14 @@ static const lobe_rectangle *changed_part(const scene_update *update, size_t n) 
     return parts && memcmp(&parts[n], &all, sizeof all) != 0 ? &parts[n] : NULL;
 }
 
+static bool reads_image(const device_material *material, uint32_t map, uint32_t image) {
+    const lobe_texture_use *use = material->maps[map].use;
+    return use && (uint32_t)use->image == image;
+}
+
 static bool uses_image(const device_material *material, uint32_t image) {
     for (uint32_t map = 0; map < MAP_COUNT; map++)
-        if (material->maps[map].use && (uint32_t)material->maps[map].use->image == image)
+        if (reads_image(material, map, image))
             return true;
     return false;
 }
@@ -211,10 +216,14 @@ static lobe_result replace_environment(const scene_update *update) {
 /// Other texels are other lobes.
 static void mark_new_texels(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
-    for (size_t m = 0; m < update->scene->scene->material_count; m++)
-        for (size_t i = 0; i < changes->image_count; i++)
-            if (uses_image(&update->scene->materials[m], changes->images[i]))
-                ++update->scene->materials[m].version;
+    for (size_t m = 0; m < update->scene->scene->material_count; m++) {
+        device_material *material = &update->scene->materials[m];
+        for (size_t i = 0; i < changes->image_count; i++) {
+            material->version += uses_image(material, changes->images[i]);
+            for (uint32_t map = 0; map < MAP_COUNT; map++)
+                material->texel_versions[map] += reads_image(material, map, changes->images[i]);
+        }
+    }
 }
 
 /// Whatever fails here, the copy can be drawn: each texture has its former content or the new.

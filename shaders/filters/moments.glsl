@@ -154,7 +154,7 @@ base_material footprint_material(surface_point surface, vec3 normal, map_area ar
         return filtered_material(surface, normal, area);
     base_material base;
     base.normal = normal;
-    base.diffuse = filtered_layer(moment_map, area, 3u * BINS).rgb * binning.largest.y;
+    base.diffuse = filtered_layer(moment_map, area, 3u * BINS).rgb * colour_unit();
     if (VERTEX_COLOUR)
         base.diffuse *= surface.colour.rgb;
     base.specular = vec3(0.0); // each bin has its own

@@ -26,9 +26,10 @@ struct material_constants {
     float4 lobe_direction[MATERIAL_MAXIMUM_LOBES]; // in the frame of the normal; w: width
     float4 lobe_colour[MATERIAL_MAXIMUM_LOBES];    // linear RGB; w: share of the sum's luminance
     float occlusion_strength;                      // of MAP_OCCLUSION, [0, 1]
+    // At least 1: of the base colour, and of the lobes' colours over their shares.
+    float largest_colour;
     float padding_0;
     float padding_1;
-    float padding_2;
     // Where each map is read: two rows (u, v) of an affine transform of the texture coordinates.
     float4 transforms[2 * MAP_COUNT];
 };
@@ -41,6 +42,7 @@ INTERFACE_OFFSET(material_constants, normal_concentration, 44)
 INTERFACE_OFFSET(material_constants, lobe_direction, 48)
 INTERFACE_OFFSET(material_constants, lobe_colour, 112)
 INTERFACE_OFFSET(material_constants, occlusion_strength, 176)
+INTERFACE_OFFSET(material_constants, largest_colour, 180)
 INTERFACE_OFFSET(material_constants, transforms, 192)
 
 #endif

@@ -96,6 +96,7 @@ static known_member known[] = {
     MEMBER(material_constants, lobe_direction, 6),
     MEMBER(material_constants, lobe_colour, 7),
     MEMBER(material_constants, occlusion_strength, 8),
+    MEMBER(material_constants, largest_colour, 9),
     MEMBER(material_constants, transforms, 12),
     MEMBER(moment_bin, centre, 0),
     MEMBER(moment_bin, shape, 1),

@@ -26,31 +26,21 @@ static void specialise_binning(const filter_context *context, const device_mater
     passes_specialise(list, SPECIALISE_BIN_COLOUR, colour);
 }
 
-static lobe_resource upload_bins(lobe_graph *graph, uint32_t material,
-                                 const moment_partition *partition, float largest_colour) {
-    char name[64];
-    struct moment_binning_constants constants = partition->constants;
-    constants.largest[1] = largest_colour;
-    snprintf(name, sizeof name, "bins of material %u", material);
-    return lobe_graph_upload(graph, name, &constants, sizeof constants);
-}
-
 moment_map passes_moment_binning(const filter_context *context, uint32_t index,
-                                 const moment_partition *partition, lobe_format format,
-                                 float largest_colour) {
+                                 const moment_partition *partition, lobe_resource bins,
+                                 lobe_format format) {
     const bool colour = partition->own_colours;
     const device_material *material = &context->scene->materials[index];
     char name[64];
     snprintf(name, sizeof name, "moments of material %u", index);
     uint32_t layers = colour ? 3 * partition->bins + 1 : 2 * partition->bins;
-    moment_map result = {.format = format};
+    moment_map result = {.format = format, .bins = bins};
     result.map = passes_reduced_map_declare(context->graph, name, format, partition->width,
                                             partition->height, layers);
-    result.range = upload_bins(context->graph, index, partition, largest_colour);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
     passes_base_maps_read(context, material, colour, pass);
     read_colours(context, material, pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = result.range});
+    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
     result.map.resource = lobe_pass_write(
         pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
     specialisation_list list = {.graph = context->graph};

@@ -9,13 +9,14 @@
 typedef struct moment_map {
     reduced_map map;
     lobe_format format;
-    lobe_resource range; ///< uniform block of struct moment_binning_constants
+    lobe_resource bins; ///< uniform block of struct moment_binning_constants
 } moment_map;
 
 /// Adds the pass that distributes a material's lobes over bins, and the reduction of what it
-/// writes. The material has a normal or width map. `largest_colour`: of the colours that bins have.
+/// writes. The material has a normal or width map. `bins`: the partition's constants, or what
+/// moment_refit makes of them.
 moment_map passes_moment_binning(const filter_context *context, uint32_t material,
-                                 const moment_partition *partition, lobe_format format,
-                                 float largest_colour);
+                                 const moment_partition *partition, lobe_resource bins,
+                                 lobe_format format);
 
 #endif

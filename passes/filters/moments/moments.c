@@ -1,12 +1,13 @@
 #include <math.h>
+#include <string.h>
 
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/filters/moments/binning.h"
+#include "passes/filters/moments/refit.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
-#include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"
@@ -100,11 +101,25 @@ static bin_colour colour_of_bins(const filter_context *context, const device_mat
     return possible ? wanted[passes_knob_choice(context, &colour_knob)] : BIN_COLOUR_MEAN;
 }
 
-/// Largest value of a colour map; 1 for those of eight bits.
+/// Whether texels of a map of colours may exceed one.
+static bool has_bright_texels(const device_map *map) {
+    switch (map->use ? map->format : LOBE_FORMAT_RGBA8_UNORM) {
+    case LOBE_FORMAT_R32_FLOAT:
+    case LOBE_FORMAT_RG32_FLOAT:
+    case LOBE_FORMAT_RGBA32_FLOAT:
+        return true;
+    default:
+        return false;
+    }
+}
+
+/// Largest value of a colour map, at least 1.
 static float largest_texel(const lobe_scene *scene, const device_map *map) {
-    const lobe_image *image = map->use ? &scene->images[map->use->image].image : NULL;
     float largest = 1, texel[4];
-    for (uint32_t i = 0; image && i < image->width * image->height; i++) {
+    if (!has_bright_texels(map))
+        return largest;
+    const lobe_image *image = &scene->images[map->use->image].image;
+    for (uint32_t i = 0; i < image->width * image->height; i++) {
         if (!passes_image_texel(image, i % image->width, i / image->width, texel))
             return largest;
         largest = fmaxf(largest, fmaxf(texel[0], fmaxf(texel[1], texel[2])));
@@ -112,31 +127,23 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
     return largest;
 }
 
-/// Upper bounds of colours.
-typedef struct largest_texels {
-    float base_colour, specular; ///< 0: not measured, because bins have no colours
-} largest_texels;
-
-/// An upper bound of the material's colours: those of the bins and the diffuse one.
-static float largest_colour(const lobe_material *material, const largest_texels *texels) {
-    float base = 1, specular = 1;
-    for (int i = 0; i < 3; i++) {
-        base = fmaxf(base, material->base_colour[i]);
-        for (uint32_t k = 0;
-             material->model != LOBE_MATERIAL_MICROFACET && k < material->lobe_count; ++k)
-            specular = fmaxf(specular, material->lobes[k].colour[i] /
-                                           fmaxf(passes_material_lobe_share(material, k), 1e-6f));
-    }
-    return fmaxf(base * texels->base_colour, specular * texels->specular);
-}
-
 // ---------------------------------------------------------------------------------------------
 // What is kept for a material
 
 typedef struct prepared_moments {
     moment_partition partition;
-    largest_texels largest;
+    uint32_t texel_versions[MAP_COUNT]; ///< of the material, when the partition was made
+    bool bright_texels;                 ///< the bins' colours may exceed one
 } prepared_moments;
+
+static void measure_colours(const lobe_scene *scene, const device_material *material,
+                            prepared_moments *prepared) {
+    const device_map *base = &material->maps[MAP_BASE_COLOUR];
+    const device_map *specular = &material->maps[MAP_SPECULAR];
+    prepared->bright_texels = has_bright_texels(base) || has_bright_texels(specular);
+    prepared->partition.constants.largest[1] =
+        fmaxf(largest_texel(scene, base), largest_texel(scene, specular));
+}
 
 static lobe_result prepare_partition(const filter_context *context, uint32_t index, void **slot) {
     const partition_request request = {
@@ -149,11 +156,16 @@ static lobe_result prepare_partition(const filter_context *context, uint32_t ind
         return LOBE_ERROR_OUT_OF_MEMORY;
     lobe_result result = passes_moment_partition_make(context->scene, index, &request,
                                                       context->host, &prepared->partition);
-    if (result == LOBE_OK)
-        *slot = prepared;
-    else
+    if (result != LOBE_OK) {
         lobe_release(prepared);
-    return result;
+        return result;
+    }
+    const device_material *material = &context->scene->materials[index];
+    memcpy(prepared->texel_versions, material->texel_versions, sizeof prepared->texel_versions);
+    if (prepared->partition.own_colours)
+        measure_colours(context->scene->scene, material, prepared);
+    *slot = prepared;
+    return LOBE_OK;
 }
 
 static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
@@ -163,15 +175,7 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
         return LOBE_OK;
     if (*slot)
         return LOBE_OK;
-    lobe_result result = prepare_partition(context, index, slot);
-    prepared_moments *prepared = *slot;
-    if (result != LOBE_OK || !prepared->partition.own_colours)
-        return result;
-    const lobe_scene *scene = context->scene->scene;
-    prepared->largest =
-        (largest_texels){.base_colour = largest_texel(scene, &material->maps[MAP_BASE_COLOUR]),
-                         .specular = largest_texel(scene, &material->maps[MAP_SPECULAR])};
-    return result;
+    return prepare_partition(context, index, slot);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -193,13 +197,39 @@ static void specialise_bins(const device_material *material, const moment_partit
     passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, partition->own_colours);
 }
 
+/// Whether a map has other texels than the bins were fitted to, as far as the host knows.
+static bool has_other_texels(const device_scene *scene, const device_material *material,
+                             const prepared_moments *prepared, uint32_t map) {
+    const device_map *own = &material->maps[map];
+    return (own->use && scene->scene->images[own->image].on_device) ||
+           material->texel_versions[map] != prepared->texel_versions[map];
+}
+
+/// Bins fitted to nothing, where the host could not read the texels, are for any.
+static bool needs_refit(const device_scene *scene, const device_material *material,
+                        const prepared_moments *prepared) {
+    static const uint32_t maps[] = {MAP_NORMAL, MAP_WIDTH, MAP_BASE_COLOUR, MAP_SPECULAR};
+    const uint32_t count = prepared->bright_texels ? 4 : 2;
+    bool other = false;
+    for (uint32_t i = 0; i < count; i++)
+        other |= has_other_texels(scene, material, prepared, maps[i]);
+    return other && prepared->partition.points > 0;
+}
+
+static lobe_resource bins_of(const filter_context *context, uint32_t material,
+                             const prepared_moments *prepared) {
+    const moment_partition *partition = &prepared->partition;
+    if (needs_refit(context->scene, &context->scene->materials[material], prepared))
+        return passes_moment_refit(context, material, partition, prepared->bright_texels);
+    return lobe_graph_upload(context->graph, "bins", &partition->constants,
+                             sizeof partition->constants);
+}
+
 static moment_map build_moments(const filter_context *context, uint32_t material,
                                 const prepared_moments *prepared, filtered_appearance *appearance) {
-    const device_material *uploaded = &context->scene->materials[material];
-    const moment_partition *partition = &prepared->partition;
-    specialise_bins(uploaded, partition, appearance);
-    return passes_moment_binning(context, material, partition, format_of(context),
-                                 largest_colour(uploaded->material, &prepared->largest));
+    specialise_bins(&context->scene->materials[material], &prepared->partition, appearance);
+    return passes_moment_binning(context, material, &prepared->partition,
+                                 bins_of(context, material, prepared), format_of(context));
 }
 
 /// `prepared`: NULL if the material's lobes do not vary.
@@ -211,10 +241,10 @@ static void build(const filter_context *context, size_t instance, const void *pr
     if (prepared)
         moments = build_moments(context, material, prepared, appearance);
     else
-        moments.range = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
+        moments.bins = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
     passes_lobe_map_bind(context, material, "moment_map", prepared ? &moments.map : NULL,
                          moments.format, appearance);
-    passes_appearance_bind(appearance, "binning_block", moments.range, (lobe_sampler){0});
+    passes_appearance_bind(appearance, "binning_block", moments.bins, (lobe_sampler){0});
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, prepared != NULL);
     passes_filtered_maps_build(context, material, appearance);
 }
@@ -227,6 +257,7 @@ const lobe_filter passes_filter_moments = {
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,
+    .adapts_to_texels = true,
     .forget = lobe_release,
     .build = build,
 };

@@ -39,6 +39,10 @@ struct bin_sums {
     vec3 diffuse;
 };
 
+float colour_unit() {
+    return binning.largest.y * material.largest_colour;
+}
+
 // A base lobe of a texel.
 struct plane_lobe {
     vec2 place;
@@ -125,7 +129,7 @@ plane_lobe make_lobe(int i, vec3 normal, float factor, vec4 specular) {
         microfacet ? normal : rotate_from_pole(normal, material.lobe_direction[i].xyz));
     lobe.variance = plane_variance(distribution, parameter);
     lobe.mass = share * plane_mass(MODEL, distribution, parameter);
-    lobe.colour = vec4(specular.rgb / binning.largest.y, specular.a);
+    lobe.colour = vec4(specular.rgb / colour_unit(), specular.a);
     if (!microfacet)
         lobe.colour.rgb *= material.lobe_colour[i].rgb / max(share, 1e-6);
     return lobe;
@@ -172,5 +176,5 @@ void main() {
     }
     if (BIN_COLOUR)
         imageStore(moment_map, ivec3(position, layers * BINS),
-                   vec4(sums.diffuse / binning.largest.y, 0.0));
+                   vec4(sums.diffuse / colour_unit(), 0.0));
 }

@@ -17,6 +17,10 @@ layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
 layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
 
+float colour_unit() {
+    return binning.largest.y * material.largest_colour;
+}
+
 // Sums over the bins for one light.
 struct light_sum {
     float distribution;
@@ -139,7 +143,7 @@ plane_bin read_bin(surface_point surface, map_area area, uint index) {
     keep_shape(bin, varies);
     if (BIN_COLOUR)
         bin.colour = colour_of_bin(surface, filtered_layer(moment_map, area, layers * index + 2u) *
-                                                vec4(vec3(scale * binning.largest.y), scale));
+                                                vec4(vec3(scale * colour_unit()), scale));
     return bin;
 }
 

@@ -62,12 +62,7 @@ static void print_builtin_scenes(fixture *f) {
 }
 
 /// Maps over an atlas, drawn by several adjacent triangles.
-static void print_atlas_scene(fixture *f) {
-    static const char *const requests[][2] = {{"lobes", "space=object"},
-                                              {"lobes", "space=camera"},
-                                              {"lobes", "storage=float16"},
-                                              {"mipmap", "probes=3"},
-                                              {"lobes", "samples=auto"}};
+static lobe_scene *atlas_scene(void) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
     material.normal_map = scene_add_map(scene, random_normal_map(171, 57, 0.5, 91));
@@ -75,13 +70,43 @@ static void print_atlas_scene(fixture *f) {
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
     scene_look_from(scene, (double[]){0.4, 1, 0.9}, 3);
     scene_end(scene);
+    return scene;
+}
+
+static void print_atlas_scene(fixture *f) {
+    static const char *const requests[][2] = {{"lobes", "space=object"},
+                                              {"lobes", "space=camera"},
+                                              {"lobes", "storage=float16"},
+                                              {"mipmap", "probes=3"},
+                                              {"lobes", "samples=auto"}};
+    lobe_scene *scene = atlas_scene();
     print_scene(f, scene, requests, sizeof requests / sizeof *requests, 0);
+    lobe_scene_destroy(&scene);
+}
+
+/// Bins that the device fits to other texels.
+static void print_changed_scene(fixture *f) {
+    static const uint32_t normals = 0;
+    const picture_request request = {.filter = "moments", .width = WIDTH, .height = HEIGHT};
+    lobe_scene *scene = atlas_scene();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    lobe_frame first = draw(f, &request);
+    lobe_frame_free(&first);
+    lobe_image other = random_normal_map(171, 57, 0.8, 92);
+    lobe_image_free(&scene->images[normals].image);
+    scene->images[normals].image = other;
+    assert_int_equal(lobe_renderer_update_scene(
+                         f->renderer, &(lobe_scene_changes){.images = &normals, .image_count = 1}),
+                     LOBE_OK);
+    print_hashes(f, "changed", &request);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
 }
 
 static void draw_all(void **state) {
     print_builtin_scenes(*state);
     print_atlas_scene(*state);
+    print_changed_scene(*state);
 }
 
 static int draw_and_print(void) {
@@ -113,7 +138,7 @@ static void run(const char *threads, char text[TEXT]) {
     size_t lines = 0;
     for (const char *c = text; *c; c++)
         lines += *c == '\n';
-    assert_int_equal(lines, lobe_filter_count() * lobe_builtin_scene_count() + 5);
+    assert_int_equal(lines, lobe_filter_count() * lobe_builtin_scene_count() + 6);
 }
 
 /// Two runs with different numbers of threads: if they agree, neither matters.

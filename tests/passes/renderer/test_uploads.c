@@ -175,6 +175,29 @@ static void frames_with_changes_create_nothing(void **state) {
     stop(f, &scene);
 }
 
+/// Where what a filter keeps depends on the texels, it is the device that looks at them.
+static void the_device_fits_bins_to_new_texels(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    lobe_render_parameters wanted = parameters();
+    wanted.filter = filter_named("moments");
+    for (uint64_t n = 0; n < 4; n++) {
+        const calls before = calls_until_now();
+        lobe_frame frame;
+        assert_int_equal(lobe_renderer_render(f->renderer, &wanted, &frame), LOBE_OK);
+        lobe_frame_free(&frame);
+        const size_t refits =
+            count_passes(lobe_renderer_graph(f->renderer), "moment_refit", LOBE_PASS_RUN);
+        assert_int_equal(refits, n == 0 ? 0 : MATERIALS);
+        // The first frames with and without refits create what they need.
+        if (n > 0)
+            assert_calls(&before, 1, 1, n > 1 ? 0 : -1);
+        change_texels(scene, 40 + n);
+        update(f, &(lobe_scene_changes){.images = &map, .image_count = 1});
+    }
+    stop(f, &scene);
+}
+
 static void equal_constants_are_not_written(void **state) {
     static const uint32_t all[MATERIALS] = {0, 1, 2, 3, 4, 5};
     const lobe_scene_changes changes = {.materials = all, .material_count = MATERIALS};
@@ -424,6 +447,7 @@ int main(void) {
         cmocka_unit_test(a_scene_comes_in_few_submissions),
         cmocka_unit_test(texels_take_one_copy),
         cmocka_unit_test(frames_with_changes_create_nothing),
+        cmocka_unit_test(the_device_fits_bins_to_new_texels),
         cmocka_unit_test(equal_constants_are_not_written),
         cmocka_unit_test(meshes_and_other_sizes_do_not_wait),
         cmocka_unit_test(parts_of_images_are_enough),

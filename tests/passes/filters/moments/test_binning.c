@@ -15,8 +15,8 @@
 typedef struct map_request {
     uint32_t kind, bins; ///< of the partition, as requested
     bool colour;
-    double colour_scale;
-    const char *base; ///< assignment
+    double colour_scale; ///< without what the material's own colours add
+    const char *base;    ///< assignment
     lobe_format format;
     double rounding; ///< absolute, of each level
     double tolerance;
@@ -40,9 +40,13 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
                                       request->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
     assert_int_equal(passes_moment_partition_make(run.scene, 0, &wanted, &f->host, &partition),
                      LOBE_OK);
-    reference_moment_bins bins = moment_bins_of(&partition, request->colour_scale);
-    const moment_map map = passes_moment_binning(&run.context, 0, &partition, request->format,
-                                                 (float)request->colour_scale);
+    partition.constants.largest[1] = (float)request->colour_scale;
+    reference_moment_bins bins = moment_bins_of(
+        &partition, request->colour_scale * (double)run.scene->materials[0].values.largest_colour);
+    const lobe_resource constants =
+        lobe_graph_upload(f->graph, "bins", &partition.constants, sizeof partition.constants);
+    const moment_map map =
+        passes_moment_binning(&run.context, 0, &partition, constants, request->format);
     reference_layers exact =
         moments_of_texels(scene, material, &bins, strcmp(request->base, "base=lobe") == 0);
     float *texels = pass_run_read(&run, &map.map, map.format);
