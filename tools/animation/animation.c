@@ -27,7 +27,8 @@ static lobe_resource add_pass(const animation *a, lobe_graph *graph) {
     const lobe_image_description description = {.name = "animated map",
                                                 .format = LOBE_FORMAT_RGBA8_UNORM,
                                                 .width = a->width,
-                                                .height = a->height};
+                                                .height = a->height,
+                                                .retained = true};
     const float time = (float)a->seconds;
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "animation");
     lobe_pass_read(pass, &(lobe_binding){.name = "base",

@@ -40,6 +40,8 @@ bool frame_sequence_path(const frame_sequence *sequence, const char *path, uint3
     const char *ending = strrchr(path, '.');
     if (!sequence->numbered || !ending)
         return snprintf(name, PATH_MAX, "%s", path) < PATH_MAX;
-    return snprintf(name, PATH_MAX, "%.*s-%04u%s", (int)(ending - path), path, sequence->first + n,
-                    ending) < PATH_MAX;
+    // As many digits as the last needs, so that names sort.
+    const int digits = snprintf(NULL, 0, "%04u", sequence->first + sequence->count - 1);
+    return snprintf(name, PATH_MAX, "%.*s-%0*u%s", (int)(ending - path), path, digits,
+                    sequence->first + n, ending) < PATH_MAX;
 }

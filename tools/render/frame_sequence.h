@@ -25,8 +25,9 @@ bool frame_sequence_parse(const char *text, frame_sequence *sequence);
 /// Seconds of the n-th frame.
 double frame_sequence_seconds(const frame_sequence *sequence, double start, uint32_t n);
 
-/// The name of a frame's file: its number in four digits or more goes before the ending,
-/// "rain-0012.exr" for "rain.exr". The path as it is if frames are not numbered. False: too long.
+/// The name of a frame's file: its number goes before the ending, "rain-0012.exr" for "rain.exr",
+/// in four digits, or as many as the last frame's number has. The path as it is if frames are not
+/// numbered. False: too long.
 bool frame_sequence_path(const frame_sequence *sequence, const char *path, uint32_t n,
                          char name[PATH_MAX]);
 

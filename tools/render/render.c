@@ -193,16 +193,30 @@ static lobe_result pick_filter(render_request *request, render_state *state) {
                        &request->settings);
 }
 
+static double seconds_of(const render_request *request, uint32_t n) {
+    return frame_sequence_seconds(&request->frames, request->time, n);
+}
+
+static lobe_result check_last_frame(const render_request *request, const render_state *state) {
+    const double seconds = seconds_of(request, request->frames.count - 1);
+    if (seconds <= ANIMATION_MAXIMUM_SECONDS)
+        return LOBE_OK;
+    return lobe_host_fail(&state->host, LOBE_ERROR_INVALID_ARGUMENT,
+                          "%s: the last frame is at %.1f s; expected at most %d s",
+                          state->scene->name, seconds, ANIMATION_MAXIMUM_SECONDS);
+}
+
 static lobe_result animate(const render_request *request, render_state *state) {
     lobe_result result =
         animation_create(state->device, state->scene, &state->host, &state->animation);
-    const char *ignored = request->has_time          ? "--time"
-                          : request->frames.numbered ? "a range of --frames"
-                                                     : NULL;
-    if (result == LOBE_OK && !state->animation && ignored)
-        lobe_host_log(&state->host, LOBE_LOG_WARNING,
-                      "%s: does not change with time; %s makes no difference", state->scene->name,
-                      ignored);
+    const char *consequence = request->has_time          ? "--time makes no difference"
+                              : request->frames.numbered ? "all pictures are equal"
+                                                         : NULL;
+    if (result == LOBE_OK && !state->animation && consequence)
+        lobe_host_log(&state->host, LOBE_LOG_WARNING, "%s: does not change with time: %s",
+                      state->scene->name, consequence);
+    if (result == LOBE_OK && state->animation)
+        result = check_last_frame(request, state);
     if (result == LOBE_OK)
         animation_attach(state->animation, state->renderer);
     return result;
@@ -296,8 +310,13 @@ static lobe_result write_graph(const render_request *request, render_state *stat
     return result;
 }
 
-static double seconds_of(const render_request *request, uint32_t n) {
-    return frame_sequence_seconds(&request->frames, request->time, n);
+/// The n-th frame's file of an output.
+static lobe_result name_file(const render_request *request, size_t output, uint32_t n,
+                             const lobe_host *host, char path[PATH_MAX]) {
+    if (frame_sequence_path(&request->frames, request->outputs.values[output], n, path))
+        return LOBE_OK;
+    return lobe_host_fail(host, LOBE_ERROR_WRITE, "%s: the name is too long",
+                          request->outputs.values[output]);
 }
 
 /// Of the n-th frame.
@@ -320,11 +339,10 @@ static lobe_result write_images(const render_request *request, render_state *sta
     };
     for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++) {
         char path[PATH_MAX];
-        if (!frame_sequence_path(&request->frames, request->outputs.values[i], n, path))
-            return lobe_host_fail(&state->host, LOBE_ERROR_WRITE, "%s: the name is too long",
-                                  request->outputs.values[i]);
-        result = is_png(path) ? capture_write_png(path, &capture, &state->host)
-                              : capture_write_exr(path, &capture, &state->host);
+        result = name_file(request, i, n, &state->host, path);
+        if (result == LOBE_OK)
+            result = is_png(path) ? capture_write_png(path, &capture, &state->host)
+                                  : capture_write_exr(path, &capture, &state->host);
     }
     return result;
 }
@@ -358,8 +376,15 @@ static void print_times(const render_request *request, const render_state *state
 /// Checks early, so that a misspelt folder does not cost minutes of waiting.
 static lobe_result check_files(const render_request *request, const lobe_host *host) {
     lobe_result result = output_file_check(request->graph, host);
-    for (size_t i = 0; result == LOBE_OK && i < request->outputs.count; i++)
-        result = output_file_check(request->outputs.values[i], host);
+    const uint32_t files = request->frames.numbered ? request->frames.count : 1;
+    for (size_t i = 0; i < request->outputs.count; i++) {
+        for (uint32_t n = 0; result == LOBE_OK && n < files; n++) {
+            char path[PATH_MAX];
+            result = name_file(request, i, n, host, path);
+            if (result == LOBE_OK)
+                result = output_file_check(path, host);
+        }
+    }
     return result;
 }
 

@@ -33,6 +33,8 @@ static void ranges_have_times_and_files(void **state) {
     assert_true(frame_sequence_parse("99999..100000", &sequence));
     assert_true(frame_sequence_path(&sequence, "c.png", 1, path));
     assert_string_equal(path, "c-100000.png");
+    assert_true(frame_sequence_path(&sequence, "c.png", 0, path));
+    assert_string_equal(path, "c-099999.png"); // names sort
 }
 
 static void anything_else_is_refused(void **state) {
