@@ -152,12 +152,17 @@ static lobe_result join(engine_uploads *queue, const engine_content *content) {
 // ---------------------------------------------------------------------------------------------
 // In steps
 
+/// Half as much, but at least one row; 0: there is nothing smaller.
+static VkDeviceSize smaller(const engine_content *content, VkDeviceSize size) {
+    return size > content->row_size ? maximum(size / 2, content->row_size) : 0;
+}
+
 /// Has the ring hold `wanted` bytes, or as much as there is, but at least one row.
 static lobe_result take_memory(engine_uploads *queue, const engine_content *content,
                                VkDeviceSize wanted) {
     lobe_result result = LOBE_ERROR_OUT_OF_DEVICE_MEMORY;
     for (VkDeviceSize size = maximum(wanted, content->row_size);
-         result == LOBE_ERROR_OUT_OF_DEVICE_MEMORY && size >= content->row_size; size /= 2)
+         result == LOBE_ERROR_OUT_OF_DEVICE_MEMORY && size > 0; size = smaller(content, size))
         result = size <= queue->ring.memory.size
                      ? LOBE_OK
                      : engine_staging_ring_grow(queue->device, &queue->ring, size);
