@@ -39,7 +39,9 @@ lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
         imported->depth = lobe_graph_import_image(graph, target->depth);
     imported->keep_radiance = target->keep;
     imported->keep_depth = target->keep && target->depth;
-    lobe_graph_extent(graph, imported->radiance, &imported->width, &imported->height);
+    const lobe_image_description radiance = lobe_graph_describe_image(graph, imported->radiance);
+    imported->width = radiance.width;
+    imported->height = radiance.height;
     lobe_result result = imported->radiance.version ? check_extent(r, imported) : LOBE_OK;
     if (result == LOBE_OK && imported->width > 0) {
         r->width = r->context.view.width = imported->width;

@@ -30,30 +30,41 @@ void passes_draw_list_begin(draw_list *list, const device_scene *scene) {
     memset(list->of_mesh, 0, scene->scene->mesh_count * sizeof *list->of_mesh);
 }
 
-/// Whether an instance of the batch's mesh belongs to it.
-static bool belongs(const instance_batch *batch, const device_scene *scene, uint32_t material,
-                    bool mirrored, const filtered_appearance *appearance) {
-    return batch->appearance == appearance && batch->count < MOST_TRANSFORMS &&
-           batch->mirrored == mirrored && scene->instances[batch->instance].material == material;
+/// The batch of the mesh that the instance can join, 1 + its index; 0: none. Materials come one
+/// after another: behind a batch of another one, there is none.
+static uint32_t find_batch(const draw_list *list, const device_scene *scene,
+                           const device_instance *instance, bool mirrored) {
+    uint32_t number = list->of_mesh[instance->mesh];
+    while (number > 0) {
+        const instance_batch *batch = &list->batches[number - 1];
+        if (scene->instances[batch->instance].material != instance->material)
+            return 0;
+        if (batch->mirrored == mirrored && batch->count < MOST_TRANSFORMS)
+            return number;
+        number = batch->next_of_mesh;
+    }
+    return 0;
+}
+
+static uint32_t add_batch(draw_list *list, size_t instance, bool mirrored,
+                          const filtered_appearance *appearance) {
+    list->batches[list->batch_count++] =
+        (instance_batch){.instance = instance, .mirrored = mirrored, .appearance = appearance};
+    return list->batch_count;
 }
 
 void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t index,
-                          const filtered_appearance *appearance) {
+                          const filtered_appearance *appearance, bool shared) {
     const device_instance *instance = &scene->instances[index];
     const bool mirrored =
         passes_transform_determinant(scene->scene->instances[index].transform) < 0;
-    uint32_t number = list->of_mesh[instance->mesh];
-    while (number > 0 &&
-           !belongs(&list->batches[number - 1], scene, instance->material, mirrored, appearance))
-        number = list->batches[number - 1].next_of_mesh;
+    uint32_t number = shared ? find_batch(list, scene, instance, mirrored) : 0;
     if (number == 0) {
-        list->batches[list->batch_count++] =
-            (instance_batch){.instance = index,
-                             .mirrored = mirrored,
-                             .appearance = appearance,
-                             .next_of_mesh = list->of_mesh[instance->mesh]};
-        number = list->batch_count;
-        list->of_mesh[instance->mesh] = number;
+        number = add_batch(list, index, mirrored, appearance);
+        if (shared) {
+            list->batches[number - 1].next_of_mesh = list->of_mesh[instance->mesh];
+            list->of_mesh[instance->mesh] = number;
+        }
     }
     ++list->batches[number - 1].count;
     list->batch_of[index] = number - 1;

@@ -19,7 +19,7 @@ typedef struct instance_batch {
     uint32_t next_of_mesh;    ///< 1 + index of another batch of the mesh; 0: none
 } instance_batch;
 
-/// In the order of their first instances.
+/// Material by material, then in the order of their first instances.
 typedef struct draw_list {
     instance_batch *batches;
     uint32_t batch_count;
@@ -37,10 +37,10 @@ void passes_draw_list_destroy(draw_list *list);
 
 /// Empties the list.
 void passes_draw_list_begin(draw_list *list, const device_scene *scene);
-/// Adds the next instance that is not hidden. `appearance`: of its maps; instances with the same
-/// one may share them.
+/// Adds an instance that is not hidden. Those of a material follow one another.
+/// `shared`: the maps of `appearance` are those of other instances of the material, too.
 void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t instance,
-                          const filtered_appearance *appearance);
+                          const filtered_appearance *appearance, bool shared);
 /// Uploads the transforms for this frame, after the last instance.
 void passes_draw_list_end(draw_list *list, const filter_context *context);
 

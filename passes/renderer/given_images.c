@@ -18,24 +18,41 @@ static void fail(const rendering *r, uint32_t index, const char *what) {
                     scene->images[index].name, what);
 }
 
-static void check(const rendering *r, uint32_t index) {
-    const device_scene *scene = r->context.scene;
-    const lobe_scene_image *image = &scene->scene->images[index];
-    const lobe_resource given = scene->given[index];
-    uint32_t width, height;
-    if (given.version == 0) {
-        if (image->on_device && is_drawn(scene, index))
-            fail(r, index, "is on the device, but the host gave no texels in this frame");
-        return;
-    }
-    lobe_graph_extent(r->context.graph, given, &width, &height);
+static bool can_be_sampled(const lobe_image_description *image) {
+    return image->levels <= 1 && image->layers <= 1 && image->samples <= 1 &&
+           image->format != LOBE_FORMAT_D32_FLOAT;
+}
+
+static void check_given(const rendering *r, uint32_t index, const lobe_image_description *given) {
+    const lobe_scene *scene = r->context.scene->scene;
+    const lobe_scene_image *image = &scene->images[index];
     if (!image->on_device)
         fail(r, index, "is not on the device, but the host gave texels that are");
-    else if (width != image->image.width || height != image->image.height)
+    else if (given->width == 0)
+        fail(r, index, "is given by something that is no image of this frame");
+    else if (given->width != image->image.width || given->height != image->image.height)
         lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
-                        "%s: image '%s' is of %ux%u texels, but the host gave %ux%u",
-                        scene->scene->name, image->name, image->image.width, image->image.height,
-                        width, height);
+                        "%s: image '%s' is of %ux%u texels, but the host gave %ux%u", scene->name,
+                        image->name, image->image.width, image->image.height, given->width,
+                        given->height);
+    else if (!can_be_sampled(given))
+        lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: image '%s' is given with %u levels, %u layers, %u samples of %s; "
+                        "expected one each, of colours",
+                        scene->name, image->name, given->levels, given->layers,
+                        given->samples > 0 ? given->samples : 1, lobe_format_name(given->format));
+}
+
+static void check(const rendering *r, uint32_t index) {
+    const device_scene *scene = r->context.scene;
+    const lobe_resource given = scene->given[index];
+    if (given.version > 0) {
+        const lobe_image_description description =
+            lobe_graph_describe_image(r->context.graph, given);
+        check_given(r, index, &description);
+    } else if (scene->scene->images[index].on_device && is_drawn(scene, index)) {
+        fail(r, index, "is on the device, but the host gave no texels in this frame");
+    }
 }
 
 void passes_given_images_take(rendering *r) {

@@ -25,20 +25,31 @@ static void build_appearance(rendering *r, size_t instance, filtered_appearance 
                         lobe_result_message(result));
 }
 
-/// Built unless the instance shares them with an earlier one of its material.
-static const filtered_appearance *appearance_of(rendering *r, size_t instance, lobe_frame *frame) {
-    const uint32_t material = r->context.scene->instances[instance].material;
-    const filtered_appearance **shared = &r->renderer->shared_appearances[material];
-    const bool own = has_own_maps(&r->context, instance);
-    if (!own && *shared)
-        return *shared;
+static const filtered_appearance *build_counted(rendering *r, size_t instance, lobe_frame *frame) {
     filtered_appearance *appearance = &r->renderer->appearances[instance];
     build_appearance(r, instance, appearance);
     frame->filtered_bytes += appearance->bytes;
     frame->base_texels += appearance->base_texels;
-    if (!own)
-        *shared = appearance;
     return appearance;
+}
+
+/// Adds the instances of a material to the list, with maps that they share where they can.
+static void add_instances(rendering *r, const device_material *material, lobe_frame *frame) {
+    const device_scene *scene = r->context.scene;
+    const filtered_appearance *shared = NULL;
+    for (uint32_t next = material->first_instance; next > 0;
+         next = scene->instances[next - 1].next_of_material) {
+        const size_t instance = next - 1;
+        if (scene->scene->instances[instance].hidden)
+            continue;
+        const bool own = has_own_maps(&r->context, instance);
+        const filtered_appearance *appearance = own ? NULL : shared;
+        if (!appearance)
+            appearance = build_counted(r, instance, frame);
+        if (!own)
+            shared = appearance;
+        passes_draw_list_add(&r->renderer->draws, scene, instance, appearance, !own);
+    }
 }
 
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
@@ -46,15 +57,11 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     passes_given_images_take(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
-    memset(r->renderer->shared_appearances, 0,
-           scene->material_count * sizeof *r->renderer->shared_appearances);
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
     passes_draw_list_begin(&r->renderer->draws, r->context.scene);
-    for (size_t i = 0; i < scene->instance_count; i++)
-        if (!scene->instances[i].hidden)
-            passes_draw_list_add(&r->renderer->draws, r->context.scene, i,
-                                 appearance_of(r, i, frame));
+    for (size_t i = 0; i < scene->material_count; i++)
+        add_instances(r, &r->context.scene->materials[i], frame);
     passes_draw_list_end(&r->renderer->draws, &r->context);
     frame->filtered_bytes += r->images.bytes;
 }

@@ -27,11 +27,9 @@ static void forget_scene(lobe_renderer *renderer) {
     passes_filter_slots_destroy(&renderer->slots);
     passes_device_scene_destroy(&renderer->scene);
     lobe_release(renderer->appearances);
-    lobe_release(renderer->shared_appearances);
     passes_draw_list_destroy(&renderer->draws);
     lobe_release(renderer->filtered_images);
     renderer->appearances = NULL;
-    renderer->shared_appearances = NULL;
     renderer->filtered_images = NULL;
     renderer->reported_filter = NULL;
     passes_environment_light_forget(&renderer->environment);
@@ -64,10 +62,8 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     renderer->filtered_images =
         lobe_allocate(renderer->host.allocator, scene->image_count + scene->material_count + 1,
                       sizeof *renderer->filtered_images);
-    renderer->shared_appearances = lobe_allocate(renderer->host.allocator, scene->material_count,
-                                                 sizeof *renderer->shared_appearances);
     if (passes_draw_list_create(&renderer->draws, scene, renderer->host.allocator) &&
-        renderer->appearances && renderer->filtered_images && renderer->shared_appearances)
+        renderer->appearances && renderer->filtered_images)
         return LOBE_OK;
     forget_scene(renderer);
     return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",

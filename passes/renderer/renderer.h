@@ -13,8 +13,6 @@ struct lobe_renderer {
     lobe_graph *graph;
     device_scene *scene;              ///< NULL: none is set
     filtered_appearance *appearances; ///< one per instance of the scene
-    /// For each material, the one that instances share in this frame; NULL: none yet.
-    const filtered_appearance **shared_appearances;
     draw_list draws;
     lobe_resource *filtered_images;     ///< one per image of the scene, then one per material
     filter_slots *slots;                ///< what filters prepared for the scene's materials

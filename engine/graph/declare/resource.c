@@ -101,15 +101,18 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     return graph->frame.result == LOBE_OK;
 }
 
-void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
-                       uint32_t *height) {
-    if (!width || !height)
-        return;
-    *width = *height = 0;
+lobe_image_description lobe_graph_describe_image(const lobe_graph *graph, lobe_resource image) {
     if (!graph || image.version == 0 || image.index >= graph->frame.dependencies.resource_count)
-        return;
-    *width = graph->frame.resources[image.index].width;
-    *height = graph->frame.resources[image.index].height;
+        return (lobe_image_description){0};
+    const engine_graph_resource *resource = &graph->frame.resources[image.index];
+    if (!resource->is_image)
+        return (lobe_image_description){0};
+    return (lobe_image_description){.format = resource->format,
+                                    .width = resource->width,
+                                    .height = resource->height,
+                                    .layers = resource->layers,
+                                    .levels = resource->levels,
+                                    .samples = resource->samples};
 }
 
 static engine_stamp identity_of(const engine_graph_resource *resource) {

@@ -134,10 +134,10 @@ LOBE_API lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_bu
 /// it has changed.
 LOBE_API lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
-/// Width and height of level 0 of any image of this frame, in texels; 0 for a buffer or an unknown
-/// handle.
-LOBE_API void lobe_graph_extent(const lobe_graph *graph, lobe_resource image, uint32_t *width,
-                                uint32_t *height);
+/// Describes any image of this frame, except for its name and whether it is retained. All zero for
+/// a buffer or an unknown handle.
+LOBE_API lobe_image_description lobe_graph_describe_image(const lobe_graph *graph,
+                                                          lobe_resource image);
 
 /// A small buffer with content for this frame (camera, lights): `size` bytes, at most 4 MiB,
 /// copied. A pass that reads it counts as unchanged while the bytes stay the same.

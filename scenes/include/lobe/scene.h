@@ -156,7 +156,7 @@ typedef struct lobe_mesh {
     float minimum[3], maximum[3]; ///< bounds of the positions
 } lobe_mesh;
 
-/// A mesh placed in the world with a material.
+/// A mesh placed in the world with a material. Where surfaces coincide, which is seen is undefined.
 typedef struct lobe_instance {
     uint32_t mesh, material;
     float transform[16]; ///< object to world, column-major, affine, invertible; the determinant

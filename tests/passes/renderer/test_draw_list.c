@@ -78,13 +78,14 @@ static lobe_scene *crowd(bool alone) {
 /// The list of a scene whose instances of a material share its maps, unless `maps` has one for each
 /// instance.
 static void list_draws(pass_run *run, draw_list *list, const filtered_appearance *maps,
-                       bool for_each_instance) {
-    const lobe_scene *scene = run->scene->scene;
-    assert_true(passes_draw_list_create(list, scene, NULL));
-    passes_draw_list_begin(list, run->scene);
-    for (size_t i = 0; i < scene->instance_count; i++)
-        passes_draw_list_add(list, run->scene, i,
-                             &maps[for_each_instance ? i : run->scene->instances[i].material]);
+                       bool shared) {
+    const device_scene *scene = run->scene;
+    assert_true(passes_draw_list_create(list, scene->scene, NULL));
+    passes_draw_list_begin(list, scene);
+    for (uint32_t m = 0; m < scene->scene->material_count; m++)
+        for (uint32_t next = scene->materials[m].first_instance; next > 0;
+             next = scene->instances[next - 1].next_of_material)
+            passes_draw_list_add(list, scene, next - 1, &maps[shared ? m : next - 1], shared);
     passes_draw_list_end(list, &run->context);
 }
 
@@ -122,7 +123,7 @@ static void equal_instances_are_drawn_together(void **state) {
     draw_list list;
     const filtered_appearance maps[2] = {{0}};
     pass_run_begin(&run, *state, scene, "direct", (const char *[]){NULL});
-    list_draws(&run, &list, maps, false);
+    list_draws(&run, &list, maps, true);
     assert_in_range(list.batch_count, 5, 8);
     check_list(run.scene, &list);
     passes_draw_list_destroy(&list);
@@ -136,11 +137,11 @@ static void own_maps_are_drawn_alone(void **state) {
     draw_list list;
     const filtered_appearance maps[INSTANCES] = {{0}};
     pass_run_begin(&run, *state, scene, "lobes", (const char *[]){NULL});
-    list_draws(&run, &list, maps, true);
+    list_draws(&run, &list, maps, false);
     assert_int_equal(list.batch_count, INSTANCES);
     for (uint32_t i = 0; i < INSTANCES; i++) {
         assert_int_equal(list.batches[i].count, 1);
-        assert_ptr_equal(list.batches[i].appearance, &maps[i]);
+        assert_ptr_equal(list.batches[i].appearance, &maps[list.batches[i].instance]);
     }
     passes_draw_list_destroy(&list);
     pass_run_end(&run);
@@ -160,7 +161,7 @@ static void long_lists_take_several_buffers(void **state) {
     draw_list list;
     const filtered_appearance maps[2] = {{0}};
     pass_run_begin(&run, *state, scene, "direct", (const char *[]){NULL});
-    list_draws(&run, &list, maps, false);
+    list_draws(&run, &list, maps, true);
     uint32_t drawn = 0;
     for (uint32_t i = 0; i < list.batch_count; i++) {
         const instance_batch *batch = &list.batches[i];

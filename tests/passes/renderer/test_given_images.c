@@ -371,19 +371,22 @@ static void images_of_the_hosts_vulkan_are_maps(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Mistakes
 
-static void give_small(void *user, lobe_graph *graph, lobe_resource *images) {
-    (void)user;
-    const lobe_image_description description = {
-        .name = "small", .format = LOBE_FORMAT_RGBA32_FLOAT, .width = MAP / 2, .height = MAP};
+/// Gives images as `user` describes them.
+static void give_described(void *user, lobe_graph *graph, lobe_resource *images) {
     for (size_t i = 0; i < IMAGES; i++)
-        images[i] = lobe_graph_image(graph, &description);
+        images[i] = lobe_graph_image(graph, user);
 }
 
-static void assert_refused(fixture *f, lobe_image_giver given, giver *g, const char *line) {
+static void give_buffer(void *user, lobe_graph *graph, lobe_resource *images) {
+    (void)user;
+    images[0] = lobe_graph_upload(graph, "buffer", "text", 4);
+}
+
+static void assert_refused(fixture *f, lobe_image_giver given, void *user, const char *line) {
     const lobe_render_parameters parameters = parameters_of("moments");
     lobe_frame frame;
     fixture_forget_messages(f);
-    lobe_renderer_set_image_giver(f->renderer, given, g);
+    lobe_renderer_set_image_giver(f->renderer, given, user);
     assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
                    LOBE_ERROR_INVALID_ARGUMENT, line);
     assert_null(frame.radiance.texels);
@@ -399,7 +402,16 @@ static void mistakes_are_named(void **state) {
     put_on_device(scene, true);
     set(f, scene);
     assert_refused(f, NULL, NULL, "the host gave no texels");
-    assert_refused(f, give_small, NULL, "is of 32x32 texels, but the host gave 16x32");
+    assert_refused(f, give_buffer, NULL, "by something that is no image of this frame");
+    lobe_image_description image = {
+        .name = "given", .format = LOBE_FORMAT_RGBA32_FLOAT, .width = MAP / 2, .height = MAP};
+    assert_refused(f, give_described, &image, "is of 32x32 texels, but the host gave 16x32");
+    image.width = MAP;
+    image.levels = 3;
+    assert_refused(f, give_described, &image, "with 3 levels, 1 layers, 1 samples of RGBA32_FLOAT");
+    image.levels = 1;
+    image.format = LOBE_FORMAT_D32_FLOAT;
+    assert_refused(f, give_described, &image, "1 samples of D32_FLOAT; expected one each");
     hash_of(f, "moments", &g);
     unset(f, &scene);
     giver_free(&g);

@@ -199,7 +199,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     assert_true(passes_draw_list_create(&draws, scene, NULL));
     lobe_graph_begin(f->graph);
     passes_draw_list_begin(&draws, uploaded);
-    passes_draw_list_add(&draws, uploaded, 0, &appearance);
+    passes_draw_list_add(&draws, uploaded, 0, &appearance, true);
     passes_draw_list_end(&draws, &context);
     shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
     shading_light light = passes_shading_light_prepare(&context, &environment);
