@@ -42,6 +42,7 @@ static const char *origin_word(engine_graph_origin origin) {
         [ENGINE_GRAPH_TRANSIENT] = "transient", [ENGINE_GRAPH_RETAINED] = "retained",
         [ENGINE_GRAPH_TEXTURE] = "imported",    [ENGINE_GRAPH_BUFFER] = "imported",
         [ENGINE_GRAPH_UPLOAD] = "uploaded",     [ENGINE_GRAPH_HOST_IMAGE] = "host",
+        [ENGINE_GRAPH_HOST_BUFFER] = "host",
     };
     return words[origin];
 }

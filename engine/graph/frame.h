@@ -28,6 +28,7 @@ typedef enum engine_graph_origin {
     ENGINE_GRAPH_BUFFER, ///< imported
     ENGINE_GRAPH_UPLOAD,
     ENGINE_GRAPH_HOST_IMAGE,
+    ENGINE_GRAPH_HOST_BUFFER,
 } engine_graph_origin;
 
 typedef struct engine_graph_resource {
@@ -41,8 +42,9 @@ typedef struct engine_graph_resource {
     bool cube;     ///< some shader reads it as a cube
     const lobe_texture *texture;
     const lobe_buffer *buffer;
-    const lobe_vulkan_image *host; ///< copy in the arena
-    const void *upload;            ///< bytes in the arena
+    const lobe_vulkan_image *host;         ///< copy in the arena
+    const lobe_vulkan_buffer *host_buffer; ///< copy in the arena
+    const void *upload;                    ///< bytes in the arena
     engine_graph_retained *retained;
     engine_graph_object *object; ///< the Vulkan object; NULL: no running pass uses it
     uint64_t offset;             ///< of a buffer's content within the object's

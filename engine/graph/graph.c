@@ -92,19 +92,20 @@ static lobe_result derive_barriers(lobe_graph *graph) {
 /// From the declaration (declare/) to a frame that can be recorded (record/). Nothing is recorded
 /// here: lobe_graph_execute and lobe_graph_submit do that after compiling.
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
-    engine_graph_check_rasters,     // declare/raster.c      attachments fit each other
-    engine_graph_resolve_bindings,  // declare/binding.c     names meet shaders: uses of resources
-    engine_graph_check_host_images, // declare/host_image.c  host images allow these uses
-    engine_graph_check_retained,    // store/retained.c      retained objects allow these uses
-    engine_graph_sign_passes,       // declare/signature.c   digest of what each pass does
-    analyse,                        // plan/                 sources, order, what runs, lifetimes
-    engine_graph_release_retained,  // store/retained.c      frees what this frame did not declare
-    engine_graph_find_pipelines,    // declare/binding.c     of the passes that run
-    engine_graph_place_retained,    // store/retained.c      objects with memory of their own
-    engine_graph_place_transients,  // store/transients.c    objects that share memory
-    derive_barriers,                // plan/barrier.c        transitions, waits for shared memory
-    engine_graph_count_traffic,     // report.c              bytes that each pass reads and writes
-    engine_graph_report_compiled,   // report.c
+    engine_graph_check_rasters,      // declare/raster.c      attachments fit each other
+    engine_graph_resolve_bindings,   // declare/binding.c     names meet shaders: uses of resources
+    engine_graph_check_host_images,  // declare/host_image.c  host images allow these uses
+    engine_graph_check_host_buffers, // declare/host_buffer.c  host buffers do
+    engine_graph_check_retained,     // store/retained.c      retained objects allow these uses
+    engine_graph_sign_passes,        // declare/signature.c   digest of what each pass does
+    analyse,                         // plan/                 sources, order, what runs, lifetimes
+    engine_graph_release_retained,   // store/retained.c      frees what this frame did not declare
+    engine_graph_find_pipelines,     // declare/binding.c     of the passes that run
+    engine_graph_place_retained,     // store/retained.c      objects with memory of their own
+    engine_graph_place_transients,   // store/transients.c    objects that share memory
+    derive_barriers,                 // plan/barrier.c        transitions, waits for shared memory
+    engine_graph_count_traffic,      // report.c              bytes that each pass reads and writes
+    engine_graph_report_compiled,    // report.c
 };
 
 /// Fails the frame, which then needs its pipelines no longer.

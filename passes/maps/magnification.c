@@ -64,8 +64,11 @@ static double square_of_stretch(const device_scene *scene, size_t instance) {
 /// The square of the smallest side of a pixel on the instance, in texture coordinates.
 static double square_of_footprint(const device_scene *scene, size_t instance, uint32_t set,
                                   const pixel_measure *pixels) {
+    const uint32_t mesh = scene->instances[instance].mesh;
+    if (scene->scene->meshes[mesh].on_device)
+        return 0; // of unknown place and extent
     const float depth = nearest_depth(scene, instance, pixels);
-    const double side = scene->measures[scene->instances[instance].mesh].least_density[set] *
+    const double side = scene->measures[mesh].least_density[set] *
                         (double)(pixels->constant + pixels->per_depth * depth);
     return side * side / square_of_stretch(scene, instance);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "passes/upload/device_mesh.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/atlas.h"
 
@@ -39,9 +40,9 @@ surface_atlas passes_surface_atlas_draw(const filter_context *context, size_t in
     for (uint32_t i = 0; i < 3; i++)
         written[i] = lobe_pass_colour(pass, i, &attachments[i]);
     struct atlas_layout layout = layout_of(&context->scene->materials[drawn->material]);
-    lobe_binding vertices = {
-        .name = "vertex_block",
-        .resource = lobe_graph_import_buffer(graph, context->scene->vertices[drawn->mesh])};
+    lobe_binding vertices = {.name = "vertex_block",
+                             .resource =
+                                 passes_device_mesh_import(graph, context->scene, drawn->mesh)};
     lobe_pass_draw(
         pass, &(lobe_draw){
                   .vertex_shader = "maps/surface_atlas.vert",

@@ -54,7 +54,7 @@ static void add_instances(rendering *r, const device_material *material, lobe_fr
 
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
-    passes_given_images_take(r);
+    passes_given_content_take(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
     r->images.bytes = 0;

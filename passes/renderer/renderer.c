@@ -89,10 +89,10 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     return result;
 }
 
-void lobe_renderer_set_image_giver(lobe_renderer *renderer, lobe_image_giver give, void *user) {
+void lobe_renderer_set_content_giver(lobe_renderer *renderer, lobe_content_giver give, void *user) {
     if (!renderer)
         return;
-    renderer->give_images = give;
+    renderer->give_content = give;
     renderer->giver = user;
 }
 

@@ -18,8 +18,8 @@ struct lobe_renderer {
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
-    lobe_image_giver give_images; ///< NULL: nobody does
-    void *giver;                  ///< passed to it
+    lobe_content_giver give_content; ///< NULL: nobody does
+    void *giver;                     ///< passed to it
 };
 
 /// The state of one call of lobe_renderer_render. `context` points into it: do not copy it.
@@ -36,8 +36,9 @@ typedef struct rendering {
 /// Warns about materials that the filter cannot fully represent, once per filter and scene.
 void passes_instance_maps_warn(const rendering *r);
 
-/// Lets the host give the texels of images that are on the device; fails the frame if it does not.
-void passes_given_images_take(rendering *r);
+/// Lets the host give the texels of images and the vertices of meshes that are on the device; fails
+/// the frame if it does not.
+void passes_given_content_take(rendering *r);
 
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the
 /// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.

@@ -11,6 +11,7 @@
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/light_parts.h"
+#include "passes/upload/device_mesh.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
@@ -228,9 +229,9 @@ static size_t bind_draw(const filter_context *context, const environment_light *
     const filtered_appearance *appearance = batch->appearance;
     size_t count = 0;
     bindings[count++] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
-    bindings[count++] = (lobe_binding){
-        .name = "vertex_block",
-        .resource = lobe_graph_import_buffer(graph, context->scene->vertices[drawn->mesh])};
+    bindings[count++] =
+        (lobe_binding){.name = "vertex_block",
+                       .resource = passes_device_mesh_import(graph, context->scene, drawn->mesh)};
     bindings[count++] = (lobe_binding){
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
     for (uint32_t map = 0; map < MAP_COUNT; map++)

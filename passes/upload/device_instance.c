@@ -83,7 +83,7 @@ static lobe_result upload_material(device_scene *result, uint32_t index, const l
 }
 
 static lobe_result upload_mesh(device_scene *result, uint32_t index, const lobe_host *host) {
-    if (result->vertices[index])
+    if (result->indices[index])
         return LOBE_OK;
     lobe_result status = passes_scene_check_mesh(result->scene, index, host);
     return status == LOBE_OK ? passes_device_scene_upload_mesh(result, index) : status;

@@ -1,8 +1,9 @@
-#include "passes/upload/device_scene_parts.h"
+#include "passes/upload/device_mesh.h"
 
 #include <math.h>
 #include <stdio.h>
 
+#include "passes/upload/device_scene_parts.h"
 #include "shaders/interface/vertex.h"
 
 #define ONE_PLACE(member)                                                                          \
@@ -77,17 +78,33 @@ static lobe_result store(lobe_graph *graph, const char *name, size_t size, const
         graph, &(lobe_buffer_parameters){.name = name, .size = size, .data = data}, buffer);
 }
 
+static lobe_result store_vertices(device_scene *scene, uint32_t index) {
+    const lobe_mesh *mesh = &scene->scene->meshes[index];
+    if (mesh->on_device) {
+        lobe_buffer_destroy(&scene->vertices[index]);
+        return LOBE_OK;
+    }
+    return store(scene->graph, mesh->name, mesh->vertex_count * sizeof *mesh->vertices,
+                 mesh->vertices, mesh->vertex_count == scene->measures[index].vertex_count,
+                 &scene->vertices[index]);
+}
+
 lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index) {
     const lobe_mesh *mesh = &scene->scene->meshes[index];
     const mesh_measures before = scene->measures[index];
     char name[128];
     snprintf(name, sizeof name, "indices of %s", mesh->name);
-    lobe_result status =
-        store(scene->graph, mesh->name, mesh->vertex_count * sizeof *mesh->vertices, mesh->vertices,
-              mesh->vertex_count == before.vertex_count, &scene->vertices[index]);
+    const lobe_result status = store_vertices(scene, index);
     if (status != LOBE_OK)
         return status;
     scene->measures[index] = measure(mesh, before.version + 1);
     return store(scene->graph, name, mesh->index_count * sizeof *mesh->indices, mesh->indices,
                  mesh->index_count == before.index_count, &scene->indices[index]);
+}
+
+lobe_resource passes_device_mesh_import(lobe_graph *graph, const device_scene *scene,
+                                        uint32_t mesh) {
+    if (scene->scene->meshes[mesh].on_device)
+        return scene->given_vertices[mesh];
+    return lobe_graph_import_buffer(graph, scene->vertices[mesh]);
 }

@@ -84,10 +84,11 @@ typedef struct device_scene {
     image_metal *metals;             ///< one for each image
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;
-    lobe_texture *environment; ///< its image; NULL: none
+    lobe_resource *given_vertices; ///< the same, one for each mesh
+    lobe_texture *environment;     ///< its image; NULL: none
     device_material *materials;
-    lobe_buffer **vertices; ///< one for each mesh; NULL: not used
-    lobe_buffer **indices;
+    lobe_buffer **vertices;  ///< one for each mesh; NULL: not used, or given by the host
+    lobe_buffer **indices;   ///< one for each mesh; NULL: not used
     mesh_measures *measures; ///< one for each mesh
     device_instance *instances;
     bool torn; ///< an update failed half-way: the copy can only be destroyed

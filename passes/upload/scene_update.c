@@ -68,7 +68,7 @@ static lobe_result check_instance(const scene_update *update, uint32_t index) {
     if (result != LOBE_OK)
         return result;
     uint32_t mesh = scene->instances[index].mesh, material = scene->instances[index].material;
-    if (!update->scene->vertices[mesh])
+    if (!update->scene->indices[mesh])
         result = passes_scene_check_mesh(scene, mesh, update->host);
     if (result == LOBE_OK && !update->scene->materials[material].constants)
         result = check_material(update, material);
@@ -128,7 +128,7 @@ static lobe_result check_content(const scene_update *update) {
         if (scene->materials[changes->materials[i]].constants)
             result = check_material(update, changes->materials[i]);
     for (size_t i = 0; result == LOBE_OK && i < changes->mesh_count; i++)
-        if (scene->vertices[changes->meshes[i]])
+        if (scene->indices[changes->meshes[i]])
             result = passes_scene_check_mesh(scene->scene, changes->meshes[i], update->host);
     for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; i++)
         result = check_instance(update, changes->instances[i]);
@@ -198,7 +198,7 @@ static void drop_other_textures(const scene_update *update) {
 
 static lobe_result update_mesh(const scene_update *update, uint32_t index) {
     device_scene *scene = update->scene;
-    return scene->vertices[index] ? passes_device_scene_upload_mesh(scene, index) : LOBE_OK;
+    return scene->indices[index] ? passes_device_scene_upload_mesh(scene, index) : LOBE_OK;
 }
 
 static bool environment_keeps_texture(const scene_update *update) {

@@ -29,6 +29,8 @@ static bool allocate_tables(device_scene *result) {
     result->metals =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->metals);
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
+    result->given_vertices =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->given_vertices);
     result->materials =
         lobe_allocate(result->allocator, scene->material_count + 1, sizeof *result->materials);
     result->vertices =
@@ -39,8 +41,9 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
     result->instances =
         lobe_allocate(result->allocator, scene->instance_count + 1, sizeof *result->instances);
-    return result->images && result->metals && result->given && result->materials &&
-           result->vertices && result->indices && result->measures && result->instances;
+    return result->images && result->metals && result->given && result->given_vertices &&
+           result->materials && result->vertices && result->indices && result->measures &&
+           result->instances;
 }
 
 lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
@@ -97,6 +100,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->images);
     lobe_release(s->metals);
     lobe_release(s->given);
+    lobe_release(s->given_vertices);
     lobe_release(s->materials);
     lobe_release(s->vertices);
     lobe_release(s->indices);

@@ -43,9 +43,9 @@ static lobe_resource add_pass(const animation *a, lobe_graph *graph) {
     return texels;
 }
 
-static void give(void *user, lobe_graph *graph, lobe_resource *images) {
+static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
     const animation *a = user;
-    images[a->image] = add_pass(a, graph);
+    content->images[a->image] = add_pass(a, graph);
 }
 
 /// Takes the texels at time 0.
@@ -124,7 +124,7 @@ void animation_destroy(animation **animation) {
 }
 
 void animation_attach(animation *animation, lobe_renderer *renderer) {
-    lobe_renderer_set_image_giver(renderer, animation ? give : NULL, animation);
+    lobe_renderer_set_content_giver(renderer, animation ? give : NULL, animation);
 }
 
 void animation_set_time(animation *animation, double seconds) {

@@ -49,6 +49,8 @@ lobe_result engine_graph_resolve_bindings(lobe_graph *graph);
 
 /// Checks that host images were created for what passes do with them (host_image.c).
 lobe_result engine_graph_check_host_images(lobe_graph *graph);
+/// The same of buffers.
+lobe_result engine_graph_check_host_buffers(lobe_graph *graph);
 
 /// Gives each pass a digest of everything it does, except the content it reads and the resources it
 /// names, which the dependency graph adds (signature.c).

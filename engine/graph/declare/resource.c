@@ -115,6 +115,13 @@ lobe_image_description lobe_graph_describe_image(const lobe_graph *graph, lobe_r
                                     .samples = resource->samples};
 }
 
+size_t lobe_graph_buffer_size(const lobe_graph *graph, lobe_resource buffer) {
+    if (!graph || buffer.version == 0 || buffer.index >= graph->frame.dependencies.resource_count)
+        return 0;
+    const engine_graph_resource *resource = &graph->frame.resources[buffer.index];
+    return resource->is_image ? 0 : resource->size;
+}
+
 static engine_stamp identity_of(const engine_graph_resource *resource) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, resource->is_image);
     const uint64_t numbers[] = {resource->format, resource->width,  resource->height,

@@ -256,7 +256,7 @@ static void record_fill(lobe_graph *graph, const engine_graph_command *command) 
     }
     memcpy(&bits, command->value, sizeof bits);
     graph->device->api.vkCmdFillBuffer(graph->frame.commands, target->object->buffer,
-                                       target->offset, VK_WHOLE_SIZE, bits);
+                                       target->offset, target->size / 4 * 4, bits);
 }
 
 static void read_back_image(lobe_graph *graph, const engine_graph_command *command) {

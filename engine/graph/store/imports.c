@@ -97,6 +97,8 @@ lobe_result engine_graph_place_imports(lobe_graph *graph) {
             graph->frame.imported[i].buffer = resource->buffer->buffer;
         else if (resource->host)
             graph->frame.imported[i].image = resource->host->image;
+        else if (resource->host_buffer)
+            graph->frame.imported[i].buffer = resource->host_buffer->buffer;
         else
             continue;
         resource->object = &graph->frame.imported[i];

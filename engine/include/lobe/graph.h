@@ -33,6 +33,7 @@ typedef struct lobe_graph lobe_graph;
 /// An image of a host that uses Vulkan itself, and how such a host submits a frame: both are
 /// defined in lobe/vulkan.h.
 typedef struct lobe_vulkan_image lobe_vulkan_image;
+typedef struct lobe_vulkan_buffer lobe_vulkan_buffer;
 typedef struct lobe_vulkan_submission lobe_vulkan_submission;
 
 /// A pass being declared; valid until the next lobe_graph_begin.
@@ -134,10 +135,18 @@ LOBE_API lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_bu
 /// it has changed.
 LOBE_API lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
+/// Imports a Vulkan buffer of the host. Passes may use it as far as its usage allows. `buffer` is
+/// copied. Passes that read the content run in every frame, as lobe cannot tell whether it has
+/// changed.
+LOBE_API lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph,
+                                                     const lobe_vulkan_buffer *buffer);
+
 /// Describes any image of this frame, except for its name and whether it is retained. All zero for
 /// a buffer or an unknown handle.
 LOBE_API lobe_image_description lobe_graph_describe_image(const lobe_graph *graph,
                                                           lobe_resource image);
+/// The bytes of any buffer of this frame; 0 for an image or an unknown handle.
+LOBE_API size_t lobe_graph_buffer_size(const lobe_graph *graph, lobe_resource buffer);
 
 /// A small buffer with content for this frame (camera, lights): `size` bytes, at most 4 MiB,
 /// copied. A pass that reads it counts as unchanged while the bytes stay the same.

@@ -169,6 +169,23 @@ struct lobe_vulkan_image {
     VkImageView view;
 };
 
+/// A buffer of the host that a frame reads or writes: see lobe_graph_import_host_buffer. It must
+/// live until the device has finished the frame, and belong to the queue family of the lobe device
+/// (or use concurrent sharing). The host's earlier work on it must be ordered before the frame as
+/// for images.
+struct lobe_vulkan_buffer {
+    const char *name; ///< for errors, dumps and labels; copied; NULL: "host buffer"
+    VkBuffer buffer;
+    /// Bytes; the offset is a multiple of 256, or of what the device requires of storage and
+    /// uniform buffers.
+    VkDeviceSize offset, size;
+    VkBufferUsageFlags usage; ///< those it was created with; must allow what passes do with it
+    /// The stages and kinds of access in which the host uses it next. Stages of 0: all stages and
+    /// accesses.
+    VkPipelineStageFlags2 final_stages;
+    VkAccessFlags2 final_access;
+};
+
 /// lobe's equivalent of a format; LOBE_FORMAT_NONE if there is none.
 LOBE_API lobe_format lobe_vulkan_format(VkFormat format);
 

@@ -72,20 +72,28 @@ typedef struct lobe_scene_changes {
 LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,
                                                 const lobe_scene_changes *changes);
 
-/// Gives the texels of those images of the scene that are `on_device`: adds passes that write them,
-/// or imports images of the host's Vulkan (lobe_graph_import_image), and stores the resources in
-/// `images`, which has one for each image of the scene. Each has its image's extent, one level, one
-/// layer, and a format that is read the same way (linear or sRGB; normals as (n + 1) / 2).
-/// Called while a graph is declared, before anything reads a map. A frame may take several graphs,
-/// for all of which the texels must be the same: one for every eight samples of the reference, and
-/// one for each step of `environment_progress`.
-/// Filtered maps are rebuilt where the texels can have changed: in every frame from an image of the
-/// host's Vulkan, and otherwise if the passes that write them read something that changed.
-typedef void (*lobe_image_giver)(void *user, lobe_graph *graph, lobe_resource *images);
+/// Where a host stores what it gives in a frame.
+typedef struct lobe_given_content {
+    lobe_resource *images;   ///< one for each image of the scene
+    lobe_resource *vertices; ///< one for each mesh
+} lobe_given_content;
 
-/// Sets what gives images in all frames from now on, whatever scene is set. NULL: nothing.
-LOBE_API void lobe_renderer_set_image_giver(lobe_renderer *renderer, lobe_image_giver give,
-                                            void *user);
+/// Gives the texels of those images of the scene, and the vertices of those meshes, that are
+/// `on_device`: adds passes that write them, or imports images and buffers of the host's Vulkan
+/// (lobe_graph_import_image, lobe_graph_import_host_buffer), and stores the resources in `content`.
+/// Each image has its image's extent, one level, one layer, and a format that is read the same way
+/// (linear or sRGB; normals as (n + 1) / 2). A buffer has a lobe_scene_vertex for each vertex of
+/// its mesh. Called while a graph is declared, before anything reads a map. A frame may take
+/// several graphs, for all of which the content must be the same: one for every eight samples of
+/// the reference, and one for each step of `environment_progress`. Filtered maps are rebuilt where
+/// the texels can have changed: in every frame from an image of the host's Vulkan, and otherwise if
+/// the passes that write them read something that changed.
+typedef void (*lobe_content_giver)(void *user, lobe_graph *graph,
+                                   const lobe_given_content *content);
+
+/// Sets what gives content in all frames from now on, whatever scene is set. NULL: nothing.
+LOBE_API void lobe_renderer_set_content_giver(lobe_renderer *renderer, lobe_content_giver give,
+                                              void *user);
 
 /// Largest number of samples per pixel of the reference.
 #define LOBE_MAXIMUM_SAMPLES 4096

@@ -33,7 +33,7 @@ typedef struct lobe_scene_image {
     char *name; ///< where it comes from, for messages
     lobe_image image;
     /// The host gives the texels in each frame, as a resource on the device: see
-    /// lobe_image_giver. Those of `image` are then an example, which is not uploaded: from it
+    /// lobe_content_giver. Those of `image` are then an example, which is not uploaded: from it
     /// filters learn what to expect (how many lobes or bins they need, and for what range) when the
     /// scene is set, or the image is listed among its changes. Without any (NULL) filters expect
     /// everything, which costs precision.
@@ -154,6 +154,10 @@ typedef struct lobe_mesh {
     bool has_texture_coordinates[2];
     bool has_colour;
     float minimum[3], maximum[3]; ///< bounds of the positions
+    /// The host gives the vertices on the device, in every frame: see lobe_content_giver.
+    /// `vertices` is then an example, which is not uploaded: texture coordinates and colours of
+    /// those given must be laid out as there.
+    bool on_device;
 } lobe_mesh;
 
 /// A mesh placed in the world with a material. Where surfaces coincide, which is seen is undefined.

@@ -195,6 +195,98 @@ static void assert_refused(fixture *f, lobe_result expected, const char *words) 
     log_recorder_start(&f->host.recorder);
 }
 
+enum { PART = 512, OFFSET = 256 }; // bytes
+
+/// The part of a buffer that frames use.
+static lobe_vulkan_buffer lend_part(const host_buffer *buffer) {
+    return (lobe_vulkan_buffer){.buffer = buffer->buffer,
+                                .offset = OFFSET,
+                                .size = PART,
+                                .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+}
+
+static void assert_words(fixture *f, lobe_resource resource, uint32_t first, uint32_t step) {
+    size_t size = 0;
+    const uint32_t *words = lobe_graph_data(f->graph, resource, &size);
+    assert_int_equal(size, PART);
+    for (uint32_t i = 0; i < PART / 4; i++)
+        assert_int_equal(words[i], first + step * i);
+}
+
+/// What the host writes before, and what a frame writes for the next.
+static void frames_read_and_write_the_hosts_buffer(void **state) {
+    static const float filling[4] = {2};
+    fixture *f = *state;
+    uint32_t words[PART / 4], bits;
+    for (uint32_t i = 0; i < PART / 4; i++)
+        words[i] = 100 + 3 * i;
+    host_buffer buffer =
+        host_buffer_create(&f->host, OFFSET + 2 * PART,
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const lobe_vulkan_buffer lent = lend_part(&buffer);
+    VkCommandBuffer commands = host_begin(&f->host);
+    host_write(commands, &buffer, OFFSET, words, PART);
+    host_write(commands, &buffer, OFFSET + PART, words, PART);
+    lobe_graph_begin(f->graph);
+    lobe_resource part = lobe_graph_import_host_buffer(f->graph, &lent);
+    assert_int_equal(lobe_graph_buffer_size(f->graph, part), PART);
+    lobe_graph_read_back(f->graph, part, (lobe_range){0});
+    const lobe_vulkan_submission submission = {.commands = commands};
+    assert_int_equal(lobe_graph_submit(f->graph, &submission), LOBE_OK);
+    host_finish(&f->host, commands);
+    assert_int_equal(lobe_graph_wait(f->graph), LOBE_OK);
+    assert_words(f, part, 100, 3);
+    lobe_graph_begin(f->graph);
+    lobe_pass *pass = lobe_graph_add_pass(f->graph, LOBE_PASS_TRANSFER, "fill");
+    part = lobe_pass_fill(pass, lobe_graph_import_host_buffer(f->graph, &lent), (lobe_range){0},
+                          filling);
+    lobe_graph_output(f->graph, part);
+    assert_int_equal(lobe_graph_execute(f->graph), LOBE_OK);
+    lobe_vulkan_buffer behind = lent;
+    behind.offset += PART;
+    lobe_graph_begin(f->graph);
+    part = lobe_graph_import_host_buffer(f->graph, &lent);
+    const lobe_resource rest = lobe_graph_import_host_buffer(f->graph, &behind);
+    lobe_graph_read_back(f->graph, part, (lobe_range){0});
+    lobe_graph_read_back(f->graph, rest, (lobe_range){0});
+    assert_int_equal(lobe_graph_execute(f->graph), LOBE_OK);
+    memcpy(&bits, filling, sizeof bits);
+    assert_words(f, part, bits, 0);
+    assert_words(f, rest, 100, 3); // is not filled
+    host_buffer_destroy(&f->host, &buffer);
+}
+
+static void assert_not_imported(fixture *f, const lobe_vulkan_buffer *buffer, const char *words) {
+    lobe_graph_begin(f->graph);
+    assert_int_equal(lobe_graph_import_host_buffer(f->graph, buffer).version, 0);
+    if (!strstr(f->host.recorder.last_error, words))
+        fail_msg("%s", f->host.recorder.last_error);
+}
+
+static void mistakes_with_buffers_are_named(void **state) {
+    fixture *f = *state;
+    host_buffer buffer =
+        host_buffer_create(&f->host, OFFSET + PART, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const lobe_vulkan_buffer whole = lend_part(&buffer);
+    lobe_vulkan_buffer lent = whole;
+    lent.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    lobe_graph_begin(f->graph);
+    lobe_graph_read_back(f->graph, lobe_graph_import_host_buffer(f->graph, &lent), (lobe_range){0});
+    assert_refused(f, LOBE_ERROR_GRAPH, "not created with the usage 'transfer source'");
+    lent = whole;
+    lent.offset = 1;
+    assert_not_imported(f, &lent, "the offset 1 is no multiple of");
+    lent.offset = whole.offset;
+    lent.size = 0;
+    assert_not_imported(f, &lent, "needs a handle and a size above 0");
+    lobe_graph_begin(f->graph);
+    lobe_graph_import_host_buffer(f->graph, &whole);
+    assert_int_equal(lobe_graph_import_host_buffer(f->graph, &whole).version, 0);
+    assert_non_null(strstr(f->host.recorder.last_error, "is imported twice"));
+    host_buffer_destroy(&f->host, &buffer);
+}
+
 static void mistakes_are_named(void **state) {
     fixture *f = *state;
     host_image image = picture(f);
@@ -474,6 +566,8 @@ int main(void) {
         TEST(an_unused_image_changes_its_layout),
         cmocka_unit_test(displays_have_formats_too),
         TEST(mistakes_are_named),
+        TEST(frames_read_and_write_the_hosts_buffer),
+        TEST(mistakes_with_buffers_are_named),
         TEST(a_frame_waits_for_the_host_and_tells_it),
         TEST(read_back_is_there_after_waiting),
         TEST(too_many_semaphores_are_refused),

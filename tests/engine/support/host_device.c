@@ -185,6 +185,28 @@ void host_image_destroy(const host_device *host, host_image *image) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Buffers
+
+host_buffer host_buffer_create(const host_device *host, VkDeviceSize size,
+                               VkBufferUsageFlags usage) {
+    const VkBufferCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
+    VkMemoryRequirements requirements;
+    host_buffer buffer;
+    CHECK(vkCreateBuffer(host->vulkan.device, &create, NULL, &buffer.buffer));
+    vkGetBufferMemoryRequirements(host->vulkan.device, buffer.buffer, &requirements);
+    buffer.memory = allocate(host, &requirements, 0);
+    CHECK(vkBindBufferMemory(host->vulkan.device, buffer.buffer, buffer.memory, 0));
+    return buffer;
+}
+
+void host_buffer_destroy(const host_device *host, host_buffer *buffer) {
+    vkDestroyBuffer(host->vulkan.device, buffer->buffer, NULL);
+    vkFreeMemory(host->vulkan.device, buffer->memory, NULL);
+    *buffer = (host_buffer){0};
+}
+
+// ---------------------------------------------------------------------------------------------
 // Commands
 
 VkCommandBuffer host_begin(const host_device *host) {
@@ -265,6 +287,14 @@ static VkBuffer create_buffer(const host_device *host, size_t size, VkDeviceMemo
                        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     CHECK(vkBindBufferMemory(host->vulkan.device, buffer, *memory, 0));
     return buffer;
+}
+
+void host_write(VkCommandBuffer commands, const host_buffer *buffer, VkDeviceSize offset,
+                const void *data, VkDeviceSize size) {
+    const VkDeviceSize most = 65536; // of one command
+    for (VkDeviceSize done = 0; done < size; done += most)
+        vkCmdUpdateBuffer(commands, buffer->buffer, offset + done,
+                          size - done < most ? size - done : most, (const char *)data + done);
 }
 
 void host_read(const host_device *host, const host_image *image, void *texels, size_t size) {

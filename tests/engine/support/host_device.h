@@ -42,6 +42,16 @@ host_image host_image_create(const host_device *host, VkFormat format, uint32_t 
                              uint32_t height, VkImageUsageFlags usage);
 void host_image_destroy(const host_device *host, host_image *image);
 
+/// A buffer with its own memory.
+typedef struct host_buffer {
+    VkBuffer buffer;
+    VkDeviceMemory memory;
+} host_buffer;
+
+host_buffer host_buffer_create(const host_device *host, VkDeviceSize size,
+                               VkBufferUsageFlags usage);
+void host_buffer_destroy(const host_device *host, host_buffer *buffer);
+
 /// A command buffer in recording state.
 VkCommandBuffer host_begin(const host_device *host);
 /// Ends, submits, waits and frees it.
@@ -52,6 +62,9 @@ void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayo
                   VkImageLayout to);
 /// Fills an image in TRANSFER_DST_OPTIMAL with a colour.
 void host_clear(VkCommandBuffer commands, const host_image *image, const float colour[4]);
+/// Writes bytes, multiples of four, into a buffer that has TRANSFER_DST.
+void host_write(VkCommandBuffer commands, const host_buffer *buffer, VkDeviceSize offset,
+                const void *data, VkDeviceSize size);
 /// Copies `size` bytes of texels from an image in TRANSFER_SRC_OPTIMAL; waits for it.
 void host_read(const host_device *host, const host_image *image, void *texels, size_t size);
 

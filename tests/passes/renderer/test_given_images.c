@@ -48,12 +48,12 @@ static lobe_resource copied(const giver *g, lobe_graph *graph, size_t image) {
                           (lobe_range){0}, target, (lobe_range){0});
 }
 
-static void give(void *user, lobe_graph *graph, lobe_resource *images) {
+static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
     giver *g = user;
     g->calls++;
     for (size_t i = 0; i < IMAGES; i++)
         if (g->textures[i])
-            images[i] = copied(g, graph, i);
+            content->images[i] = copied(g, graph, i);
 }
 
 static giver giver_of(fixture *f, const lobe_scene *scene) {
@@ -97,7 +97,7 @@ static lobe_render_parameters parameters_of(const char *filter) {
 static lobe_frame picture(fixture *f, const char *filter, giver *g) {
     const lobe_render_parameters parameters = parameters_of(filter);
     lobe_frame frame;
-    lobe_renderer_set_image_giver(f->renderer, g ? give : NULL, g);
+    lobe_renderer_set_content_giver(f->renderer, g ? give : NULL, g);
     if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
         fail_msg("%s: %s", filter, f->error);
     return frame;
@@ -304,8 +304,8 @@ static void an_example_without_metal_says_nothing(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Images of the host's Vulkan
 
-static void give_vulkan(void *user, lobe_graph *graph, lobe_resource *images) {
-    images[0] = lobe_graph_import_image(graph, user);
+static void give_vulkan(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    content->images[0] = lobe_graph_import_image(graph, user);
 }
 
 /// The host clears its image to slopes, and lobe reads it in the same command buffer.
@@ -351,7 +351,7 @@ static void images_of_the_hosts_vulkan_are_maps(void **state) {
             .host = {.target = &(lobe_render_target){.radiance = &target},
                      .submission = &(lobe_vulkan_submission){.commands = commands}}};
         lobe_frame frame;
-        lobe_renderer_set_image_giver(renderer, given ? give_vulkan : NULL, &lent);
+        lobe_renderer_set_content_giver(renderer, given ? give_vulkan : NULL, &lent);
         if (lobe_renderer_render(renderer, &parameters, &frame) != LOBE_OK)
             fail_msg("%s", host.recorder.last_error);
         host_finish(&host, commands);
@@ -372,21 +372,21 @@ static void images_of_the_hosts_vulkan_are_maps(void **state) {
 // Mistakes
 
 /// Gives images as `user` describes them.
-static void give_described(void *user, lobe_graph *graph, lobe_resource *images) {
+static void give_described(void *user, lobe_graph *graph, const lobe_given_content *content) {
     for (size_t i = 0; i < IMAGES; i++)
-        images[i] = lobe_graph_image(graph, user);
+        content->images[i] = lobe_graph_image(graph, user);
 }
 
-static void give_buffer(void *user, lobe_graph *graph, lobe_resource *images) {
+static void give_buffer(void *user, lobe_graph *graph, const lobe_given_content *content) {
     (void)user;
-    images[0] = lobe_graph_upload(graph, "buffer", "text", 4);
+    content->images[0] = lobe_graph_upload(graph, "buffer", "text", 4);
 }
 
-static void assert_refused(fixture *f, lobe_image_giver given, void *user, const char *line) {
+static void assert_refused(fixture *f, lobe_content_giver given, void *user, const char *line) {
     const lobe_render_parameters parameters = parameters_of("moments");
     lobe_frame frame;
     fixture_forget_messages(f);
-    lobe_renderer_set_image_giver(f->renderer, given, user);
+    lobe_renderer_set_content_giver(f->renderer, given, user);
     assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame),
                    LOBE_ERROR_INVALID_ARGUMENT, line);
     assert_null(frame.radiance.texels);

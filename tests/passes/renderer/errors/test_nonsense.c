@@ -198,6 +198,8 @@ static void graphs_that_are_none(void **state) {
     assert_int_equal(lobe_graph_import_texture(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_import_buffer(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_import_image(NULL, NULL).version, 0);
+    assert_int_equal(lobe_graph_import_host_buffer(NULL, NULL).version, 0);
+    assert_int_equal(lobe_graph_buffer_size(NULL, none), 0);
     assert_int_equal(lobe_graph_upload(NULL, NULL, NULL, 5).version, 0);
     assert_int_equal(lobe_graph_describe_image(NULL, none).width, 0);
     assert_null(lobe_graph_add_pass(NULL, LOBE_PASS_COMPUTE, NULL));
@@ -398,7 +400,7 @@ static void renderers(void **state) {
             lobe_renderer_create(NULL, &f->host, &renderer));
     REFUSED_SILENTLY(lobe_renderer_set_scene(NULL, NULL));
     REFUSED_SILENTLY(lobe_renderer_update_scene(NULL, NULL));
-    lobe_renderer_set_image_giver(NULL, NULL, NULL);
+    lobe_renderer_set_content_giver(NULL, NULL, NULL);
     REFUSED_SILENTLY(lobe_renderer_render(NULL, NULL, &frame));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_render",
             lobe_renderer_render(f->renderer, NULL, &frame));

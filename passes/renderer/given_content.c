@@ -2,6 +2,9 @@
 
 #include <string.h>
 
+// ---------------------------------------------------------------------------------------------
+// Images
+
 static bool is_drawn(const device_scene *scene, uint32_t image) {
     for (size_t i = 0; i < scene->scene->material_count; i++) {
         const device_material *material = &scene->materials[i];
@@ -43,7 +46,7 @@ static void check_given(const rendering *r, uint32_t index, const lobe_image_des
                         given->samples > 0 ? given->samples : 1, lobe_format_name(given->format));
 }
 
-static void check(const rendering *r, uint32_t index) {
+static void check_image(const rendering *r, uint32_t index) {
     const device_scene *scene = r->context.scene;
     const lobe_resource given = scene->given[index];
     if (given.version > 0) {
@@ -55,13 +58,49 @@ static void check(const rendering *r, uint32_t index) {
     }
 }
 
-void passes_given_images_take(rendering *r) {
+// ---------------------------------------------------------------------------------------------
+// Vertices
+
+static bool is_mesh_drawn(const device_scene *scene, uint32_t mesh) {
+    return scene->indices[mesh] != NULL;
+}
+
+static void fail_mesh(const rendering *r, uint32_t index, const char *what) {
+    const lobe_scene *scene = r->context.scene->scene;
+    lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: mesh '%s' %s", scene->name,
+                    scene->meshes[index].name, what);
+}
+
+static void check_vertices(const rendering *r, uint32_t index) {
+    const device_scene *scene = r->context.scene;
+    const lobe_mesh *mesh = &scene->scene->meshes[index];
+    const lobe_resource given = scene->given_vertices[index];
+    const size_t expected = mesh->vertex_count * sizeof *mesh->vertices,
+                 found = lobe_graph_buffer_size(r->context.graph, given);
+    if (given.version == 0 && mesh->on_device && is_mesh_drawn(scene, index))
+        fail_mesh(r, index, "is on the device, but the host gave no vertices in this frame");
+    else if (given.version > 0 && !mesh->on_device)
+        fail_mesh(r, index, "is not on the device, but the host gave vertices that are");
+    else if (given.version > 0 && found < expected)
+        lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: mesh '%s' has %zu bytes of vertices, but the host gave %zu",
+                        scene->scene->name, mesh->name, expected, found);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Both
+
+void passes_given_content_take(rendering *r) {
     const lobe_renderer *renderer = r->renderer;
     const device_scene *scene = r->context.scene;
-    const size_t count = scene->scene->image_count;
-    memset(scene->given, 0, count * sizeof *scene->given);
-    if (renderer->give_images)
-        renderer->give_images(renderer->giver, r->context.graph, scene->given);
-    for (uint32_t i = 0; i < count; i++)
-        check(r, i);
+    const lobe_scene *source = scene->scene;
+    const lobe_given_content content = {scene->given, scene->given_vertices};
+    memset(scene->given, 0, source->image_count * sizeof *scene->given);
+    memset(scene->given_vertices, 0, source->mesh_count * sizeof *scene->given_vertices);
+    if (renderer->give_content)
+        renderer->give_content(renderer->giver, r->context.graph, &content);
+    for (uint32_t i = 0; i < source->image_count; i++)
+        check_image(r, i);
+    for (uint32_t i = 0; i < source->mesh_count; i++)
+        check_vertices(r, i);
 }

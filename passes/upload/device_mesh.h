@@ -1,0 +1,11 @@
+#ifndef PASSES_UPLOAD_DEVICE_MESH_H
+#define PASSES_UPLOAD_DEVICE_MESH_H
+
+#include "passes/upload/device_scene.h"
+
+/// The vertices of a mesh in this frame, a buffer of struct vertex: those that the host gives, or
+/// the scene's.
+lobe_resource passes_device_mesh_import(lobe_graph *graph, const device_scene *scene,
+                                        uint32_t mesh);
+
+#endif
