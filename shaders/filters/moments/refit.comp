@@ -43,7 +43,7 @@ const uint MOST_ITERATIONS = 60000;
 // The part of its score by which a fit must be better than that from the first bins.
 const float GAIN = 0.02;
 
-// A bin with a smaller part of all lobes starts anew.
+// A bin with a smaller part of all lobes starts over.
 const float LEAST_PART = 1e-9;
 
 // For lobes that are not in the sample. What exceeds it is clipped, if the storage format demands

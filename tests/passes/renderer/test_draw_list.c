@@ -241,8 +241,10 @@ static void hidden_instances_are_not_there(void **state) {
             scene_surround(few, 8, grey);
             all->environment_visible = few->environment_visible = true;
         }
-        const picture_request request = {
-            .filter = "moments", .settings = {knobs[i]}, .width = extent, .height = extent};
+        const picture_request request = {.filter = "moments",
+                                         .settings = {"env_size=16", knobs[i]},
+                                         .width = extent,
+                                         .height = extent};
         lobe_frame expected = draw_scene(f, few, &request);
         for (uint32_t j = 0; j < INSTANCES; j++)
             all->instances[j].hidden = true;

@@ -278,7 +278,10 @@ static void shifted_cameras_draw_tiles(void **state) {
     enum { WIDTH = 24, HEIGHT = 16 };
     for (int perspective = 0; perspective < 2; perspective++) {
         lobe_scene *scene = square_below_sky(perspective);
-        picture_request request = {.filter = "moments", .width = WIDTH, .height = HEIGHT};
+        picture_request request = {.filter = "moments",
+                                   .settings = {"env=sampled", "env_size=16"},
+                                   .width = WIDTH,
+                                   .height = HEIGHT};
         lobe_frame whole = draw_scene(*state, scene, &request);
         lobe_camera *camera = &scene->camera;
         if (perspective)

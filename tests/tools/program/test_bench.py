@@ -109,14 +109,11 @@ def test_changed_texels_are_paid_for():
         built, changed = ([entry["name"] for entry in one[key]]
                           for key in ("passes", "changed_passes"))
         check(built == changed, f"{built} is not {changed}")
+        check(("moment_refit" in changed) == (one is moments), str(changed))
         wall, caller, process = (one[f"changed_{name}_ms"]["median"]
                                  for name in ("wall", "caller_cpu", "process_cpu"))
         check(wall > one["changed_ms"]["median"], "the host takes no time")
         check(process > 0.9 * caller, "the caller is no part of the process")
-    # It chooses its bins anew, on the host.
-    added = [one["changed_caller_cpu_ms"]["median"] - one["changed_host_ms"]["median"]
-             for one in (direct, moments)]
-    check(added[1] > 5 * added[0], str(added))
 
 
 def test_two_truths():
