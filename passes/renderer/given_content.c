@@ -2,6 +2,12 @@
 
 #include <string.h>
 
+/// `kind`: "image" or "mesh".
+static void fail(const rendering *r, const char *kind, const char *name, const char *what) {
+    lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: %s '%s' %s",
+                    r->context.scene->scene->name, kind, name, what);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Images
 
@@ -15,12 +21,6 @@ static bool is_drawn(const device_scene *scene, uint32_t image) {
     return false;
 }
 
-static void fail(const rendering *r, uint32_t index, const char *what) {
-    const lobe_scene *scene = r->context.scene->scene;
-    lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: image '%s' %s", scene->name,
-                    scene->images[index].name, what);
-}
-
 static bool can_be_sampled(const lobe_image_description *image) {
     return image->levels <= 1 && image->layers <= 1 && image->samples <= 1 &&
            image->format != LOBE_FORMAT_D32_FLOAT;
@@ -30,9 +30,9 @@ static void check_given(const rendering *r, uint32_t index, const lobe_image_des
     const lobe_scene *scene = r->context.scene->scene;
     const lobe_scene_image *image = &scene->images[index];
     if (!image->on_device)
-        fail(r, index, "is not on the device, but the host gave texels that are");
+        fail(r, "image", image->name, "is not on the device, but the host gave texels that are");
     else if (given->width == 0)
-        fail(r, index, "is given by something that is no image of this frame");
+        fail(r, "image", image->name, "is given by something that is no image of this frame");
     else if (given->width != image->image.width || given->height != image->image.height)
         lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: image '%s' is of %ux%u texels, but the host gave %ux%u", scene->name,
@@ -54,7 +54,8 @@ static void check_image(const rendering *r, uint32_t index) {
             lobe_graph_describe_image(r->context.graph, given);
         check_given(r, index, &description);
     } else if (scene->scene->images[index].on_device && is_drawn(scene, index)) {
-        fail(r, index, "is on the device, but the host gave no texels in this frame");
+        fail(r, "image", scene->scene->images[index].name,
+             "is on the device, but the host gave no texels in this frame");
     }
 }
 
@@ -65,12 +66,6 @@ static bool is_mesh_drawn(const device_scene *scene, uint32_t mesh) {
     return scene->indices[mesh] != NULL;
 }
 
-static void fail_mesh(const rendering *r, uint32_t index, const char *what) {
-    const lobe_scene *scene = r->context.scene->scene;
-    lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: mesh '%s' %s", scene->name,
-                    scene->meshes[index].name, what);
-}
-
 static void check_vertices(const rendering *r, uint32_t index) {
     const device_scene *scene = r->context.scene;
     const lobe_mesh *mesh = &scene->scene->meshes[index];
@@ -78,9 +73,10 @@ static void check_vertices(const rendering *r, uint32_t index) {
     const size_t expected = mesh->vertex_count * sizeof *mesh->vertices,
                  found = lobe_graph_buffer_size(r->context.graph, given);
     if (given.version == 0 && mesh->on_device && is_mesh_drawn(scene, index))
-        fail_mesh(r, index, "is on the device, but the host gave no vertices in this frame");
+        fail(r, "mesh", mesh->name,
+             "is on the device, but the host gave no vertices in this frame");
     else if (given.version > 0 && !mesh->on_device)
-        fail_mesh(r, index, "is not on the device, but the host gave vertices that are");
+        fail(r, "mesh", mesh->name, "is not on the device, but the host gave vertices that are");
     else if (given.version > 0 && found < expected)
         lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: mesh '%s' has %zu bytes of vertices, but the host gave %zu",

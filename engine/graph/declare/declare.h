@@ -47,6 +47,10 @@ lobe_result engine_graph_check_rasters(lobe_graph *graph);
 /// derives how each resource is used (binding.c).
 lobe_result engine_graph_resolve_bindings(lobe_graph *graph);
 
+/// In which a resource of the host is returned after the frame. `stages`: in which the host uses it
+/// next; 0: any use is assumed.
+engine_access_state engine_graph_returned_state(uint64_t stages, uint64_t access);
+
 /// Checks that host images were created for what passes do with them (host_image.c).
 lobe_result engine_graph_check_host_images(lobe_graph *graph);
 /// The same of buffers.

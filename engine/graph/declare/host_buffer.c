@@ -38,16 +38,6 @@ static bool check_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer, co
     return graph->frame.result == LOBE_OK;
 }
 
-/// If the host does not say how it uses the buffer next, assumes any use.
-static engine_access_state state_after(const lobe_vulkan_buffer *buffer) {
-    const bool all = buffer->final_stages == 0;
-    return (engine_access_state){
-        .stages = all ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : buffer->final_stages,
-        .access =
-            all ? VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT : buffer->final_access,
-        .layout = ENGINE_LAYOUT_RETURNED};
-}
-
 lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer) {
     if (!buffer) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
@@ -80,7 +70,7 @@ lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph, const lobe_vulkan
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
                    .layout = ENGINE_LAYOUT_LENT},
-        .after = state_after(buffer)};
+        .after = engine_graph_returned_state(buffer->final_stages, buffer->final_access)};
     return engine_graph_add_resource(graph, &resource, &dependency);
 }
 

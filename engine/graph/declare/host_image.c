@@ -35,16 +35,6 @@ static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const
     return graph->frame.result == LOBE_OK;
 }
 
-/// If the host does not say how it uses the image next, assumes any use.
-static engine_access_state state_after(const lobe_vulkan_image *image) {
-    bool all = image->final_stages == 0;
-    return (engine_access_state){
-        .stages = all ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : image->final_stages,
-        .access =
-            all ? VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT : image->final_access,
-        .layout = ENGINE_LAYOUT_RETURNED};
-}
-
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {
     if (!image) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_import_image: image must not be NULL");
@@ -80,7 +70,7 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
                    .layout = has_content ? ENGINE_LAYOUT_LENT : ENGINE_LAYOUT_UNDEFINED},
-        .after = state_after(image)};
+        .after = engine_graph_returned_state(image->final_stages, image->final_access)};
     return engine_graph_add_resource(graph, &resource, &dependency);
 }
 

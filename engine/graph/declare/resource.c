@@ -101,11 +101,16 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     return graph->frame.result == LOBE_OK;
 }
 
+static const engine_graph_resource *find_resource(const lobe_graph *graph, lobe_resource resource) {
+    if (!graph || resource.version == 0 ||
+        resource.index >= graph->frame.dependencies.resource_count)
+        return NULL;
+    return &graph->frame.resources[resource.index];
+}
+
 lobe_image_description lobe_graph_describe_image(const lobe_graph *graph, lobe_resource image) {
-    if (!graph || image.version == 0 || image.index >= graph->frame.dependencies.resource_count)
-        return (lobe_image_description){0};
-    const engine_graph_resource *resource = &graph->frame.resources[image.index];
-    if (!resource->is_image)
+    const engine_graph_resource *resource = find_resource(graph, image);
+    if (!resource || !resource->is_image)
         return (lobe_image_description){0};
     return (lobe_image_description){.format = resource->format,
                                     .width = resource->width,
@@ -116,10 +121,16 @@ lobe_image_description lobe_graph_describe_image(const lobe_graph *graph, lobe_r
 }
 
 size_t lobe_graph_buffer_size(const lobe_graph *graph, lobe_resource buffer) {
-    if (!graph || buffer.version == 0 || buffer.index >= graph->frame.dependencies.resource_count)
-        return 0;
-    const engine_graph_resource *resource = &graph->frame.resources[buffer.index];
-    return resource->is_image ? 0 : resource->size;
+    const engine_graph_resource *resource = find_resource(graph, buffer);
+    return resource && !resource->is_image ? resource->size : 0;
+}
+
+engine_access_state engine_graph_returned_state(uint64_t stages, uint64_t access) {
+    const bool all = stages == 0;
+    return (engine_access_state){
+        .stages = all ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : stages,
+        .access = all ? VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT : access,
+        .layout = ENGINE_LAYOUT_RETURNED};
 }
 
 static engine_stamp identity_of(const engine_graph_resource *resource) {

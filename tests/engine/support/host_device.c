@@ -187,17 +187,22 @@ void host_image_destroy(const host_device *host, host_image *image) {
 // ---------------------------------------------------------------------------------------------
 // Buffers
 
-host_buffer host_buffer_create(const host_device *host, VkDeviceSize size,
-                               VkBufferUsageFlags usage) {
+static host_buffer create_buffer(const host_device *host, VkDeviceSize size,
+                                 VkBufferUsageFlags usage, VkMemoryPropertyFlags flags) {
     const VkBufferCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
     VkMemoryRequirements requirements;
     host_buffer buffer;
     CHECK(vkCreateBuffer(host->vulkan.device, &create, NULL, &buffer.buffer));
     vkGetBufferMemoryRequirements(host->vulkan.device, buffer.buffer, &requirements);
-    buffer.memory = allocate(host, &requirements, 0);
+    buffer.memory = allocate(host, &requirements, flags);
     CHECK(vkBindBufferMemory(host->vulkan.device, buffer.buffer, buffer.memory, 0));
     return buffer;
+}
+
+host_buffer host_buffer_create(const host_device *host, VkDeviceSize size,
+                               VkBufferUsageFlags usage) {
+    return create_buffer(host, size, usage, 0);
 }
 
 void host_buffer_destroy(const host_device *host, host_buffer *buffer) {
@@ -273,22 +278,6 @@ void host_clear(VkCommandBuffer commands, const host_image *image, const float c
                          &range);
 }
 
-static VkBuffer create_buffer(const host_device *host, size_t size, VkDeviceMemory *memory) {
-    const VkBufferCreateInfo create = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .size = size,
-        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-    };
-    VkBuffer buffer;
-    VkMemoryRequirements requirements;
-    CHECK(vkCreateBuffer(host->vulkan.device, &create, NULL, &buffer));
-    vkGetBufferMemoryRequirements(host->vulkan.device, buffer, &requirements);
-    *memory = allocate(host, &requirements,
-                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    CHECK(vkBindBufferMemory(host->vulkan.device, buffer, *memory, 0));
-    return buffer;
-}
-
 void host_write(VkCommandBuffer commands, const host_buffer *buffer, VkDeviceSize offset,
                 const void *data, VkDeviceSize size) {
     const VkDeviceSize most = 65536; // of one command
@@ -298,9 +287,10 @@ void host_write(VkCommandBuffer commands, const host_buffer *buffer, VkDeviceSiz
 }
 
 void host_read(const host_device *host, const host_image *image, void *texels, size_t size) {
-    VkDeviceMemory memory;
     void *mapped;
-    VkBuffer buffer = create_buffer(host, size, &memory);
+    host_buffer buffer =
+        create_buffer(host, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
     const VkBufferImageCopy copy = {.imageSubresource = {aspect_of(image), 0, 0, 1},
                                     .imageExtent = {image->width, image->height, 1}};
     const VkMemoryBarrier2 barrier = {
@@ -314,14 +304,13 @@ void host_read(const host_device *host, const host_image *image, void *texels, s
                                          .memoryBarrierCount = 1,
                                          .pMemoryBarriers = &barrier};
     VkCommandBuffer commands = host_begin(host);
-    vkCmdCopyImageToBuffer(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1,
-                           &copy);
+    vkCmdCopyImageToBuffer(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           buffer.buffer, 1, &copy);
     vkCmdPipelineBarrier2(commands, &dependency);
     host_finish(host, commands);
-    CHECK(vkMapMemory(host->vulkan.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+    CHECK(vkMapMemory(host->vulkan.device, buffer.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
     memcpy(texels, mapped, size);
-    vkDestroyBuffer(host->vulkan.device, buffer, NULL);
-    vkFreeMemory(host->vulkan.device, memory, NULL);
+    host_buffer_destroy(host, &buffer);
 }
 
 VkSemaphore host_semaphore(const host_device *host, bool timeline) {
