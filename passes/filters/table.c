@@ -9,6 +9,8 @@
     FILTER(leadr)                                                                                  \
     FILTER(lobes)                                                                                  \
     FILTER(moments)                                                                                \
+    FILTER(tan)                                                                                    \
+    FILTER(mixture)                                                                                \
     FILTER(reference)
 
 #define FILTER(name) extern const lobe_filter passes_filter_##name;

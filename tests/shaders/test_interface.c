@@ -12,6 +12,7 @@
 #include "shaders/interface/clustering_atlas.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/frame.h"
+#include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/irradiance_harmonics.h"
 #include "shaders/interface/knobs.h"
@@ -98,6 +99,12 @@ static known_member known[] = {
     MEMBER(material_constants, occlusion_strength, 8),
     MEMBER(material_constants, largest_colour, 9),
     MEMBER(material_constants, transforms, 12),
+    MEMBER(mixture_extremes, places, 0),
+    MEMBER(mixture_extremes, lobes, 1),
+    MEMBER(mixture_fit_constants, width, 0),
+    MEMBER(mixture_fit_constants, height, 1),
+    MEMBER(mixture_fit_constants, steps, 2),
+    MEMBER(mixture_fit_constants, prior, 3),
     MEMBER(moment_bin, centre, 0),
     MEMBER(moment_bin, shape, 1),
     MEMBER(moment_bin, range, 2),

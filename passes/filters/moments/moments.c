@@ -8,6 +8,7 @@
 #include "passes/filters/moments/refit.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/maps/moment_map.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"
@@ -15,7 +16,6 @@
 static const char *const partitions[] = {"fitted", "hats", "cap", NULL};
 static const char *const bin_numbers[] = {"auto", "1", "2", "3", "4", "5", "6", NULL};
 static const char *const colours[] = {"auto", "mean", "bins", NULL};
-static const char *const storages[] = {"snorm16", "float16", "float32", NULL};
 
 static const filter_knob partition_knob = {
     .description = {.name = "partition",
@@ -48,57 +48,26 @@ static const filter_knob colour_knob = {
          .sweep = "mean,bins"},
     .decides_slots = true,
 };
-static const filter_knob least_share_knob = {
-    .description = {.name = "least_share",
-                    .summary = "bins with a smaller share of the footprint are skipped",
-                    .maximum = 0.1,
-                    .initial = 1e-3},
-    .feeds = KNOB_FEEDS_FILTER(moments_knobs, least_share),
-};
-static const filter_knob storage_knob = {
-    .description =
-        {.name = "storage",
-         .summary = "format of the moments; snorm16 keeps the digits of the material's own range",
-         .kind = LOBE_KNOB_CHOICE,
-         .maximum = 2,
-         .choices = storages,
-         .sweep = "float16,float32"},
-};
 static const filter_knob *const knobs[] = {
     &partition_knob,
     &bins_knob,
     &colour_knob,
-    &least_share_knob,
+    &passes_knob_least_share,
     &passes_knob_probes,
     &passes_knob_anisotropy,
     &passes_knob_bias,
     &passes_knob_curvature,
-    &storage_knob,
+    &passes_knob_bin_storage,
     &passes_knob_normal_mapping,
     NULL,
 };
 
-static lobe_format format_of(const filter_context *context) {
-    static const lobe_format formats[] = {LOBE_FORMAT_RGBA16_SNORM, LOBE_FORMAT_RGBA16_FLOAT,
-                                          LOBE_FORMAT_RGBA32_FLOAT};
-    return formats[(int)passes_knob_choice(context, &storage_knob)];
-}
-
-/// Whether a map is read at the same coordinates as the lobes, and is no finer.
-static bool lies_under_lobes(const device_material *material, uint32_t map) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    const device_map *own = &material->maps[map];
-    return !own->use || (own->width <= grid.width && own->height <= grid.height &&
-                         passes_lobe_grid_shares_coordinates(&grid, own->use));
-}
-
 /// Bins can have their own specular colour only if its maps lie under the lobes'.
 static bin_colour colour_of_bins(const filter_context *context, const device_material *material) {
     static const bin_colour wanted[] = {BIN_COLOUR_AUTOMATIC, BIN_COLOUR_MEAN, BIN_COLOUR_OWN};
-    bool possible = lies_under_lobes(material, MAP_BASE_COLOUR) &&
-                    lies_under_lobes(material, MAP_SPECULAR) &&
-                    lies_under_lobes(material, MAP_WIDTH);
-    return possible ? wanted[passes_knob_choice(context, &colour_knob)] : BIN_COLOUR_MEAN;
+    return passes_bins_may_have_colours(material)
+               ? wanted[passes_knob_choice(context, &colour_knob)]
+               : BIN_COLOUR_MEAN;
 }
 
 /// Whether texels of a map of colours may exceed one.
@@ -181,22 +150,6 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
 // ---------------------------------------------------------------------------------------------
 // Maps
 
-/// Whether base lobes differ in width, in a texel or from texel to texel.
-static bool widths_vary(const device_material *material) {
-    const lobe_material *source = material->material;
-    bool vary = material->maps[MAP_WIDTH].use != NULL;
-    for (uint32_t i = 1; source->model != LOBE_MATERIAL_MICROFACET && i < source->lobe_count; i++)
-        vary |= source->lobes[i].width != source->lobes[0].width;
-    return vary;
-}
-
-static void specialise_bins(const device_material *material, const moment_partition *partition,
-                            filtered_appearance *appearance) {
-    passes_appearance_specialise(appearance, SPECIALISE_BIN_WIDTHS, widths_vary(material));
-    passes_appearance_specialise(appearance, SPECIALISE_BINS, partition->bins);
-    passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, partition->own_colours);
-}
-
 /// Whether a map has other texels than the bins were fitted to, as far as the host knows.
 static bool has_other_texels(const device_scene *scene, const device_material *material,
                              const prepared_moments *prepared, uint32_t map) {
@@ -227,26 +180,21 @@ static lobe_resource bins_of(const filter_context *context, uint32_t material,
 
 static moment_map build_moments(const filter_context *context, uint32_t material,
                                 const prepared_moments *prepared, filtered_appearance *appearance) {
-    specialise_bins(&context->scene->materials[material], &prepared->partition, appearance);
-    return passes_moment_binning(context, material, &prepared->partition,
-                                 bins_of(context, material, prepared), format_of(context));
+    const moment_partition *partition = &prepared->partition;
+    passes_bins_specialise(&context->scene->materials[material], partition->bins,
+                           partition->own_colours, appearance);
+    return passes_moment_binning(context, material, partition, bins_of(context, material, prepared),
+                                 passes_bin_format(context));
 }
 
 /// `prepared`: NULL if the material's lobes do not vary.
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
-    static const struct moment_binning_constants none;
     const uint32_t material = context->scene->instances[instance].material;
-    moment_map moments = {0};
+    moment_map moments;
     if (prepared)
         moments = build_moments(context, material, prepared, appearance);
-    else
-        moments.bins = lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
-    passes_lobe_map_bind(context, material, "moment_map", prepared ? &moments.map : NULL,
-                         moments.format, appearance);
-    passes_appearance_bind(appearance, "binning_block", moments.bins, (lobe_sampler){0});
-    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, prepared != NULL);
-    passes_filtered_maps_build(context, material, appearance);
+    passes_bin_appearance_bind(context, material, prepared ? &moments : NULL, appearance);
 }
 
 const lobe_filter passes_filter_moments = {

@@ -6,27 +6,17 @@
 // the bins that it belongs to. All of these are sums, so that filtering the map linearly filters
 // the lobes. The texels' own lobes are level 0; the map starts where texels are averaged.
 
-#include "maps/base_maps.glsl"
+#include "maps/plane_lobes.glsl"
 #include "interface/lobe_grid.h"
 #include "lib/lobe/bin_membership.glsl"
 #include "lib/map/box_reduction.glsl"
-#include "lib/lobe/half_vector_lobe.glsl"
-#include "lib/lobe/lambert_plane.glsl"
-#include "lib/lobe/plane_lobe.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
-layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 
-// glTF 2.0, appendix B.2.
-const float DIELECTRIC_F0 = 0.04;
-
-layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
-layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
 layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants binning; };
 
@@ -42,14 +32,6 @@ struct bin_sums {
 float colour_unit() {
     return binning.largest.y * material.largest_colour;
 }
-
-// A base lobe of a texel.
-struct plane_lobe {
-    vec2 place;
-    float variance;
-    float mass;
-    vec4 colour; // of microfacets: of metal, and what is not metal
-};
 
 void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
     float most = -1e30;
@@ -95,53 +77,15 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
     }
 }
 
-vec4 value_at(int map, sampler2D image, vec2 point) {
-    return has_map(map) ? textureLod(image, point, 0.0) : vec4(1.0);
-}
-
-// Specular: of microfacets the part of F0 that is metal's, and the fraction that is not metal; or
-// the factor of the lobes' colours. Diffuse: what is below, times what they let through at normal
-// incidence.
-void colours_at(vec2 point, out vec4 specular, out vec3 diffuse) {
-    diffuse = material.base_colour.rgb * value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb;
-    if (MODEL == MODEL_MICROFACET) {
-        float metallic = material.metallic;
-        if (METALLIC_MAP)
-            metallic *= value_at(MAP_WIDTH, width_map, point).b;
-        specular = vec4(diffuse * metallic, 1.0 - metallic);
-        diffuse *= (1.0 - metallic) * (1.0 - DIELECTRIC_F0 * specular.a - specular.rgb);
-    } else {
-        specular = vec4(value_at(MAP_SPECULAR, specular_map, point).rgb, 0.0);
-    }
-}
-
-plane_lobe make_lobe(int i, vec3 normal, float factor, vec4 specular) {
-    bool microfacet = MODEL == MODEL_MICROFACET;
-    float parameter = base_parameter(i, factor);
-    uint distribution = DISTRIBUTION;
-    if (BASE_AS_LOBE) {
-        parameter = base_lobe_concentration(DISTRIBUTION, parameter);
-        distribution = DISTRIBUTION_VMF;
-    }
-    float share = microfacet ? 1.0 : material.lobe_colour[i].w;
-    plane_lobe lobe;
-    lobe.place = plane_from_direction(
-        microfacet ? normal : rotate_from_pole(normal, material.lobe_direction[i].xyz));
-    lobe.variance = plane_variance(distribution, parameter);
-    lobe.mass = share * plane_mass(MODEL, distribution, parameter);
-    lobe.colour = vec4(specular.rgb / colour_unit(), specular.a);
-    if (!microfacet)
-        lobe.colour.rgb *= material.lobe_colour[i].rgb / max(share, 1e-6);
-    return lobe;
-}
-
 void add_point(inout bin_sums sums, vec2 point, float weight) {
     vec3 normal = normal_at(point);
     float factor = width_at(point);
     vec4 specular = vec4(0.0);
     vec3 diffuse = vec3(0.0);
-    if (BIN_COLOUR)
+    if (BIN_COLOUR) {
         colours_at(point, specular, diffuse);
+        specular.rgb /= colour_unit();
+    }
     sums.diffuse += weight * diffuse;
     for (int i = 0; i < LOBE_COUNT; ++i)
         add_lobe(sums, make_lobe(i, normal, factor, specular), weight);

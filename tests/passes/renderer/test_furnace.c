@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -104,6 +105,11 @@ static double most_reflected(const lobe_material *material) {
     return own || material->roughness < 0.5f ? 1.003 : 1.15;
 }
 
+/// `tan` has no masking, as printed, and divides by the cosine to the viewer.
+static bool is_masked(const char *filter) {
+    return strcmp(filter, "tan") != 0;
+}
+
 static void check_furnace(fixture *f, const lobe_material *material, double degrees) {
     double outgoing[3];
     direction_at(degrees, 0.3, outgoing);
@@ -127,7 +133,8 @@ static void check_furnace(fixture *f, const lobe_material *material, double degr
     for (size_t i = 0; at_limits && i < lobe_filter_count(); i++) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
         double filtered = draw_one_pixel(f, scene, filter);
-        if (!(filtered >= 0.75 * least && filtered <= most_reflected(material) + 0.02))
+        if (is_masked(filter) &&
+            !(filtered >= 0.75 * least && filtered <= most_reflected(material) + 0.02))
             fail_msg("%s: %s reflects %g of the light", what, filter, filtered);
     }
     lobe_scene_destroy(&scene);
@@ -168,7 +175,7 @@ static void check_rough_surface(fixture *f, const lobe_material *material, doubl
         double found = draw_one_pixel(f, scene, filter);
         // A single sample's narrow lobe is missed by suns placed for broad ones, or faces away at
         // grazing angles.
-        if (!(found >= (degrees < 60 ? 0.5 : 0) && found <= 1.03))
+        if (is_masked(filter) && !(found >= (degrees < 60 ? 0.5 : 0) && found <= 1.03))
             fail_msg("%s, tilt %g, %g degrees: %s reflects %g of the light",
                      distribution_names[material->distribution], tilt, degrees, filter, found);
     }

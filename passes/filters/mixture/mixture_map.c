@@ -1,0 +1,191 @@
+#include "passes/filters/mixture/mixture_map.h"
+
+#include <stdio.h>
+
+#include "passes/context/material_specialisation.h"
+#include "passes/filters/mixture/samples.h"
+#include "passes/maps/moment_map.h"
+#include "shaders/interface/gaussian_mixture.h"
+#include "shaders/interface/moment_bins.h"
+
+/// Texels of the maps along a side of a level's texel, above which a group fits each texel to a
+/// sample; and those of the parts whose sums are gathered then.
+enum { LARGEST_BOX = 64 };
+
+/// What all passes of a map share.
+typedef struct mixture_build {
+    lobe_graph *graph;
+    const device_material *material;
+    const mixture_kind *kind;
+    mixture_samples samples;
+    moment_map target;
+    lobe_resource components; ///< of the level before
+} mixture_build;
+
+static uint32_t level_extent(uint32_t extent, uint32_t level) {
+    return extent >> level > 0 ? extent >> level : 1;
+}
+
+/// Of the texels of a level, along the longer side.
+static uint32_t box_side(const mixture_build *build, uint32_t level) {
+    const uint32_t x = build->samples.width / level_extent(build->target.map.width, level);
+    const uint32_t y = build->samples.height / level_extent(build->target.map.height, level);
+    return x > y ? x : y;
+}
+
+static lobe_resource declare_layers(const mixture_build *build, const char *name, uint32_t width,
+                                    uint32_t height, uint32_t layers) {
+    return lobe_graph_image(build->graph, &(lobe_image_description){
+                                              .name = name,
+                                              .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                              .width = width,
+                                              .height = height,
+                                              .layers = layers,
+                                          });
+}
+
+static lobe_resource declare_components(const mixture_build *build, uint32_t width,
+                                        uint32_t height) {
+    return declare_layers(build, "components", width, height, 2 * build->kind->components);
+}
+
+static lobe_pass *add_pass(const mixture_build *build, const char *name) {
+    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, name);
+    lobe_pass_read(pass, &(lobe_binding){.name = "sample_map", .resource = build->samples.lobes});
+    return pass;
+}
+
+static void read_parents(const mixture_build *build, lobe_pass *pass) {
+    lobe_pass_read(pass, &(lobe_binding){.name = "parent_map", .resource = build->components});
+    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = build->target.bins});
+}
+
+static lobe_resource write_components(lobe_pass *pass, lobe_resource components) {
+    return lobe_pass_write(pass, &(lobe_binding){.name = "component_map", .resource = components});
+}
+
+static void dispatch(const mixture_build *build, const char *shader, uint32_t columns,
+                     uint32_t rows, uint32_t steps, bool last, lobe_pass *pass) {
+    const device_material *material = build->material;
+    specialisation_list list = {.graph = build->graph};
+    passes_specialise(&list, SPECIALISE_LOBE_COUNT,
+                      material->model == LOBE_MATERIAL_MICROFACET ? 1 : material->lobe_count);
+    passes_specialise(&list, SPECIALISE_BINS, build->kind->components);
+    passes_specialise(&list, SPECIALISE_BIN_COLOUR, build->kind->own_colours);
+    passes_specialise(&list, SPECIALISE_BIN_WIDTHS, passes_bin_widths_vary(material));
+    passes_specialise(&list, SPECIALISE_MIXTURE_SHAPE, build->kind->shape);
+    passes_specialise(&list, SPECIALISE_MIXTURE_LAST, last);
+    passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, build->kind->plane);
+    passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
+    passes_specialise(&list, SPECIALISE_MIXTURE_PRIOR, build->kind->prior > 0);
+    passes_specialise(&list, SPECIALISE_MIXTURE_PRINTED, build->kind->is_printed);
+    const struct mixture_fit_constants constants = {build->samples.width, build->samples.height,
+                                                    steps, build->kind->prior};
+    lobe_pass_dispatch(pass, &(lobe_dispatch){
+                                 .shader = shader,
+                                 .threads = {columns, rows, 1},
+                                 .constants = &constants,
+                                 .constants_size = sizeof constants,
+                                 .specialisation = list.items,
+                                 .specialisation_count = list.count,
+                             });
+}
+
+static void add_root(mixture_build *build, const char *name) {
+    lobe_resource bins = lobe_graph_buffer(
+        build->graph, &(lobe_buffer_description){.name = name,
+                                                 .size = sizeof(struct moment_binning_constants),
+                                                 .retained = true});
+    lobe_pass *pass = add_pass(build, "mixture_root");
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "extremes_block", .resource = build->samples.extremes});
+    build->components = write_components(pass, declare_components(build, 1, 1));
+    build->target.bins =
+        lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
+    dispatch(build, "filters/mixture/root.comp", 1, 1, 0, false, pass);
+}
+
+/// From the components of the level before to those of a level with few texels.
+static void add_fit(mixture_build *build, uint32_t width, uint32_t height) {
+    enum { THREADS = 64 };
+    lobe_pass *pass = add_pass(build, "mixture_fit");
+    read_parents(build, pass);
+    build->components = write_components(pass, declare_components(build, width, height));
+    dispatch(build, "filters/mixture/fit.comp", THREADS * width, height, build->kind->steps, false,
+             pass);
+}
+
+/// Writes sums for the components after so many steps, and those components unless they are the
+/// last.
+static lobe_resource add_sums(mixture_build *build, lobe_binding target, uint32_t width,
+                              uint32_t height, uint32_t steps, bool last) {
+    lobe_pass *pass = add_pass(build, "mixture_level");
+    read_parents(build, pass);
+    const lobe_resource components = write_components(
+        pass, last ? declare_components(build, 1, 1) : declare_components(build, width, height));
+    const lobe_resource written = lobe_pass_write(pass, &target);
+    dispatch(build, "filters/mixture/levels.comp", width, height, steps, last, pass);
+    if (!last)
+        build->components = components;
+    return written;
+}
+
+static lobe_binding target_level(const mixture_build *build, uint32_t level) {
+    return (lobe_binding){"moment_map", build->target.map.resource,
+                          .range = {level, 1, 0, build->target.map.layers}};
+}
+
+/// Sums over parts of a level's texels, and the level from these.
+static void add_gathered_level(mixture_build *build, uint32_t level) {
+    const reduced_map *map = &build->target.map;
+    const uint32_t width = level_extent(map->width, level);
+    const uint32_t height = level_extent(map->height, level);
+    add_fit(build, width, height);
+    const uint32_t columns = level_extent(build->samples.width / LARGEST_BOX, 0);
+    const uint32_t rows = level_extent(build->samples.height / LARGEST_BOX, 0);
+    const lobe_resource parts = declare_layers(build, "sums of parts", columns, rows, map->layers);
+    const lobe_resource sums = add_sums(
+        build, (lobe_binding){.name = "moment_map", .resource = parts}, columns, rows, 0, true);
+    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "mixture_gather");
+    lobe_pass_read(pass, &(lobe_binding){.name = "part_map", .resource = sums});
+    const lobe_binding target = target_level(build, level);
+    build->target.map.resource = lobe_pass_write(pass, &target);
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/mixture/gather.comp",
+                                              .threads = {width, height, map->layers}});
+}
+
+static void add_level(mixture_build *build, uint32_t level) {
+    const reduced_map *map = &build->target.map;
+    if (box_side(build, level) > LARGEST_BOX)
+        add_gathered_level(build, level);
+    else
+        build->target.map.resource =
+            add_sums(build, target_level(build, level), level_extent(map->width, level),
+                     level_extent(map->height, level), build->kind->steps, level == 0);
+}
+
+static uint32_t layer_count(const mixture_kind *kind) {
+    if (kind->plane == MIXTURE_PLANE_PROJECTED)
+        return kind->components;
+    return kind->own_colours ? 3 * kind->components + 1 : 2 * kind->components;
+}
+
+moment_map passes_mixture_map(const filter_context *context, uint32_t index,
+                              const mixture_kind *kind) {
+    mixture_build build = {
+        .graph = context->graph,
+        .material = &context->scene->materials[index],
+        .kind = kind,
+        .samples = passes_mixture_samples(context, index, kind->plane, kind->own_colours),
+        .target = {.format = kind->format}};
+    char name[64];
+    snprintf(name, sizeof name, "mixtures of material %u", index);
+    const uint32_t layers = layer_count(kind);
+    build.target.map = passes_reduced_map_declare(
+        context->graph, name, kind->format, build.samples.width, build.samples.height, layers);
+    snprintf(name, sizeof name, "units of material %u", index);
+    add_root(&build, name);
+    for (uint32_t level = build.target.map.levels; level-- > 0;)
+        add_level(&build, level);
+    return build.target;
+}

@@ -1,0 +1,117 @@
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
+#include "passes/filters/mixture/mixture_map.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/gaussian_mixture.h"
+#include "shaders/interface/moment_bins.h"
+#include "shaders/interface/specialisation.h"
+
+static const char *const starts[] = {"parent", "kmeans", NULL};
+static const char *const formulas[] = {"repaired", "printed", NULL};
+
+static const filter_knob components_knob = {
+    .description = {.name = "components",
+                    .summary = "Gaussians that are fitted to the normals under each texel",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = MOMENT_MAXIMUM_BINS,
+                    .initial = 4,
+                    .sweep = "1,2,6"},
+};
+static const filter_knob steps_knob = {
+    .description = {.name = "steps",
+                    .summary = "steps of expectation maximisation in each level",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 16,
+                    .initial = 4},
+};
+static const filter_knob start_knob = {
+    .description = {.name = "start",
+                    .summary = "what Gaussians are fitted from: those of the coarser level's "
+                               "texel, or k-means of the texel's own normals, as printed",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = starts,
+                    .sweep = "kmeans"},
+};
+static const filter_knob prior_knob = {
+    .description = {.name = "prior",
+                    .summary = "how many normals the like Gaussian of a neighbour is worth",
+                    .maximum = 1e6,
+                    .initial = 1,
+                    .sweep = "0,1000"},
+};
+static const filter_knob formulas_knob = {
+    .description = {.name = "formulas",
+                    .summary = "of variances, where the paper's are wrong",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = formulas,
+                    .sweep = "printed"},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_MIXTURE_PRINTED),
+};
+static const filter_knob *const knobs[] = {
+    &components_knob,
+    &steps_knob,
+    &start_knob,
+    &prior_knob,
+    &formulas_knob,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
+};
+
+static moment_map build_map(const filter_context *context, uint32_t material) {
+    const mixture_kind kind = {
+        .components = (uint32_t)passes_knob_value(context, &components_knob),
+        .steps = (uint32_t)passes_knob_value(context, &steps_knob),
+        .plane = MIXTURE_PLANE_PROJECTED,
+        .start = passes_knob_choice(context, &start_knob),
+        .prior = (float)passes_knob_value(context, &prior_knob),
+        .shape = MIXTURE_SHAPE_ROUND,
+        .is_printed = passes_knob_choice(context, &formulas_knob) > 0,
+        .format = passes_filtered_map_format(context),
+    };
+    return passes_mixture_map(context, material, &kind);
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    (void)prepared;
+    const uint32_t material = context->scene->instances[instance].material;
+    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[material]);
+    const bool varies = passes_lobe_grid_varies(&grid);
+    moment_map mixture = {.format = passes_filtered_map_format(context)};
+    if (varies)
+        mixture = build_map(context, material);
+    passes_lobe_map_bind(context, material, "moment_map", varies ? &mixture.map : NULL,
+                         mixture.format, appearance);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, varies);
+    passes_appearance_specialise(appearance, SPECIALISE_BINS,
+                                 (uint32_t)passes_knob_value(context, &components_knob));
+    passes_filtered_maps_build(context, material, appearance);
+}
+
+static const char *ignores(const lobe_material *material) {
+    if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        return "lobes get their mean colour";
+    if (material->distribution != LOBE_DISTRIBUTION_BECKMANN)
+        return "base lobes become Gaussians of equal width";
+    return NULL;
+}
+
+const lobe_filter passes_filter_tan = {
+    .name = "tan",
+    .summary = "a mixture of round Gaussians of normals fitted under each texel",
+    .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering",
+    .shading = "tan",
+    .knobs = knobs,
+    .build = build,
+    .ignores = ignores,
+};

@@ -1,0 +1,74 @@
+#include "passes/maps/moment_map.h"
+
+#include "passes/context/knob_values.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/moment_bins.h"
+#include "shaders/interface/specialisation.h"
+
+static const char *const storages[] = {"snorm16", "float16", "float32", NULL};
+
+const filter_knob passes_knob_least_share = {
+    .description = {.name = "least_share",
+                    .summary = "bins with a smaller share of the footprint are skipped",
+                    .maximum = 0.1,
+                    .initial = 1e-3},
+    .feeds = KNOB_FEEDS_FILTER(moments_knobs, least_share),
+};
+const filter_knob passes_knob_bin_storage = {
+    .description =
+        {.name = "storage",
+         .summary = "format of the moments; snorm16 keeps the digits of the material's own range",
+         .kind = LOBE_KNOB_CHOICE,
+         .maximum = 2,
+         .choices = storages,
+         .sweep = "float16,float32"},
+};
+
+lobe_format passes_bin_format(const filter_context *context) {
+    static const lobe_format formats[] = {LOBE_FORMAT_RGBA16_SNORM, LOBE_FORMAT_RGBA16_FLOAT,
+                                          LOBE_FORMAT_RGBA32_FLOAT};
+    return formats[(int)passes_knob_choice(context, &passes_knob_bin_storage)];
+}
+
+/// Whether a map is read at the same coordinates as the lobes, and is no finer.
+static bool lies_under_lobes(const device_material *material, uint32_t map) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    const device_map *own = &material->maps[map];
+    return !own->use || (own->width <= grid.width && own->height <= grid.height &&
+                         passes_lobe_grid_shares_coordinates(&grid, own->use));
+}
+
+bool passes_bins_may_have_colours(const device_material *material) {
+    return lies_under_lobes(material, MAP_BASE_COLOUR) &&
+           lies_under_lobes(material, MAP_SPECULAR) && lies_under_lobes(material, MAP_WIDTH);
+}
+
+bool passes_bin_widths_vary(const device_material *material) {
+    const lobe_material *source = material->material;
+    bool vary = material->maps[MAP_WIDTH].use != NULL;
+    for (uint32_t i = 1; source->model != LOBE_MATERIAL_MICROFACET && i < source->lobe_count; i++)
+        vary |= source->lobes[i].width != source->lobes[0].width;
+    return vary;
+}
+
+void passes_bins_specialise(const device_material *material, uint32_t bins, bool own_colours,
+                            filtered_appearance *appearance) {
+    passes_appearance_specialise(appearance, SPECIALISE_BIN_WIDTHS,
+                                 passes_bin_widths_vary(material));
+    passes_appearance_specialise(appearance, SPECIALISE_BINS, bins);
+    passes_appearance_specialise(appearance, SPECIALISE_BIN_COLOUR, own_colours);
+}
+
+void passes_bin_appearance_bind(const filter_context *context, uint32_t material,
+                                const moment_map *moments, filtered_appearance *appearance) {
+    static const struct moment_binning_constants none;
+    const lobe_resource bins =
+        moments ? moments->bins : lobe_graph_upload(context->graph, "no bins", &none, sizeof none);
+    passes_lobe_map_bind(context, material, "moment_map", moments ? &moments->map : NULL,
+                         moments ? moments->format : LOBE_FORMAT_RGBA16_SNORM, appearance);
+    passes_appearance_bind(appearance, "binning_block", bins, (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, moments != NULL);
+    passes_filtered_maps_build(context, material, appearance);
+}

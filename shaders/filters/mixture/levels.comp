@@ -1,0 +1,217 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// One level of a map of mixtures: each texel's components, from its parent's by a few steps of
+// expectation maximisation over all lobes under the texel; and the sums that the components have of
+// these, as they are, so that all components together have the lobes' moments exactly. Without
+// steps, the sums for given components.
+
+#include "filters/mixture/parents.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(constant_id = SPECIALISE_MIXTURE_LAST) const bool LAST = false;
+layout(constant_id = SPECIALISE_MIXTURE_PLANE) const uint PLANE = MIXTURE_PLANE_LAMBERT;
+
+const bool PROJECTED = PLANE == MIXTURE_PLANE_PROJECTED;
+const uint ROUNDS_OF_K_MEANS = 5;
+
+layout(set = 0, binding = 15) uniform writeonly image2DArray component_map;
+layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
+
+struct level_box {
+    uvec2 texel, size; // of the level
+    uvec2 low, high;
+};
+
+struct bin_sums {
+    vec4 place[MOMENT_MAXIMUM_BINS];
+    vec4 spread[MOMENT_MAXIMUM_BINS];
+    vec4 colour[MOMENT_MAXIMUM_BINS];
+    vec3 diffuse;
+};
+
+float weight_of(level_box box, uvec2 at) {
+    return box_weight(at.x, box.texel.x, box.size.x, constants.width) *
+           box_weight(at.y, box.texel.y, box.size.y, constants.height);
+}
+
+// Tan et al. 2005, section 4.1: the mean between a component's samples and the like components of
+// its neighbours, each of which counts as `prior` samples times its part. Of the neighbours these
+// are the parent and the four beside it, because texels of one level are fitted at the same time.
+vec2 drawn_to_neighbours(level_box box, int index, mixture_component own) {
+    const ivec2 offsets[5] =
+        ivec2[](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+    ivec2 parent = parent_of(box.texel, box.size), end = textureSize(parent_map, 0).xy - 1;
+    float samples = own.part * float(constants.width * constants.height) /
+                    float(box.size.x * box.size.y);
+    vec3 sum = samples * vec3(own.mean.xy, 1.0);
+    for (int i = 0; i < 5; ++i) {
+        mixture_component other =
+            parent_component(clamp(parent + offsets[i], ivec2(0), end), index);
+        sum += constants.prior * other.part * vec3(other.mean.xy, 1.0);
+    }
+    return sum.xy / sum.z;
+}
+
+// One step, by shares or by distance.
+void take_step(level_box box, bool nearest, mixture_units units,
+               inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
+    component_density densities[MOMENT_MAXIMUM_BINS];
+    component_sums sums[MOMENT_MAXIMUM_BINS];
+    for (int j = 0; j < BINS; ++j) {
+        densities[j] = density_of(components[j]);
+        sums[j] = component_sums(vec4(0.0), vec4(0.0));
+    }
+    for (uint y = box.low.y; y < box.high.y; ++y) {
+        for (uint x = box.low.x; x < box.high.x; ++x) {
+            float weight = weight_of(box, uvec2(x, y));
+            for (int i = 0; i < LOBE_COUNT; ++i) {
+                mixture_sample lobe = read_sample(ivec2(x, y), i, units);
+                float shares[MOMENT_MAXIMUM_BINS];
+                if (nearest)
+                    find_nearest(densities, lobe, shares);
+                else
+                    find_shares(densities, lobe, shares);
+                for (int j = 0; j < BINS; ++j)
+                    add_share(sums[j], densities[j].mean, lobe, weight * lobe.mass * shares[j]);
+            }
+        }
+    }
+    float whole = 0.0;
+    for (int j = 0; j < BINS; ++j)
+        whole += sums[j].first.x;
+    for (int j = 0; j < BINS; ++j) {
+        components[j] = improved(components[j], sums[j], whole, units);
+        if (PRIOR && !nearest)
+            components[j].mean.xy = drawn_to_neighbours(box, j, components[j]);
+    }
+}
+
+// Components at samples far apart.
+void start_apart(level_box box, mixture_units units,
+                 inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
+    for (int count = 0; count < BINS; ++count) {
+        float farthest = -1.0;
+        vec3 place = vec3(0.0);
+        for (uint y = box.low.y; y < box.high.y; ++y) {
+            for (uint x = box.low.x; x < box.high.x; ++x) {
+                mixture_sample lobe = read_sample(ivec2(x, y), int((x + y) % LOBE_COUNT), units);
+                float nearest = count == 0 ? dot(lobe.place, lobe.place) : 1e30;
+                for (int j = 0; j < count; ++j) {
+                    vec3 d = lobe.place - components[j].mean;
+                    nearest = min(nearest, dot(d, d));
+                }
+                if (nearest > farthest) {
+                    farthest = nearest;
+                    place = lobe.place;
+                }
+            }
+        }
+        components[count] = first_component(place, units);
+    }
+}
+
+void add_lobe(inout bin_sums sums, ivec2 texel, int i, float weight, mixture_units units,
+              component_density densities[MOMENT_MAXIMUM_BINS]) {
+    mixture_sample lobe = read_sample(texel, i, units);
+    vec2 means = texelFetch(sample_map, ivec3(texel, LAYERS * i), 0).zw;
+    vec4 colour = vec4(0.0);
+    if (BIN_COLOUR)
+        colour = texelFetch(sample_map, ivec3(texel, LAYERS * i + 2), 0);
+    float shares[MOMENT_MAXIMUM_BINS];
+    find_shares(densities, lobe, shares);
+    for (int j = 0; j < BINS; ++j) {
+        float mass = shares[j] * weight * lobe.mass;
+        if (PROJECTED) {
+            vec2 p = lobe.place.xy + units.origin;
+            float spread = lobe.covariance.x + lobe.covariance.y + 2.0 * means.y;
+            sums.place[j] += mass * vec4(1.0, p, dot(p, p) + spread);
+            continue;
+        }
+        vec4 range = binning.bins[0].range; // of all components alike
+        vec2 p = lobe.place.xy / range.z;
+        vec3 square = vec3(p * p, p.x * p.y) + lobe.covariance / (range.z * range.z);
+        mass /= binning.largest.x;
+        sums.place[j] += mass * vec4(1.0, p, means.x / range.w);
+        sums.spread[j] += mass * vec4(square, means.y / binning.bins[0].shape.w);
+        if (BIN_COLOUR)
+            sums.colour[j] += mass * colour;
+    }
+}
+
+bin_sums sum_lobes(level_box box, mixture_units units,
+                   mixture_component components[MOMENT_MAXIMUM_BINS]) {
+    component_density densities[MOMENT_MAXIMUM_BINS];
+    bin_sums sums;
+    sums.diffuse = vec3(0.0);
+    for (int j = 0; j < BINS; ++j) {
+        densities[j] = density_of(components[j]);
+        sums.place[j] = sums.spread[j] = sums.colour[j] = vec4(0.0);
+    }
+    for (uint y = box.low.y; y < box.high.y; ++y) {
+        for (uint x = box.low.x; x < box.high.x; ++x) {
+            float weight = weight_of(box, uvec2(x, y));
+            for (int i = 0; i < LOBE_COUNT; ++i)
+                add_lobe(sums, ivec2(x, y), i, weight, units, densities);
+            if (BIN_COLOUR)
+                sums.diffuse +=
+                    weight * texelFetch(sample_map, ivec3(x, y, LAYERS * LOBE_COUNT), 0).rgb;
+        }
+    }
+    return sums;
+}
+
+// What Tan et al. store of the fit. Base lobes have the material's usual variance.
+vec4 printed_layer(mixture_component component, mixture_units units) {
+    vec2 mean = component.mean.xy + units.origin;
+    float variance = component.covariance.x + units.deviation * units.deviation;
+    return component.part * vec4(1.0, mean, variance + dot(mean, mean));
+}
+
+void write_layers(uvec2 texel, bin_sums sums, mixture_units units,
+                  mixture_component components[MOMENT_MAXIMUM_BINS]) {
+    for (int j = 0; j < BINS; ++j)
+        imageStore(moment_map, ivec3(texel, j),
+                   PRINTED ? printed_layer(components[j], units) : sums.place[j]);
+}
+
+void write_sums(uvec2 texel, bin_sums sums) {
+    vec4 unit = vec4(vec3(1.0 / binning.largest.y), 1.0);
+    for (int j = 0; j < BINS; ++j) {
+        imageStore(moment_map, ivec3(texel, LAYERS * j), sums.place[j]);
+        imageStore(moment_map, ivec3(texel, LAYERS * j + 1), sums.spread[j]);
+        if (BIN_COLOUR)
+            imageStore(moment_map, ivec3(texel, LAYERS * j + 2), sums.colour[j] * unit);
+    }
+    if (BIN_COLOUR)
+        imageStore(moment_map, ivec3(texel, LAYERS * BINS), vec4(sums.diffuse, 0.0) * unit);
+}
+
+void main() {
+    uvec2 texel = gl_GlobalInvocationID.xy, size = uvec2(imageSize(moment_map).xy);
+    if (any(greaterThanEqual(texel, size)))
+        return;
+    level_box box = level_box(texel, size, box_low(texel, size), box_high(texel, size));
+    mixture_units units = units_of_map();
+    mixture_component components[MOMENT_MAXIMUM_BINS];
+    for (int j = 0; j < BINS; ++j)
+        components[j] = parent_component(parent_of(texel, size), j);
+    uint rounds = 0;
+    if (START == MIXTURE_START_K_MEANS && constants.steps > 0) {
+        start_apart(box, units, components);
+        rounds = ROUNDS_OF_K_MEANS;
+    }
+    for (uint step = 0; step < rounds + constants.steps; ++step)
+        take_step(box, step < rounds, units, components);
+    for (int j = 0; j < BINS && !LAST; ++j) {
+        imageStore(component_map, ivec3(texel, 2 * j),
+                   vec4(components[j].part, components[j].mean));
+        imageStore(component_map, ivec3(texel, 2 * j + 1), components[j].covariance);
+    }
+    bin_sums sums = sum_lobes(box, units, components);
+    if (PROJECTED)
+        write_layers(texel, sums, units, components);
+    else
+        write_sums(texel, sums);
+}

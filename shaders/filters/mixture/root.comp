@@ -1,0 +1,164 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The mixture of all of a material's lobes, where the mixtures of its coarsest level start: from
+// components far apart and from k-means, of round and of oval ones, whichever are closest to the
+// lobes in the end. Also the units of the mixture's map. One group.
+
+#include "filters/mixture/group_fit.glsl"
+
+layout(set = 0, binding = 16) uniform writeonly image2DArray component_map;
+layout(set = 0, binding = 17, std430) readonly buffer extremes_block {
+    mixture_extremes extremes[];
+};
+layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
+    moment_binning_constants binning;
+};
+
+const uint CELLS = 64; // along each side: of all texels, so many are sampled
+const uint ROUNDS = 25;
+
+shared mixture_extremes least[THREADS];
+shared mixture_component kept[MOMENT_MAXIMUM_BINS];
+
+void find_extremes() {
+    mixture_extremes own = mixture_extremes(vec4(1e30), vec4(1e30));
+    for (uint i = thread(); i < uint(extremes.length()); i += THREADS) {
+        own.places = min(own.places, extremes[i].places);
+        own.lobes = min(own.lobes, extremes[i].lobes);
+    }
+    least[thread()] = own;
+    for (uint count = THREADS / 2; count > 0; count /= 2) {
+        barrier();
+        if (thread() < count) {
+            least[thread()].places = min(least[thread()].places, least[thread() + count].places);
+            least[thread()].lobes = min(least[thread()].lobes, least[thread() + count].lobes);
+        }
+    }
+    barrier();
+}
+
+// Of lobes between the sharpest and the broadest.
+mixture_units find_units() {
+    vec2 low = least[0].places.xy, high = -least[0].places.zw;
+    float sharpness = -least[0].lobes.x, variance = -least[0].lobes.y;
+    return mixture_units(0.5 * (low + high), sqrt(sqrt(variance) / sharpness), false);
+}
+
+void write_units(mixture_units units) {
+    vec2 half_size = 0.5 * (-least[0].places.zw - least[0].places.xy);
+    float reach = max(1.001 * max(half_size.x, half_size.y), 1e-6);
+    if (thread() < MOMENT_MAXIMUM_BINS)
+        binning.bins[thread()] =
+            moment_bin(vec4(0.0), vec4(vec3(0.0), -1.001 * least[0].lobes.y),
+                       vec4(units.origin, reach, -1.001 * least[0].lobes.x));
+    if (thread() == 0) {
+        binning.largest = vec4(max(-1.001 * least[0].lobes.z, 1e-6),
+                               max(BIN_COLOUR ? -least[0].lobes.w : 1.0, 1e-6), 0.0, 0.0);
+    }
+}
+
+void keep_components() {
+    if (thread() < BINS)
+        kept[thread()] = components[thread()];
+    barrier();
+}
+
+// ---------------------------------------------------------------------------------------------
+// How close components are to the lobes
+
+float evaluate_gaussian(vec2 d, vec3 covariance) {
+    float determinant = covariance.x * covariance.y - covariance.z * covariance.z;
+    float square = dot(vec3(covariance.yx, -2.0 * covariance.z), vec3(d * d, d.x * d.y));
+    return exp(-0.5 * square / determinant) * inversesqrt(determinant);
+}
+
+// The variance of base lobes of a width.
+vec3 base_covariance(float width, mixture_units units) {
+    float deviation = units.deviation * exp(width / units.deviation);
+    return vec3(vec2(deviation * deviation), 0.0);
+}
+
+// The integral of a component with base lobes, times the sample's lobe, for all components.
+float overlap_with_sample(mixture_sample lobe, mixture_units units) {
+    float sum = 0.0;
+    for (int j = 0; j < BINS; ++j)
+        sum += components[j].part *
+               evaluate_gaussian(lobe.place.xy - components[j].mean.xy,
+                                 components[j].covariance.xyz + lobe.covariance +
+                                     base_covariance(components[j].mean.z, units) +
+                                     base_covariance(lobe.place.z, units));
+    return sum;
+}
+
+// The squared difference between all components and all lobes, integrated over the plane, without
+// what does not depend on the components. (Likelihoods do not tell which of two fits a picture is
+// better with.)
+float squared_error(sampled_area area, mixture_units units) {
+    float overlap = 0.0, mass = 0.0;
+    for (uint i = thread(); i < sample_count(area); i += THREADS) {
+        mixture_sample lobe = area_sample(area, i, units);
+        overlap += lobe.mass * overlap_with_sample(lobe, units);
+        mass += lobe.mass;
+    }
+    own_numbers[0][thread()] = overlap;
+    own_numbers[1][thread()] = mass;
+    merge_sums();
+    float error = -2.0 * numbers[0] / numbers[1];
+    for (int j = 0; j < BINS; ++j) {
+        mixture_sample as_sample =
+            mixture_sample(components[j].mean, components[j].covariance.xyz, 1.0);
+        error += components[j].part * overlap_with_sample(as_sample, units);
+    }
+    barrier();
+    return error;
+}
+
+// ---------------------------------------------------------------------------------------------
+// All fits
+
+// From a start, to the components that their lobes make.
+float fit_from(sampled_area area, uint start, mixture_units units) {
+    for (int j = 0; j < BINS; ++j)
+        add_component(area, j, start, units);
+    for (uint round = 0; round < ROUNDS; ++round) {
+        mixture_units shape = units;
+        shape.is_round = units.is_round && round + 1u < ROUNDS;
+        take_step(area, round < (start == FAR_APART ? 1u : ROUNDS_OF_K_MEANS), shape);
+    }
+    return squared_error(area, units);
+}
+
+// True: of round components.
+bool fit(sampled_area area, mixture_units units) {
+    float least_error = 0.0;
+    bool is_round = false;
+    for (uint i = 0; i < 4; ++i) {
+        units.is_round = i < 2;
+        if ((SHAPE == MIXTURE_SHAPE_ROUND && !units.is_round) ||
+            (SHAPE == MIXTURE_SHAPE_OVAL && units.is_round))
+            continue;
+        float error = fit_from(area, i % 2 == 0 ? FAR_APART : K_MEANS, units);
+        if (error < least_error) {
+            least_error = error;
+            is_round = units.is_round;
+            keep_components();
+        }
+    }
+    return is_round;
+}
+
+void main() {
+    find_extremes();
+    mixture_units units = find_units();
+    write_units(units);
+    bool is_round =
+        fit(make_area(uvec2(0), uvec2(constants.width, constants.height), CELLS), units);
+    if (thread() == 0)
+        binning.hats = vec4(units.origin, units.deviation, is_round ? 1.0 : 0.0);
+    if (thread() < BINS) {
+        int j = int(thread());
+        imageStore(component_map, ivec3(0, 0, 2 * j), vec4(kept[j].part, kept[j].mean));
+        imageStore(component_map, ivec3(0, 0, 2 * j + 1), kept[j].covariance);
+    }
+}

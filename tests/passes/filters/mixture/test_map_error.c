@@ -1,0 +1,278 @@
+// The distribution of half vectors that filters see under a pixel of 8 x 8 or 32 x 32 texels,
+// against the mean of all texel's lobes: at centres of a level's texels and at corners between
+// four, where components of neighbours that differ would blend into ones that neither has.
+//
+// `test_filters_mixture_map_error FILE...` prints the same of photographed normal maps.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/format/image_file.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { EXTENT = 256, GRID = 15, MAXIMUM_DIRECTIONS = GRID * GRID };
+
+static const double concentration = 50;
+
+/// Half vectors, in the tangent frame of the map.
+typedef struct direction_list {
+    uint32_t count;
+    double directions[MAXIMUM_DIRECTIONS][3];
+} direction_list;
+
+/// A regular grid in the Lambert plane, as far as a viewer above sees half vectors of lights.
+static direction_list half_vectors(void) {
+    direction_list list = {0};
+    for (int i = 0; i < GRID * GRID; i++) {
+        const double x = 0.1 * (i % GRID - GRID / 2), y = 0.1 * (i / GRID - GRID / 2);
+        const double square = x * x + y * y;
+        if (square > 0.75 * 0.75)
+            continue;
+        double *direction = list.directions[list.count++];
+        direction[0] = x * sqrt(1 - square / 4);
+        direction[1] = y * sqrt(1 - square / 4);
+        direction[2] = 1 - square / 2;
+    }
+    return list;
+}
+
+/// Numbers by half vector, then by pixel of a square picture.
+typedef struct distributions {
+    uint32_t side;
+    double *values;
+} distributions;
+
+static distributions allocate(uint32_t side) {
+    distributions result = {side, calloc((size_t)MAXIMUM_DIRECTIONS * side * side, sizeof(double))};
+    assert_non_null(result.values);
+    return result;
+}
+
+static double *values_of(const distributions *all, uint32_t direction) {
+    return all->values + (size_t)direction * all->side * all->side;
+}
+
+static void decode(const float *texel, double normal[3]) {
+    double length = 0;
+    for (int i = 0; i < 3; i++) {
+        normal[i] = 2 * (double)texel[i] - 1;
+        length += normal[i] * normal[i];
+    }
+    for (int i = 0; i < 3; i++)
+        normal[i] /= sqrt(length);
+}
+
+/// The mean of the lobes under each pixel.
+static distributions exact_distributions(const lobe_image *map, const direction_list *list,
+                                         uint32_t side) {
+    distributions exact = allocate(side);
+    const uint32_t box = EXTENT / side;
+    const double peak = concentration / (2 * M_PI * (1 - exp(-2 * concentration)));
+    for (uint32_t texel = 0; texel < EXTENT * EXTENT; texel++) {
+        const uint32_t pixel = texel / EXTENT / box * side + texel % EXTENT / box;
+        double normal[3];
+        decode((const float *)map->texels + (size_t)4 * texel, normal);
+        for (uint32_t i = 0; i < list->count; i++) {
+            const double *h = list->directions[i];
+            const double cosine = normal[0] * h[0] + normal[1] * h[1] + normal[2] * h[2];
+            values_of(&exact, i)[pixel] +=
+                peak * exp(concentration * (cosine - 1)) / (double)(box * box);
+        }
+    }
+    return exact;
+}
+
+static lobe_scene *make_scene(const lobe_image *map) {
+    lobe_scene *scene = scene_begin();
+    lobe_image copy = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    memcpy(copy.texels, map->texels, (size_t)16 * EXTENT * EXTENT);
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, (float)concentration);
+    material.normal_map = scene_add_map(scene, copy);
+    material.normal_map.nearest = true;
+    scene_add_square(scene, &material, 1, NULL);
+    scene_look_down(scene, 2);
+    scene_add_sun(scene, (const double[3]){0, 1, 0}, 1);
+    scene_end(scene);
+    return scene;
+}
+
+/// The light whose half vector with a viewer above this is.
+static void point_light(lobe_scene *scene, const double h[3]) {
+    const double tangent[3] = {2 * h[2] * h[0], 2 * h[2] * h[1], 2 * h[2] * h[2] - 1};
+    scene->lights[0].direction[0] = (float)-tangent[0];
+    scene->lights[0].direction[1] = (float)-tangent[2];
+    scene->lights[0].direction[2] = (float)tangent[1];
+}
+
+/// `corner`: half a pixel further to the right and down.
+static distributions draw_distributions(fixture *f, lobe_scene *scene, const direction_list *list,
+                                        const picture_request *request, bool corner) {
+    distributions drawn = allocate(request->width);
+    for (int i = 0; i < 2; i++)
+        scene->camera.shift[i] = corner ? 0.5f / (float)request->width : 0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        point_light(scene, list->directions[i]);
+        lobe_frame frame = draw(f, request);
+        for (uint32_t k = 0; k < drawn.side * drawn.side; k++)
+            values_of(&drawn, i)[k] =
+                (double)*pixel_at(&frame.radiance, k % drawn.side, k / drawn.side);
+        lobe_frame_free(&frame);
+    }
+    return drawn;
+}
+
+/// The mean of a pixel, or of the four around its lower right corner.
+static double exact_value(const double *exact, uint32_t side, uint32_t x, uint32_t y, bool corner) {
+    const double *at = exact + (size_t)y * side + x;
+    return corner ? 0.25 * (at[0] + at[1] + at[side] + at[side + 1]) : at[0];
+}
+
+/// The mean over pixels of the difference over all half vectors, relative to their sum.
+static double mean_error(const distributions *drawn, const distributions *exact,
+                         const direction_list *list, bool corner) {
+    const uint32_t side = exact->side, end = side - 1;
+    double sum = 0;
+    for (uint32_t k = 0; k < end * end; k++) {
+        double difference = 0, whole = 0;
+        for (uint32_t i = 0; i < list->count; i++) {
+            const double expected =
+                exact_value(values_of(exact, i), side, k % end, k / end, corner);
+            difference += fabs(values_of(drawn, i)[(size_t)(k / end) * side + k % end] - expected);
+            whole += expected;
+        }
+        sum += difference / whole;
+    }
+    return sum / (end * end);
+}
+
+typedef struct map_error {
+    double centre, corner;
+} map_error;
+
+static map_error measure(fixture *f, const lobe_image *map, uint32_t box, const char *filter,
+                         const char *const settings[6]) {
+    const direction_list list = half_vectors();
+    picture_request request = {
+        .filter = filter, .settings = {"bias=0"}, .width = EXTENT / box, .height = EXTENT / box};
+    for (int i = 0; i < 6 && settings[i]; i++)
+        request.settings[1 + i] = settings[i];
+    distributions exact = exact_distributions(map, &list, request.width);
+    lobe_scene *scene = make_scene(map);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    double errors[2];
+    for (int i = 0; i < 2; i++) {
+        distributions drawn = draw_distributions(f, scene, &list, &request, i == 1);
+        errors[i] = mean_error(&drawn, &exact, &list, i == 1);
+        free(drawn.values);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+    free(exact.values);
+    return (map_error){errors[0], errors[1]};
+}
+
+// ---------------------------------------------------------------------------------------------
+// Photographed maps
+
+typedef struct candidate {
+    const char *filter;
+    const char *settings[6];
+} candidate;
+
+static const candidate candidates[] = {
+    {"toksvig", {NULL}},
+    {"lean", {NULL}},
+    {"lobes", {NULL}},
+    {"tan", {NULL}},
+    {"tan", {"formulas=printed", NULL}},
+    {"tan", {"start=kmeans", NULL}},
+    {"moments", {"bins=1", NULL}},
+    {"moments", {"bins=4", NULL}},
+    {"mixture", {"shape=round", NULL}},
+    {"mixture", {"shape=oval", NULL}},
+    {"mixture", {"steps=1", NULL}},
+    {"mixture", {"steps=8", NULL}},
+    {"mixture", {NULL}},
+    {"mixture", {"components=2", NULL}},
+    {"mixture", {"components=6", NULL}},
+};
+
+/// The upper left part of the file as floats.
+static lobe_image load_map(const fixture *f, const char *path) {
+    lobe_image file, map = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    assert_int_equal(scenes_image_load(path, SCENE_IMAGE_DATA, &f->host, &file), LOBE_OK);
+    assert_int_equal(file.format, LOBE_FORMAT_RGBA8_UNORM);
+    for (uint32_t i = 0; i < 4 * EXTENT * EXTENT; i++) {
+        const uint32_t x = i / 4 % EXTENT, y = i / 4 / EXTENT;
+        const uint8_t *texel =
+            (const uint8_t *)file.texels + 4 * ((size_t)y * file.width + x % file.width);
+        ((float *)map.texels)[i] = (float)texel[i % 4] / 255;
+    }
+    lobe_image_free(&file);
+    return map;
+}
+
+static void print_errors(fixture *f, const char *path) {
+    lobe_image map = load_map(f, path);
+    for (size_t i = 0; i < sizeof candidates / sizeof *candidates; i++) {
+        const candidate *c = &candidates[i];
+        const map_error fine = measure(f, &map, 8, c->filter, c->settings);
+        const map_error coarse = measure(f, &map, 32, c->filter, c->settings);
+        printf("%-60s %-8s %-12s %5.1f %5.1f %5.1f %5.1f\n", path, c->filter,
+               c->settings[0] ? c->settings[0] : "", 100 * fine.centre, 100 * fine.corner,
+               100 * coarse.centre, 100 * coarse.corner);
+    }
+    lobe_image_free(&map);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Maps made here
+
+/// Round stones of three sizes between flat joints: relief that changes over the map.
+static lobe_image stones(void) {
+    lobe_image map = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    float *texel = map.texels;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++, texel += 4) {
+        const double x = i % EXTENT, y = (double)(i / EXTENT);
+        const double pitch = x < EXTENT / 2 ? 9 : y < EXTENT / 2 ? 6.3 : 14;
+        const double u = fmod(x, pitch) / pitch - 0.5, v = fmod(y, pitch) / pitch - 0.5;
+        const double distance = hypot(u, v), slope = distance < 0.42 ? 1.6 : 0;
+        const double normal[3] = {slope * u, -slope * v, 1};
+        const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + 1);
+        for (int k = 0; k < 4; k++)
+            texel[k] = k < 3 ? (float)(0.5 + 0.5 * normal[k] / length) : 1;
+    }
+    return map;
+}
+
+/// Components that start at their parents' are alike in neighbours: corners are about as accurate
+/// as centres. Those that each texel finds alone are not, whatever the paper's prior.
+static void neighbours_blend(void **state) {
+    lobe_image map = stones();
+    const map_error mixture = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
+    const map_error moments = measure(*state, &map, 8, "moments", (const char *[6]){"bins=4"});
+    const map_error alone = measure(*state, &map, 8, "tan", (const char *[6]){"start=kmeans"});
+    lobe_image_free(&map);
+    print_message("mixture %.4f %.4f, moments %.4f %.4f, alone %.4f %.4f\n", mixture.centre,
+                  mixture.corner, moments.centre, moments.corner, alone.centre, alone.corner);
+    assert_true(mixture.corner <= 1.15 * mixture.centre);
+    assert_true(mixture.centre + mixture.corner <= 0.95 * (moments.centre + moments.corner));
+    assert_true(alone.corner > 1.5 * alone.centre);
+}
+
+int main(int count, char **arguments) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(neighbours_blend)};
+    if (count < 2)
+        return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+    void *state = NULL;
+    fixture_create(&state);
+    for (int i = 1; i < count; i++)
+        print_errors(state, arguments[i]);
+    fixture_destroy(&state);
+    return 0;
+}
