@@ -24,6 +24,13 @@ static inline engine_stamp engine_stamp_mix(engine_stamp stamp, uint64_t value) 
 
 enum { ENGINE_STAMP_LANES = 4 };
 
+/// A round of XXH64 (Collet, "xxHash fast digest algorithm", specification, step 2): mixes less
+/// than the above, in a third of the time.
+static inline engine_stamp engine_stamp_round(engine_stamp lane, uint64_t word) {
+    lane += word * 0xc2b2ae3d27d4eb4fu;
+    return (lane << 31 | lane >> 33) * 0x9e3779b185ebca87u;
+}
+
 /// Digests as many words at once, which do not wait for each other. Returns the bytes it took.
 static inline size_t engine_stamp_lanes(engine_stamp *stamp, const unsigned char *bytes,
                                         size_t size) {
@@ -35,7 +42,7 @@ static inline size_t engine_stamp_lanes(engine_stamp *stamp, const unsigned char
     for (; size - taken >= sizeof words; taken += sizeof words) {
         memcpy(words, bytes + taken, sizeof words);
         for (int i = 0; i < ENGINE_STAMP_LANES; i++)
-            lanes[i] = engine_stamp_mix(lanes[i], words[i]);
+            lanes[i] = engine_stamp_round(lanes[i], words[i]);
     }
     for (int i = 0; i < ENGINE_STAMP_LANES; i++)
         *stamp = engine_stamp_mix(*stamp, lanes[i]);
