@@ -82,22 +82,25 @@ static lobe_result render_truths(bench_run *run) {
 // ---------------------------------------------------------------------------------------------
 // Memory and error
 
-static lobe_result measure_memory(bench_run *run, size_t index, bench_result *result) {
+/// With no other renderer on the device: they share what they have in common.
+static lobe_result measure_memory(const bench_run *run, bench_result *result) {
     lobe_device_memory before, after;
+    lobe_renderer *renderer = NULL;
     lobe_device_memory_reset_peak(run->job->device);
     lobe_device_memory_query(run->job->device, &before);
-    lobe_result status = open_renderer(run, &run->renderers[index]);
+    lobe_result status = open_renderer(run, &renderer);
     lobe_render_parameters parameters = parameters_of(run->job, result->filter);
     parameters.discard = true;
     parameters.reference.samples = 1; // memory does not depend on samples
     lobe_frame frame = {0};
     if (status == LOBE_OK)
-        status = lobe_renderer_render(run->renderers[index], &parameters, &frame);
+        status = lobe_renderer_render(renderer, &parameters, &frame);
     lobe_device_memory_query(run->job->device, &after);
     result->memory_bytes = after.peak_used_bytes - before.used_bytes;
     if (frame.base_texels > 0)
         result->bytes_per_texel = (double)frame.filtered_bytes / (double)frame.base_texels;
     lobe_frame_free(&frame);
+    lobe_renderer_destroy(&renderer);
     return status;
 }
 
@@ -228,7 +231,10 @@ lobe_result bench_measure(const bench_job *job, lobe_scene *scene, const char *n
     for (size_t i = 0; result == LOBE_OK && i < job->filter_count; i++) {
         results[i].scene = name;
         results[i].filter = &job->filters[i];
-        result = measure_memory(&run, i, &results[i]);
+        result = measure_memory(&run, &results[i]);
+    }
+    for (size_t i = 0; result == LOBE_OK && i < job->filter_count; i++) {
+        result = open_renderer(&run, &run.renderers[i]);
         if (result == LOBE_OK)
             result = measure_error(&run, i, &results[i]);
     }
