@@ -38,6 +38,7 @@ struct lobe_device {
     pthread_mutex_t commands_mutex; ///< held while single-use commands are recorded
     VkCommandPool commands;         ///< pool for single-use command buffers
     struct engine_memory *memory;   ///< see engine/resource/memory.h
+    struct engine_shared_table *shared; ///< see engine/resource/shared.h
     /// Protects shaders, pipelines and samplers; recursive, because making a pipeline looks up
     /// shaders.
     pthread_mutex_t found_mutex;

@@ -8,6 +8,7 @@
 #include "engine/device/vulkan_check.h"
 #include "engine/pipeline/pipelines.h"
 #include "engine/resource/memory.h"
+#include "engine/resource/shared.h"
 #include "engine/shader/shaders.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -162,6 +163,8 @@ lobe_result engine_device_equip(lobe_device *device, const lobe_device_parameter
     if (result == LOBE_OK)
         result = engine_memory_create(device, parameters->memory_limit, &device->memory);
     if (result == LOBE_OK)
+        result = engine_shared_table_create(device, &device->shared);
+    if (result == LOBE_OK)
         result = engine_shaders_create(device, parameters->shader_source, &device->shaders);
     if (result == LOBE_OK)
         result = engine_pipelines_create(device, parameters->pipeline_cache, &device->pipelines);
@@ -197,6 +200,7 @@ static void destroy_vulkan(lobe_device *device) {
         (void)engine_device_wait_all(device);
     engine_pipelines_destroy(device, &device->pipelines);
     engine_shaders_destroy(&device->shaders);
+    engine_shared_table_destroy(&device->shared);
     engine_memory_destroy(&device->memory);
     device->api.vkDestroyCommandPool(device->vulkan, device->commands, device->callbacks);
     device->api.vkDestroySemaphore(device->vulkan, device->timeline, device->callbacks);

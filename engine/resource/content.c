@@ -279,7 +279,8 @@ static lobe_result write_content(engine_content *content, bool fresh) {
 lobe_result engine_texture_write(lobe_texture *texture, const lobe_image *image,
                                  const lobe_rectangle *part, bool fresh) {
     engine_content content = texture_content(texture, image, part);
-    texture->stamp = engine_device_stamp(texture->device);
+    if (!fresh)
+        texture->stamp = engine_device_stamp(texture->device);
     return write_content(&content, fresh);
 }
 
@@ -293,6 +294,7 @@ lobe_result engine_buffer_write(lobe_buffer *buffer, const void *data, bool fres
         .row_size = 1,
         .row_count = buffer->size,
     };
-    buffer->stamp = engine_device_stamp(buffer->device);
+    if (!fresh)
+        buffer->stamp = engine_device_stamp(buffer->device);
     return write_content(&content, fresh);
 }

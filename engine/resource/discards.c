@@ -16,24 +16,16 @@ void engine_discards_unreserve(engine_discards *discards) {
     discards->reserved--;
 }
 
-void engine_discards_add(engine_discards *discards, const engine_discarded *object) {
-    discards->items[discards->count++] = *object;
+void engine_discards_add(engine_discards *discards, const engine_object *object, uint64_t until) {
+    discards->items[discards->count++] = (engine_discarded){until, *object};
     discards->reserved--;
-}
-
-void engine_discarded_destroy(lobe_device *device, engine_discarded *object) {
-    for (int i = 0; i < 2; i++)
-        device->api.vkDestroyImageView(device->vulkan, object->views[i], device->callbacks);
-    device->api.vkDestroyImage(device->vulkan, object->image, device->callbacks);
-    device->api.vkDestroyBuffer(device->vulkan, object->buffer, device->callbacks);
-    engine_memory_free(device->memory, &object->allocation);
 }
 
 void engine_discards_release(lobe_device *device, engine_discards *discards, uint64_t position) {
     uint32_t left = 0;
     for (uint32_t i = 0; i < discards->count; i++)
         if (discards->items[i].until <= position)
-            engine_discarded_destroy(device, &discards->items[i]);
+            engine_object_destroy(device, &discards->items[i].object);
         else
             discards->items[left++] = discards->items[i];
     discards->count = left;

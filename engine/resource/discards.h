@@ -4,17 +4,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include <vulkan/vulkan.h>
+#include "engine/resource/shared.h"
 
-#include "engine/resource/memory.h"
-
-/// A Vulkan object with its memory and views, which frames in flight may still use.
+/// An object that frames in flight may still use.
 typedef struct engine_discarded {
     uint64_t until; ///< the ring position that these frames have released when they are done
-    VkImage image;
-    VkImageView views[2];
-    VkBuffer buffer;
-    engine_allocation allocation;
+    engine_object object;
 } engine_discarded;
 
 /// What is destroyed once the frames that may use it are done: nobody waits for them. All zero:
@@ -30,14 +25,11 @@ typedef struct engine_discards {
 bool engine_discards_reserve(lobe_device *device, engine_discards *discards);
 /// Gives an object's room back: it went without.
 void engine_discards_unreserve(engine_discards *discards);
-/// Takes over an object that has room.
-void engine_discards_add(engine_discards *discards, const engine_discarded *object);
+/// Takes over an object that has room, until its frames have released everything up to `until`.
+void engine_discards_add(engine_discards *discards, const engine_object *object, uint64_t until);
 /// Destroys the objects whose frames have released everything up to `position`.
 void engine_discards_release(lobe_device *device, engine_discards *discards, uint64_t position);
 /// Destroys all of them: the frames are done.
 void engine_discards_free(lobe_device *device, engine_discards *discards);
-
-/// Destroys one object, which no frame uses.
-void engine_discarded_destroy(lobe_device *device, engine_discarded *object);
 
 #endif

@@ -16,6 +16,7 @@ typedef struct engine_upload_state {
     uint64_t created;             ///< ring position: frames that end there or before do not use it
     uint64_t bytes;               ///< of host memory that its copies in the queue need; 0: none
     uint32_t last;                ///< of these copies; meaningless without any
+    struct engine_shared *shared; ///< how other graphs find it; NULL: never
 } engine_upload_state;
 
 /// Between the calls of lobe/device.h the image is in SHADER_READ_ONLY_OPTIMAL layout, its content
@@ -30,7 +31,7 @@ struct lobe_texture {
     VkImageView view;       ///< two-dimensional
     VkImageView array_view; ///< of one layer
     engine_allocation allocation;
-    uint64_t stamp; ///< of the content, see engine_device_stamp; changes on create and update
+    uint64_t stamp; ///< of what it was created with; after an update, an engine_device_stamp
     bool filled;    ///< once; until then, the layout is UNDEFINED
     engine_upload_state uploads;
 };

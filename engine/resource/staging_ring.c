@@ -32,9 +32,8 @@ bool engine_staging_ring_place(engine_staging_ring *ring, VkDeviceSize size,
     return true;
 }
 
-static engine_discarded memory_of(const engine_staging_ring *ring) {
-    return (engine_discarded){
-        .until = ring->end, .buffer = ring->memory.buffer, .allocation = ring->memory.allocation};
+static engine_object memory_of(const engine_staging_ring *ring) {
+    return (engine_object){.buffer = ring->memory.buffer, .allocation = ring->memory.allocation};
 }
 
 /// Takes the memory from the device, and room for it when it goes.
@@ -52,7 +51,7 @@ static lobe_result take(lobe_device *device, engine_discards *discards, VkDevice
 lobe_result engine_staging_ring_grow(lobe_device *device, engine_staging_ring *ring,
                                      VkDeviceSize size) {
     engine_staging grown;
-    const engine_discarded former = memory_of(ring);
+    const engine_object former = memory_of(ring);
     const lobe_result result = take(device, &ring->discards, round_up(size, MINIMUM), &grown);
     if (result == LOBE_ERROR_OUT_OF_DEVICE_MEMORY)
         return result;
@@ -60,7 +59,7 @@ lobe_result engine_staging_ring_grow(lobe_device *device, engine_staging_ring *r
         return lobe_host_fail(&device->host, result, "staging ring: %s", lobe_result_name(result));
     engine_device_name(device, VK_OBJECT_TYPE_BUFFER, (uint64_t)grown.buffer, "staging ring");
     if (former.buffer)
-        engine_discards_add(&ring->discards, &former);
+        engine_discards_add(&ring->discards, &former, ring->end);
     engine_discards_release(device, &ring->discards, ring->begin);
     ring->memory = grown;
     ring->origin = ring->end;
@@ -84,18 +83,17 @@ void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
 }
 
 void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring, uint64_t created,
-                                 engine_discarded *object) {
-    object->until = ring->next;
+                                 engine_object *object) {
     if (largest(ring->begin, created) < ring->next) {
-        engine_discards_add(&ring->discards, object);
+        engine_discards_add(&ring->discards, object, ring->next);
     } else {
         engine_discards_unreserve(&ring->discards);
-        engine_discarded_destroy(device, object);
+        engine_object_destroy(device, object);
     }
 }
 
 void engine_staging_ring_give_back(lobe_device *device, engine_staging_ring *ring) {
-    engine_discarded former = memory_of(ring);
+    engine_object former = memory_of(ring);
     if (former.buffer)
         engine_staging_ring_discard(device, ring, 0, &former);
     ring->memory = (engine_staging){0};

@@ -53,7 +53,7 @@ void engine_staging_ring_release(lobe_device *device, engine_staging_ring *ring,
 /// the frames in flight are done: those that ended after `created`, the position of the next frame
 /// when it was created. Neither waits nor allocates.
 void engine_staging_ring_discard(lobe_device *device, engine_staging_ring *ring, uint64_t created,
-                                 engine_discarded *object);
+                                 engine_object *object);
 /// Has no memory from now on, until somebody reserves some. The next frame must have taken nothing.
 void engine_staging_ring_give_back(lobe_device *device, engine_staging_ring *ring);
 /// All frames must be done.

@@ -5,6 +5,7 @@
 #include "engine/device/device.h"
 #include "engine/device/vulkan_check.h"
 #include "engine/resource/content.h"
+#include "engine/resource/shared.h"
 #include "engine/resource/upload.h"
 
 static lobe_result check_content(const lobe_host *host, const char *name, const lobe_image *image) {
@@ -18,6 +19,17 @@ static lobe_result check_content(const lobe_host *host, const char *name, const 
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "texture '%s': an extent of %ux%u",
                               name, image->width, image->height);
     return LOBE_OK;
+}
+
+/// Before the texels are read, of which there may be fewer then.
+static lobe_result check_extent(const lobe_device *device, const char *name,
+                                const lobe_image *image) {
+    const uint32_t most = device->limits.maxImageDimension2D;
+    if (image->width <= most && image->height <= most)
+        return LOBE_OK;
+    return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                          "texture '%s': %ux%u is larger than the %ux%u the device allows", name,
+                          image->width, image->height, most, most);
 }
 
 static lobe_result create_image(lobe_texture *texture) {
@@ -72,14 +84,57 @@ static void free_texture(lobe_texture **texture) {
     *texture = NULL;
 }
 
+static size_t size_of(const lobe_image *image) {
+    return (size_t)image->width * image->height * lobe_format_size(image->format);
+}
+
 static bool allocate(lobe_device *device, engine_uploads *queue, const char *name,
-                     lobe_texture **texture) {
+                     const lobe_image *image, lobe_texture **texture) {
     *texture = lobe_allocate(device->host.allocator, 1, sizeof **texture);
     if (*texture && ((*texture)->name = lobe_copy_text(device->host.allocator, name)) &&
-        engine_upload_target_create(queue, &(*texture)->uploads))
+        engine_upload_target_create(device, queue, size_of(image), &(*texture)->uploads))
         return true;
     free_texture(texture);
     return false;
+}
+
+static engine_stamp stamp_of(const lobe_image *image) {
+    const uint32_t shape[] = {image->format, image->width, image->height};
+    const engine_stamp stamp = engine_stamp_text(ENGINE_STAMP_NONE, "texture");
+    return engine_stamp_bytes(engine_stamp_bytes(stamp, shape, sizeof shape), image->texels,
+                              size_of(image));
+}
+
+static engine_object object_of(const lobe_texture *texture) {
+    return (engine_object){.image = texture->image,
+                           .views = {texture->view, texture->array_view},
+                           .allocation = texture->allocation};
+}
+
+/// Takes the image of another graph that has the same content.
+static bool adopt(lobe_texture *texture) {
+    engine_object object;
+    if (!engine_upload_target_adopt(texture->device, &texture->uploads, texture->stamp, &object))
+        return false;
+    texture->image = object.image;
+    texture->view = object.views[0];
+    texture->array_view = object.views[1];
+    texture->allocation = object.allocation;
+    texture->filled = true;
+    return true;
+}
+
+static lobe_result make(lobe_texture *texture, const lobe_image *image) {
+    const lobe_rectangle whole = {0, 0, texture->width, texture->height};
+    lobe_result result = create_image(texture);
+    if (result == LOBE_OK)
+        result = create_views(texture);
+    if (result == LOBE_OK)
+        result = engine_texture_write(texture, image, &whole, true);
+    const engine_object object = object_of(texture);
+    if (result == LOBE_OK)
+        engine_upload_target_offer(texture->device, &texture->uploads, texture->stamp, &object);
+    return result;
 }
 
 lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue,
@@ -87,21 +142,19 @@ lobe_result engine_texture_create_for(lobe_device *device, engine_uploads *queue
                                       lobe_texture **texture) {
     const char *name = parameters->name ? parameters->name : "texture";
     lobe_result result = check_content(&device->host, name, parameters->image);
+    if (result == LOBE_OK)
+        result = check_extent(device, name, parameters->image);
     if (result != LOBE_OK)
         return result;
-    if (!allocate(device, queue, name, texture))
+    if (!allocate(device, queue, name, parameters->image, texture))
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "texture '%s': out of memory", name);
     (*texture)->device = device;
     (*texture)->format = parameters->image->format;
     (*texture)->width = parameters->image->width;
     (*texture)->height = parameters->image->height;
-    const lobe_rectangle whole = {0, 0, (*texture)->width, (*texture)->height};
-    result = create_image(*texture);
-    if (result == LOBE_OK)
-        result = create_views(*texture);
-    if (result == LOBE_OK)
-        result = engine_texture_write(*texture, parameters->image, &whole, true);
+    (*texture)->stamp = stamp_of(parameters->image);
+    result = adopt(*texture) ? LOBE_OK : make(*texture, parameters->image);
     if (result != LOBE_OK)
         lobe_texture_destroy(texture);
     return result;
@@ -138,6 +191,22 @@ static lobe_result check_part(const lobe_texture *texture, const lobe_rectangle 
                           part->y);
 }
 
+/// Others keep the present image.
+static lobe_result replace(lobe_texture *texture, const lobe_image *image) {
+    const lobe_texture former = *texture;
+    lobe_texture *made;
+    const lobe_result result = engine_texture_create_for(
+        texture->device, texture->uploads.queue,
+        &(lobe_texture_parameters){.name = texture->name, .image = image}, &made);
+    if (result != LOBE_OK)
+        return result;
+    engine_uploads_redirect(texture->uploads.queue, made, texture);
+    *texture = *made;
+    *made = former;
+    lobe_texture_destroy(&made);
+    return LOBE_OK;
+}
+
 lobe_result lobe_texture_update_part(lobe_texture *texture, const lobe_image *image,
                                      const lobe_rectangle *part) {
     if (!texture)
@@ -157,15 +226,15 @@ lobe_result lobe_texture_update_part(lobe_texture *texture, const lobe_image *im
     result = check_part(texture, part);
     if (result != LOBE_OK)
         return result;
-    return engine_texture_write(texture, image, part, false);
+    return engine_shared_claim(texture->device, texture->uploads.shared)
+               ? engine_texture_write(texture, image, part, false)
+               : replace(texture, image);
 }
 
 void lobe_texture_destroy(lobe_texture **texture) {
     if (!texture || !*texture)
         return;
-    engine_discarded object = {.image = (*texture)->image,
-                               .views = {(*texture)->view, (*texture)->array_view},
-                               .allocation = (*texture)->allocation};
+    engine_object object = object_of(*texture);
     engine_upload_target_destroy((*texture)->device, &(*texture)->uploads, &object);
     free_texture(texture);
 }

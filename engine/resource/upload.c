@@ -2,13 +2,50 @@
 
 #include "engine/base/growing_array.h"
 #include "engine/device/device.h"
+#include "engine/resource/shared.h"
 
 // ---------------------------------------------------------------------------------------------
 // The queue
 
-bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state) {
+/// Bytes of content below which sharing saves next to nothing.
+enum { LEAST_SHARED = 4096 };
+
+static uint64_t number_of(const engine_uploads *queue) {
+    return queue ? queue->number : 0;
+}
+
+bool engine_upload_target_create(lobe_device *device, engine_uploads *queue, uint64_t bytes,
+                                 engine_upload_state *state) {
     *state = (engine_upload_state){.queue = queue, .created = queue ? queue->ring.next : 0};
-    return !queue || engine_discards_reserve(queue->device, &queue->ring.discards);
+    if (bytes >= LEAST_SHARED && !(state->shared = engine_shared_create(device, number_of(queue))))
+        return false;
+    if (!queue || engine_discards_reserve(device, &queue->ring.discards))
+        return true;
+    lobe_release(state->shared);
+    return false;
+}
+
+bool engine_upload_target_adopt(lobe_device *device, engine_upload_state *state, engine_stamp stamp,
+                                engine_object *object) {
+    engine_shared *found =
+        state->shared ? engine_shared_find(device, stamp, number_of(state->queue)) : NULL;
+    if (!found)
+        return false;
+    (void)engine_shared_release(device, state->shared);
+    state->shared = found;
+    *object = found->object;
+    return true;
+}
+
+void engine_upload_target_offer(lobe_device *device, engine_upload_state *state, engine_stamp stamp,
+                                const engine_object *object) {
+    if (!state->shared)
+        return;
+    state->shared->stamp = stamp;
+    state->shared->object = *object;
+    state->shared->object.shared = state->shared;
+    if (state->bytes == 0)
+        engine_shared_publish(device, state->shared);
 }
 
 /// Whether the ring's memory can go, to be used for something else.
@@ -61,15 +98,26 @@ void engine_uploads_remove(engine_uploads *queue, engine_upload_state *state) {
 }
 
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
-                                  engine_discarded *object) {
+                                  engine_object *object) {
     engine_uploads *queue = state->queue;
+    object->shared = state->shared;
     if (queue) {
         engine_uploads_remove(queue, state);
         engine_staging_ring_discard(device, &queue->ring, state->created, object);
     } else {
         // On failure the device is lost, and has finished too.
         (void)engine_device_wait_all(device);
-        engine_discarded_destroy(device, object);
+        engine_object_destroy(device, object);
+    }
+}
+
+void engine_uploads_redirect(engine_uploads *queue, const void *from, void *to) {
+    for (uint32_t i = 0; queue && i < queue->count; i++) {
+        engine_upload *copy = &queue->copies[i];
+        if (copy->texture == from)
+            copy->texture = to;
+        else if (copy->buffer == from)
+            copy->buffer = to;
     }
 }
 
@@ -206,6 +254,9 @@ uint64_t engine_uploads_commit(engine_uploads *queue, bool by_host) {
         engine_upload_state *state = target_of(&queue->copies[i]);
         if (state)
             state->bytes = 0;
+        // What the host submits may come after what others submit.
+        if (state && !by_host)
+            engine_shared_publish(queue->device, state->shared);
         if (queue->copies[i].texture)
             queue->copies[i].texture->filled = true;
     }
@@ -281,5 +332,5 @@ void engine_uploads_free(engine_uploads *queue) {
     engine_staging_ring_free(queue->device, &queue->ring);
     lobe_release(queue->copies);
     lobe_release(queue->barriers);
-    *queue = (engine_uploads){.device = queue->device};
+    *queue = (engine_uploads){.device = queue->device, .number = queue->number};
 }

@@ -8,6 +8,7 @@
 
 #include <lobe/device.h>
 
+#include "engine/base/stamp.h"
 #include "engine/resource/resource.h"
 #include "engine/resource/staging_ring.h"
 
@@ -36,15 +37,24 @@ typedef struct engine_uploads {
     engine_upload *copies;
     VkImageMemoryBarrier2 *barriers; ///< room for recording
     uint32_t count, capacity, barrier_capacity;
+    uint64_t number;     ///< an engine_device_stamp; 0: of no graph
     bool started;        ///< a frame has begun
     uint64_t unsent;     ///< ring position: a frame that ends there may not be submitted yet
     VkCommandBuffer own; ///< the last submission without a frame, not waited for; or NULL
     uint64_t own_value, own_end; ///< of the device's timeline, and its position in the ring
 } engine_uploads;
 
-/// Prepares a new object, of the graph with this queue (NULL: of none), for
-/// engine_upload_target_destroy. False if out of memory.
-bool engine_upload_target_create(engine_uploads *queue, engine_upload_state *state);
+/// Prepares a new object, of the graph with this queue (NULL: of none) and for this many bytes of
+/// content, for the functions below. False if out of memory.
+bool engine_upload_target_create(lobe_device *device, engine_uploads *queue, uint64_t bytes,
+                                 engine_upload_state *state);
+/// Takes what another graph has with this content in place of an object of its own. False if there
+/// is nothing.
+bool engine_upload_target_adopt(lobe_device *device, engine_upload_state *state, engine_stamp stamp,
+                                engine_object *object);
+/// Lets other graphs take the object once all of its content was submitted.
+void engine_upload_target_offer(lobe_device *device, engine_upload_state *state, engine_stamp stamp,
+                                const engine_object *object);
 /// Allocates its memory. Where too little is left, the queue is flushed, and its memory helps out.
 lobe_result engine_upload_target_allocate(lobe_device *device, engine_uploads *queue,
                                           const engine_memory_request *request,
@@ -52,7 +62,7 @@ lobe_result engine_upload_target_allocate(lobe_device *device, engine_uploads *q
 /// Removes the copies to an object, and destroys it when the frames that may use it are done: at
 /// once if there are none. Waits for them if it belongs to no graph.
 void engine_upload_target_destroy(lobe_device *device, engine_upload_state *state,
-                                  engine_discarded *object);
+                                  engine_object *object);
 
 /// Adds a copy to the object with this state, whose content is in the ring, or will be when the
 /// copies are made. Earlier copies to the object go where this one is to all of it.
@@ -60,6 +70,8 @@ lobe_result engine_uploads_add(engine_uploads *queue, const char *name, engine_u
                                const engine_upload *copy);
 /// Removes all copies to an object.
 void engine_uploads_remove(engine_uploads *queue, engine_upload_state *state);
+/// Makes the copies to a texture or buffer to another one. The queue may be NULL.
+void engine_uploads_redirect(engine_uploads *queue, const void *from, void *to);
 
 /// Records the copies, after everything before and before everything after.
 void engine_uploads_record(engine_uploads *queue, VkCommandBuffer commands);

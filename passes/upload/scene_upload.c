@@ -74,8 +74,11 @@ lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
         status = passes_device_scene_upload_instance(*result, i, host);
     if (status == LOBE_OK) {
         passes_device_scene_link_instances(*result);
-        return LOBE_OK;
+        // Other renderers of the scene find it on the device from now on.
+        status = lobe_graph_submit_content(graph);
     }
+    if (status == LOBE_OK)
+        return LOBE_OK;
 fail:
     passes_device_scene_destroy(result);
     return status;

@@ -29,6 +29,13 @@ lobe_result lobe_graph_create_buffer(lobe_graph *graph, const lobe_buffer_parame
     return engine_buffer_create_for(graph->device, &graph->kept.uploads, parameters, buffer);
 }
 
+lobe_result lobe_graph_submit_content(lobe_graph *graph) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    engine_uploads *uploads = &graph->kept.uploads;
+    return uploads->started || uploads->count == 0 ? LOBE_OK : engine_uploads_submit(uploads);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Uploads of the frame
 

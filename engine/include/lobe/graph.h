@@ -112,16 +112,23 @@ LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
 /// 16 MiB between two frames, and what is too large for the device memory that is left, is
 /// submitted and waited for in steps of 4 MiB. If a frame fails, the next one copies.
 /// lobe_texture_destroy and lobe_buffer_destroy do not wait either, and come before
-/// lobe_graph_destroy. Errors: as of lobe_texture_create and lobe_buffer_create. An update that
-/// fails leaves the content (a part of it, if the device failed between two steps); one that would
-/// need steps fails with LOBE_ERROR_OUT_OF_DEVICE_MEMORY while a frame is in a command buffer of
-/// the host, until lobe_graph_wait or the next lobe_graph_begin.
+/// lobe_graph_destroy. Content of 4 KiB or more that another graph or the device has, given to a
+/// new texture or buffer and submitted (by lobe, not by the host), takes no memory and is not
+/// copied again; an update then gives the object memory of its own. Errors: as of
+/// lobe_texture_create and lobe_buffer_create. An update that fails leaves the content (a part of
+/// it, if the device failed between two steps); one that would need steps fails with
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY while a frame is in a command buffer of the host, until
+/// lobe_graph_wait or the next lobe_graph_begin.
 LOBE_API lobe_result lobe_graph_create_texture(lobe_graph *graph,
                                                const lobe_texture_parameters *parameters,
                                                lobe_texture **texture);
 LOBE_API lobe_result lobe_graph_create_buffer(lobe_graph *graph,
                                               const lobe_buffer_parameters *parameters,
                                               lobe_buffer **buffer);
+
+/// Submits what textures and buffers were given before the first frame, for other graphs to find;
+/// does nothing later. Waits for nothing but memory that content passes through.
+LOBE_API lobe_result lobe_graph_submit_content(lobe_graph *graph);
 
 /// Imports a texture or buffer, of the device or of this graph; passes may only read it. The object
 /// must live until the frame has executed. Importing the same object twice returns the same

@@ -28,9 +28,11 @@ LOBE_API lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *
 LOBE_API void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene, in place of the current one. The scene must live as long as it is set; NULL
-/// only removes the current one. Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY,
-/// LOBE_ERROR_MALFORMED (nothing to draw, no triangles, an index out of range, a number that is not
-/// finite or outside of its range; the line names the object and the value).
+/// only removes the current one. Texels and meshes that other renderers of the device have
+/// already are not uploaded again, but used together until somebody changes them.
+/// Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY, LOBE_ERROR_MALFORMED (nothing to
+/// draw, no triangles, an index out of range, a number that is not finite or outside of its range;
+/// the line names the object and the value).
 LOBE_API lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene);
 
 /// Which parts of a scene changed, by indices into its arrays. An array may be NULL where its count
@@ -60,8 +62,8 @@ typedef struct lobe_scene_changes {
 /// Only what new images and meshes have beyond 16 MiB, what comes before the first frame, and what
 /// is too large for the memory that is left, is submitted and waited for in steps of 4 MiB.
 /// Where extents, formats and counts stay the same, no Vulkan object is created, once there is
-/// memory for as much as frames copy. Constants of materials that are equal to those of the device
-/// are not written.
+/// memory for as much as frames copy; only of what other renderers use too, this one gets its own.
+/// Constants of materials that are equal to those of the device are not written.
 /// Lights (and their number), the scene's camera, background and bounds, the transforms of
 /// instances and whether they are hidden are read in every frame and need not be listed.
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),

@@ -141,10 +141,10 @@ static void update_replaces_the_content_and_its_stamp(void **state) {
     assert_int_equal(lobe_texture_create(device, &parameters, &other), LOBE_OK);
     const uint64_t stamp = texture->stamp;
     assert_true(stamp > 0);
-    assert_int_not_equal(stamp, other->stamp);
+    assert_int_equal(stamp, other->stamp);
     image.texels = second;
     assert_int_equal(lobe_texture_update(texture, &image), LOBE_OK);
-    assert_true(texture->stamp > other->stamp);
+    assert_int_not_equal(texture->stamp, stamp);
     assert_texture_holds(texture, second, sizeof second);
     assert_texture_holds(other, first, sizeof first);
     lobe_texture_destroy(&texture);
@@ -234,7 +234,7 @@ static void buffer_holds_what_it_was_given(void **state) {
         data = pattern(sizes[i], 6);
         const uint64_t stamp = buffer->stamp;
         assert_int_equal(lobe_buffer_update(buffer, data), LOBE_OK);
-        assert_true(buffer->stamp > stamp);
+        assert_int_not_equal(buffer->stamp, stamp);
         assert_buffer_holds(buffer, data, sizes[i]);
         lobe_buffer_destroy(&buffer);
         assert_null(buffer);

@@ -161,6 +161,7 @@ static void textures_and_buffers(void **state) {
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_graph_create_buffer",
             lobe_graph_create_buffer(f->graph, NULL, &buffer));
     REFUSED_SILENTLY(lobe_graph_create_buffer(NULL, NULL, NULL));
+    REFUSED_SILENTLY(lobe_graph_submit_content(NULL));
     REFUSED_SILENTLY(lobe_buffer_update(NULL, NULL));
     lobe_buffer_destroy(NULL);
 }
