@@ -40,6 +40,7 @@ typedef struct engine_graph_resource {
     uint64_t size; ///< buffers: bytes
     VkFlags usage; ///< of the image or buffer, united over all passes
     bool cube;     ///< some shader reads it as a cube
+    bool shared;   ///< other graphs may have its content
     const lobe_texture *texture;
     const lobe_buffer *buffer;
     const lobe_vulkan_image *host;         ///< copy in the arena

@@ -100,6 +100,7 @@ static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
     engine_graph_check_retained,     // store/retained.c      retained objects allow these uses
     engine_graph_sign_passes,        // declare/signature.c   digest of what each pass does
     analyse,                         // plan/                 sources, order, what runs, lifetimes
+    engine_graph_share_retained,     // store/sharing.c       content that other graphs have
     engine_graph_release_retained,   // store/retained.c      frees what this frame did not declare
     engine_graph_find_pipelines,     // declare/binding.c     of the passes that run
     engine_graph_place_retained,     // store/retained.c      objects with memory of their own

@@ -56,20 +56,28 @@ static void unlist(engine_shared_table *table, engine_shared *shared) {
     shared->stamp = ENGINE_STAMP_NONE;
 }
 
-void engine_shared_publish(lobe_device *device, engine_shared *shared) {
+static engine_shared *find(engine_shared_table *table, engine_stamp stamp, uint64_t asker) {
+    engine_shared *found = *bucket_of(table, stamp);
+    while (found && (found->stamp != stamp || (asker && found->creator == asker)))
+        found = found->next;
+    return found;
+}
+
+bool engine_shared_publish(lobe_device *device, engine_shared *shared) {
     if (!shared)
-        return;
+        return false;
     pthread_mutex_lock(&device->shared->mutex);
-    if (!shared->listed && shared->stamp != ENGINE_STAMP_NONE)
+    if (!shared->listed && shared->stamp != ENGINE_STAMP_NONE &&
+        !find(device->shared, shared->stamp, shared->creator))
         list(device->shared, shared);
+    const bool listed = shared->listed;
     pthread_mutex_unlock(&device->shared->mutex);
+    return listed;
 }
 
 engine_shared *engine_shared_find(lobe_device *device, engine_stamp stamp, uint64_t asker) {
     pthread_mutex_lock(&device->shared->mutex);
-    engine_shared *found = *bucket_of(device->shared, stamp);
-    while (found && (found->stamp != stamp || (asker && found->creator == asker)))
-        found = found->next;
+    engine_shared *found = find(device->shared, stamp, asker);
     if (found)
         found->references++;
     pthread_mutex_unlock(&device->shared->mutex);

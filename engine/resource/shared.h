@@ -44,8 +44,9 @@ void engine_shared_table_destroy(engine_shared_table **table);
 
 /// Without content so far, held by the caller alone, and not listed. NULL if out of memory.
 engine_shared *engine_shared_create(lobe_device *device, uint64_t creator);
-/// Lists it, if its content is known. NULL is allowed.
-void engine_shared_publish(lobe_device *device, engine_shared *shared);
+/// Lists it, if its content is known and nothing of another graph with this content is listed.
+/// Returns whether it is listed. NULL is allowed.
+bool engine_shared_publish(lobe_device *device, engine_shared *shared);
 /// Finds an object with this content, which the caller holds from then on. NULL if there is none
 /// but those that `asker` filled: a graph changes its objects separately.
 engine_shared *engine_shared_find(lobe_device *device, engine_stamp stamp, uint64_t asker);

@@ -45,7 +45,7 @@ void engine_upload_target_offer(lobe_device *device, engine_upload_state *state,
     state->shared->object = *object;
     state->shared->object.shared = state->shared;
     if (state->bytes == 0)
-        engine_shared_publish(device, state->shared);
+        (void)engine_shared_publish(device, state->shared);
 }
 
 /// Whether the ring's memory can go, to be used for something else.
@@ -256,7 +256,7 @@ uint64_t engine_uploads_commit(engine_uploads *queue, bool by_host) {
             state->bytes = 0;
         // What the host submits may come after what others submit.
         if (state && !by_host)
-            engine_shared_publish(queue->device, state->shared);
+            (void)engine_shared_publish(queue->device, state->shared);
         if (queue->copies[i].texture)
             queue->copies[i].texture->filled = true;
     }

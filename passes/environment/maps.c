@@ -76,6 +76,7 @@ static reduced_map declare_cube(lobe_graph *graph, const char *name, uint32_t wi
                                                 .layers = 6,
                                                 .levels = cube.levels,
                                                 .retained = true,
+                                                .shared = true,
                                             });
     return cube;
 }

@@ -33,7 +33,8 @@ reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe
                                                                      .height = map.height,
                                                                      .layers = layers,
                                                                      .levels = map.levels,
-                                                                     .retained = true});
+                                                                     .retained = true,
+                                                                     .shared = true});
     return map;
 }
 

@@ -15,7 +15,8 @@ static lobe_resource declare(lobe_graph *graph, const char *what, size_t instanc
                                                              .format = LOBE_FORMAT_RGBA32_FLOAT,
                                                              .width = width,
                                                              .height = height,
-                                                             .retained = true});
+                                                             .retained = true,
+                                                             .shared = true});
 }
 
 static struct atlas_layout layout_of(const device_material *material) {

@@ -162,11 +162,18 @@ static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
     return true;
 }
 
+/// Between frames, where other graphs may use it.
+static const engine_access_state at_rest = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                            .access = VK_ACCESS_2_MEMORY_READ_BIT,
+                                            .layout = ENGINE_LAYOUT_SAMPLED};
+
 static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource, bool retained) {
     engine_dependency_resource dependency = {.name = resource->name,
                                              .levels = resource->levels,
                                              .layers = resource->layers,
                                              .retained = retained,
+                                             .rests = resource->shared,
+                                             .after = at_rest,
                                              .identity = identity_of(resource)};
     if (retained) {
         resource->origin = ENGINE_GRAPH_RETAINED;
@@ -194,7 +201,8 @@ lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *
                                       .height = image.height,
                                       .layers = at_least_one(image.layers),
                                       .levels = at_least_one(image.levels),
-                                      .samples = at_least_one(image.samples)};
+                                      .samples = at_least_one(image.samples),
+                                      .shared = image.retained && image.shared};
     return declare(graph, &resource, image.retained);
 }
 

@@ -364,6 +364,32 @@ static bool restore_imports(barrier_builder *builder) {
     return true;
 }
 
+/// Brings one subresource to rest, if it has content.
+static bool lay_to_rest(barrier_builder *builder, uint32_t index, uint32_t subresource) {
+    const engine_dependency_resource *resource = &builder->graph->resources[index];
+    subresource_tracker *last = &builder->trackers[resource->first_subresource + subresource];
+    const subresource_use use = {
+        .position = builder->graph->running_count, .resource = index, .subresource = subresource};
+    const engine_access_state from = {.stages = last->write_stages | last->reader_stages,
+                                      .access = last->write_access,
+                                      .layout = last->layout};
+    if (from.layout == ENGINE_LAYOUT_UNDEFINED || from.layout == resource->after.layout)
+        return true;
+    last->layout = resource->after.layout;
+    return emit(builder, &use, from, resource->after);
+}
+
+static bool lay_all_to_rest(barrier_builder *builder) {
+    const engine_dependency_graph *graph = builder->graph;
+    for (uint32_t index = 0; index < graph->resource_count; index++) {
+        const engine_dependency_resource *resource = &graph->resources[index];
+        for (uint32_t s = 0; s < resource->levels * resource->layers; s++)
+            if (resource->rests && builder->started[index] && !lay_to_rest(builder, index, s))
+                return false;
+    }
+    return true;
+}
+
 /// Returns borrowed resources in the state that their owner asked for, whether used or not.
 static bool return_borrowed(barrier_builder *builder) {
     engine_dependency_graph *graph = builder->graph;
@@ -427,7 +453,7 @@ bool engine_dependency_derive_barriers(engine_dependency_graph *graph) {
     if (ok)
         list_uses(&builder);
     ok = ok && group_reads(&builder) && derive(&builder) && restore_imports(&builder) &&
-         return_borrowed(&builder);
+         lay_all_to_rest(&builder) && return_borrowed(&builder);
     if (ok) {
         extend_levels(graph);
         record_end_layouts(&builder);

@@ -80,6 +80,7 @@ typedef struct engine_dependency_resource {
     bool imported; ///< has content from the start and is never written
     bool retained; ///< its content is kept for the next frame
     bool borrowed; ///< belongs to the host: passes may write it; it is returned after the frame
+    bool rests;    ///< what a frame uses of it is in the state `after` between frames
     /// Borrowed: its uses before and after the frame. The layouts are LENT (UNDEFINED: it has no
     /// content) and RETURNED.
     engine_access_state before, after;

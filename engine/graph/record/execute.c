@@ -136,6 +136,8 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
     if (flight->submission)
         engine_pipelines_end_use_after(graph->device, &flight->pipelines, flight->submission);
     engine_graph_stamp_retained(graph);
+    if (flight->submission)
+        engine_graph_publish_retained(graph);
     return LOBE_OK;
 }
 

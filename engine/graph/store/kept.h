@@ -13,6 +13,7 @@
 #include "engine/graph/plan/dependency_graph.h"
 #include "engine/pipeline/use.h"
 #include "engine/resource/resource.h"
+#include "engine/resource/shared.h"
 #include "engine/resource/upload.h"
 
 /// What a graph keeps between frames: Vulkan objects, their memory, and stamps of their content.
@@ -42,8 +43,11 @@ typedef struct engine_graph_retained {
     engine_stamp *stamps;   ///< of the content of each subresource
     engine_layout *layouts; ///< of each subresource
     bool declared;          ///< in the current frame
+    bool lent;              ///< other graphs may find it or hold it: nobody writes it
+    bool separate;          ///< was invalidated: this graph's own from then on
     engine_graph_object object;
     engine_allocation allocation;
+    engine_shared *shared; ///< how they find it; NULL: never
 } engine_graph_retained;
 
 /// The transient objects and the memory they share; reused while frames need exactly the same.

@@ -6,13 +6,34 @@
 #include "engine/resource/format.h"
 
 void engine_graph_begin_retained(lobe_graph *graph) {
+    engine_graph_publish_retained(graph); // the host has submitted the last frame by now
     for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         kept->declared = false;
 }
 
+static void clear_content(engine_graph_retained *kept) {
+    for (uint32_t i = 0; i < kept->subresource_count; i++) {
+        kept->stamps[i] = ENGINE_STAMP_NONE;
+        kept->layouts[i] = ENGINE_LAYOUT_UNDEFINED;
+    }
+}
+
+void engine_graph_drop_retained(lobe_graph *graph, engine_graph_retained *kept) {
+    engine_object object = {.shared = kept->shared,
+                            .image = kept->object.image,
+                            .buffer = kept->object.buffer,
+                            .allocation = kept->allocation};
+    engine_graph_free_views(graph->device, &kept->object);
+    engine_object_destroy(graph->device, &object);
+    kept->object = (engine_graph_object){0};
+    kept->allocation = (engine_allocation){0};
+    kept->shared = NULL;
+    kept->lent = false;
+    clear_content(kept);
+}
+
 static void free_retained(lobe_graph *graph, engine_graph_retained *kept) {
-    engine_graph_free_object(graph->device, &kept->object);
-    engine_memory_free(graph->device->memory, &kept->allocation);
+    engine_graph_drop_retained(graph, kept);
     lobe_release(kept->name);
     lobe_release(kept->stamps);
     lobe_release(kept->layouts);
@@ -63,13 +84,6 @@ static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resourc
     return usage;
 }
 
-static void clear_content(engine_graph_retained *kept) {
-    for (uint32_t i = 0; i < kept->subresource_count; i++) {
-        kept->stamps[i] = ENGINE_STAMP_NONE;
-        kept->layouts[i] = ENGINE_LAYOUT_UNDEFINED;
-    }
-}
-
 lobe_result engine_graph_check_retained(lobe_graph *graph) {
     for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
         engine_graph_resource *resource = &graph->frame.resources[i];
@@ -86,9 +100,7 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
         const lobe_result result = engine_graph_finish_flights(graph);
         if (result != LOBE_OK)
             return result;
-        engine_graph_free_object(graph->device, &kept->object);
-        engine_memory_free(graph->device->memory, &kept->allocation);
-        clear_content(kept);
+        engine_graph_drop_retained(graph, kept);
         kept->usage |= resource->usage;
     }
     return LOBE_OK;
@@ -96,6 +108,7 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
 
 /// The content can still be read, but its stamp no longer equals what any pass would write.
 static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
+    kept->separate = true;
     for (uint32_t i = 0; i < kept->subresource_count; i++)
         if (kept->stamps[i] != ENGINE_STAMP_NONE)
             kept->stamps[i] = engine_stamp_mix(kept->stamps[i], engine_device_stamp(graph->device));
@@ -143,13 +156,14 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
     return NULL;
 }
 
-static lobe_result add_retained(lobe_graph *graph, uint32_t index) {
+lobe_result engine_graph_add_retained(lobe_graph *graph, uint32_t index) {
     engine_graph_retained *kept = allocate(graph, index);
     if (!kept)
         return engine_graph_fail_memory(graph);
     kept->next = graph->kept.retained;
     graph->kept.retained = kept;
     graph->frame.resources[index].retained = kept;
+    graph->frame.dependencies.resources[index].recorded = kept->stamps;
     graph->frame.dependencies.resources[index].start_layouts = kept->layouts;
     return LOBE_OK;
 }
@@ -160,6 +174,9 @@ static lobe_result make_object(lobe_graph *graph, const engine_graph_resource *r
         .name = resource->name, .place = ENGINE_MEMORY_DEVICE, .linear = !resource->is_image};
     engine_graph_resource lasting = *resource;
     lasting.usage = kept->usage;
+    if (resource->shared &&
+        !(kept->shared = engine_shared_create(graph->device, graph->kept.uploads.number)))
+        return engine_graph_fail_memory(graph);
     lobe_result result =
         engine_graph_create_object(graph->device, &lasting, &kept->object, &request.requirements);
     if (result == LOBE_OK)
@@ -167,10 +184,8 @@ static lobe_result make_object(lobe_graph *graph, const engine_graph_resource *r
     if (result == LOBE_OK)
         result = engine_graph_bind_object(graph->device, resource->name, &kept->object,
                                           &kept->allocation, 0);
-    if (result != LOBE_OK) {
-        engine_graph_free_object(graph->device, &kept->object);
-        engine_memory_free(graph->device->memory, &kept->allocation);
-    }
+    if (result != LOBE_OK)
+        engine_graph_drop_retained(graph, kept);
     return result;
 }
 
@@ -183,7 +198,7 @@ lobe_result engine_graph_place_retained(lobe_graph *graph) {
             graph->frame.dependencies.resources[i].first_position != ENGINE_DEPENDENCY_NONE;
         lobe_result result = LOBE_OK;
         if (!resource->retained && needed)
-            result = add_retained(graph, i);
+            result = engine_graph_add_retained(graph, i);
         engine_graph_retained *kept = resource->retained;
         if (result == LOBE_OK && needed && !kept->object.image && !kept->object.buffer)
             result = make_object(graph, resource);

@@ -29,6 +29,11 @@ lobe_result engine_graph_get_view(lobe_device *device, const engine_graph_resour
 void engine_graph_begin_retained(lobe_graph *graph);
 void engine_graph_free_retained(lobe_graph *graph);
 
+/// Keeps the resource with this index from now on; it has neither object nor content yet.
+lobe_result engine_graph_add_retained(lobe_graph *graph, uint32_t index);
+/// Lets the object and its content go. All frames must have finished.
+void engine_graph_drop_retained(lobe_graph *graph, engine_graph_retained *kept);
+
 /// Compilation: drops the content of retained objects that were not created for this frame's uses.
 lobe_result engine_graph_check_retained(lobe_graph *graph);
 /// Compilation: frees the retained resources that this frame does not declare.
@@ -40,6 +45,15 @@ lobe_result engine_graph_place_retained(lobe_graph *graph);
 void engine_graph_invalidate_retained(lobe_graph *graph);
 /// Execution: stamps each subresource with the content that running passes leave in it.
 void engine_graph_stamp_retained(lobe_graph *graph);
+
+// ---------------------------------------------------------------------------------------------
+// Retained images that graphs share (sharing.c)
+
+/// Compilation, after the passes that run are known: takes what other graphs have of what these
+/// would write, or wrote; objects that they do write belong to this graph alone.
+lobe_result engine_graph_share_retained(lobe_graph *graph);
+/// Lets other graphs find the images that were written. All frames must have been submitted.
+void engine_graph_publish_retained(lobe_graph *graph);
 
 // ---------------------------------------------------------------------------------------------
 // Transient resources (transients.c)

@@ -88,6 +88,10 @@ typedef struct lobe_image_description {
     /// description, its passes may also read or modify that content before any pass has written it
     /// (sums over frames). Images that are not retained share memory (aliasing).
     bool retained;
+    /// Of a retained image: graphs of one device whose passes would write the same content have it
+    /// once, from when the first of them was submitted. A frame that writes the image must write
+    /// all of it that the frame reads: content of earlier frames may be lost then.
+    bool shared;
 } lobe_image_description;
 
 typedef struct lobe_buffer_description {
@@ -356,7 +360,7 @@ LOBE_API lobe_result lobe_graph_wait(lobe_graph *graph);
 LOBE_API const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
 /// Marks all retained content as out of date, so that the passes that write it run again. The
-/// memory stays.
+/// memory stays, unless other graphs use it too; from then on they do not.
 LOBE_API void lobe_graph_invalidate(lobe_graph *graph);
 /// The same for all retained resources whose names do not begin with `prefix`.
 LOBE_API void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
@@ -390,8 +394,8 @@ typedef struct lobe_graph_report {
     double host_milliseconds;
     uint64_t transient_bytes; ///< memory of transient resources, aliased
     uint64_t transient_bytes_without_aliasing;
-    uint64_t retained_bytes;
-    uint32_t barrier_count; ///< image and buffer barriers recorded
+    uint64_t retained_bytes; ///< including what other graphs share
+    uint32_t barrier_count;  ///< image and buffer barriers recorded
 } lobe_graph_report;
 
 /// Report on the frame last compiled or executed; valid until the next lobe_graph_begin.

@@ -28,8 +28,8 @@ LOBE_API lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *
 LOBE_API void lobe_renderer_destroy(lobe_renderer **renderer);
 
 /// Uploads a scene, in place of the current one. The scene must live as long as it is set; NULL
-/// only removes the current one. Texels and meshes that other renderers of the device have
-/// already are not uploaded again, but used together until somebody changes them.
+/// only removes the current one. What other renderers of the device have already (texels, meshes,
+/// maps) is not uploaded and built again, but used together until somebody changes it.
 /// Errors: LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY, LOBE_ERROR_MALFORMED (nothing to
 /// draw, no triangles, an index out of range, a number that is not finite or outside of its range;
 /// the line names the object and the value).
