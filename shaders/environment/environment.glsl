@@ -17,15 +17,15 @@ layout(constant_id = SPECIALISE_HORIZON) const uint HORIZON = HORIZON_CLIPPED;
 
 // Levels hold means over texels. The same cube is bound three times: without interpolation, with
 // it, and as an array of faces to read texels by index.
-layout(set = 0, binding = 23) uniform samplerCube environment_texels;
-layout(set = 0, binding = 24) uniform samplerCube environment_cube;
-layout(set = 0, binding = 25) uniform sampler2DArray environment_faces;
+layout(LOBE_DESCRIPTOR(23)) uniform samplerCube environment_texels;
+layout(LOBE_DESCRIPTOR(24)) uniform samplerCube environment_cube;
+layout(LOBE_DESCRIPTOR(25)) uniform sampler2DArray environment_faces;
 // Levels hold the environment filtered with broader and broader lobes.
-layout(set = 0, binding = 26) uniform samplerCube prefiltered_environment;
-layout(set = 0, binding = 27) uniform samplerCube prefiltered_environment_ggx;
+layout(LOBE_DESCRIPTOR(26)) uniform samplerCube prefiltered_environment;
+layout(LOBE_DESCRIPTOR(27)) uniform samplerCube prefiltered_environment_ggx;
 // The same levels of lobes twice as concentrated.
-layout(set = 0, binding = 31) uniform samplerCube environment_between;
-layout(set = 0, binding = 28, std140) uniform environment_block {
+layout(LOBE_DESCRIPTOR(31)) uniform samplerCube environment_between;
+layout(LOBE_DESCRIPTOR(28), std140) uniform environment_block {
     environment_constants environment;
 };
 

@@ -51,4 +51,12 @@ vec3 integrated_environment(inout appearance fetched, surface_point surface) {
     return sum;
 }
 
+// The radiance that the footprint reflects of the environment, by the chosen method.
+vec3 environment_light(inout appearance fetched, surface_point surface) {
+    vec3 reflected = ENVIRONMENT_METHOD == ENVIRONMENT_EXACT
+                         ? integrated_environment(fetched, surface)
+                         : reflect_environment(fetched, surface);
+    return fetch_occlusion(surface) * reflected;
+}
+
 #endif

@@ -8,7 +8,7 @@
 #include "lib/light/spherical_harmonics.glsl"
 #include "shading/base_material.glsl"
 
-layout(set = 0, binding = 29, std430) readonly buffer irradiance_block {
+layout(LOBE_DESCRIPTOR(29), std430) readonly buffer irradiance_block {
     irradiance_harmonics irradiance;
 };
 

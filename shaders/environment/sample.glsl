@@ -29,9 +29,9 @@ const uint SEQUENCE_STEPS[5] =
 
 // Number `dimension` of this sample, in [0, 1). Each pixel and pattern starts its sequence at a
 // different point.
-float sample_number(uint dimension) {
-    uint seed = scrambled(uint(gl_FragCoord.x) +
-                          scrambled(uint(gl_FragCoord.y) +
+float sample_number(uvec2 pixel, uint dimension) {
+    uint seed = scrambled(pixel.x +
+                          scrambled(pixel.y +
                                     scrambled(environment.pattern * 8u + dimension)));
     uint number = seed + environment.sample_number * SEQUENCE_STEPS[dimension];
     return float(number >> 8u) / 16777216.0;
@@ -213,12 +213,14 @@ vec3 weighted_sample(surface_point surface, base_material base, vec3 incoming, f
 
 vec3 sampled_environment(surface_point surface, base_material base) {
     float total = total_luminance();
-    vec3 from_environment = direction_from_environment(vec2(sample_number(0u), sample_number(1u)));
+    vec3 from_environment = direction_from_environment(
+        vec2(sample_number(surface.pixel, 0u), sample_number(surface.pixel, 1u)));
     vec3 world = environment.environment_from_world[0].xyz * from_environment.x +
                  environment.environment_from_world[1].xyz * from_environment.y +
                  environment.environment_from_world[2].xyz * from_environment.z;
     vec3 sum = weighted_sample(surface, base, world * surface.world_from_tangent, total);
-    vec3 numbers = vec3(sample_number(2u), sample_number(3u), sample_number(4u));
+    vec3 numbers = vec3(sample_number(surface.pixel, 2u), sample_number(surface.pixel, 3u),
+                        sample_number(surface.pixel, 4u));
     vec3 from_material = direction_from_material(base, surface.outgoing, numbers);
     return sum + weighted_sample(surface, base, from_material, total);
 }

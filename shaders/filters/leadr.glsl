@@ -16,7 +16,7 @@
 layout(constant_id = SPECIALISE_GRID) const uint GRID_CHOICE = 1;
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
 
-layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     leadr_knobs filter_knobs;
 };
 

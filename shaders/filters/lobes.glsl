@@ -24,11 +24,11 @@ layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_LENGTH;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
 
-layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     lobes_knobs filter_knobs;
 };
 
-layout(set = 0, binding = 16) uniform sampler2DArray mixture_map;
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray mixture_map;
 
 // Base lobes of the mixture's own kind are part of the traversal, so that a pixel without level 0
 // does not pay for them.
@@ -85,20 +85,12 @@ struct walk {
     float sector_share; // of that, the share of the current sector's halves
 };
 
+// From the tangent frame to the mixtures' space; the other two are the picture's.
 mat3 mixture_frame(surface_point surface) {
-    // Mixtures are built for a mesh's front; on the back, both they and the frame are reversed.
-    mat3 world_from_front = front_side() ? surface.world_from_tangent : -surface.world_from_tangent;
-    if (SPACE == SPACE_OBJECT) {
-        // The draw's only instance. For a rotation with a uniform scale, the transpose is the
-        // inverse up to a factor.
-        instance_constants instance = instances[draw.first_instance];
-        mat3 world_from_object =
-            transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));
-        mat3 frame = transpose(world_from_object) * world_from_front;
-        return frame * inversesqrt(dot(frame[0], frame[0]));
-    }
+    if (SPACE == SPACE_OBJECT)
+        return object_from_tangent(surface);
     if (SPACE == SPACE_CAMERA)
-        return mat3(frame.world_to_camera) * world_from_front;
+        return camera_from_tangent(surface);
     return mat3(1.0);
 }
 

@@ -16,7 +16,7 @@
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 
-layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     moments_knobs filter_knobs;
 };
 

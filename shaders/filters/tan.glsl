@@ -18,7 +18,7 @@
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
 layout(constant_id = SPECIALISE_MIXTURE_PRINTED) const bool PRINTED = false;
 
-layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
 
 struct projected_lobe {
     float part;

@@ -18,17 +18,17 @@ INTERFACE_OFFSET(environment_constants, sample_number, 52)
 INTERFACE_OFFSET(environment_constants, pattern, 56)
 
 // uint, how the environment is integrated.
-#define SPECIALISE_ENVIRONMENT_METHOD 20
+#define SPECIALISE_ENVIRONMENT_METHOD SPECIALISE(20)
 // uint, [1, 8]: most round lobes that approximate an elongated one.
-#define SPECIALISE_ENVIRONMENT_PROBES 21
+#define SPECIALISE_ENVIRONMENT_PROBES SPECIALISE(21)
 // uint, [2, 8]: samples along each side of the grid of ENVIRONMENT_SAMPLED.
-#define SPECIALISE_ENVIRONMENT_GRID 22
+#define SPECIALISE_ENVIRONMENT_GRID SPECIALISE(22)
 // uint, HORIZON_...: treatment of the part of a lobe below the surface.
-#define SPECIALISE_HORIZON 23
+#define SPECIALISE_HORIZON SPECIALISE(23)
 // bool: von Mises-Fisher lobes are blends of two cubes instead of two levels.
-#define SPECIALISE_ENVIRONMENT_BLENDED 28
+#define SPECIALISE_ENVIRONMENT_BLENDED SPECIALISE(28)
 // bool: light that microfacets reflect more than once is compensated for.
-#define SPECIALISE_MULTIPLE_SCATTERING 27
+#define SPECIALISE_MULTIPLE_SCATTERING SPECIALISE(27)
 
 #define ENVIRONMENT_EXACT       0
 #define ENVIRONMENT_MIP         1

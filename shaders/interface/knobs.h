@@ -17,7 +17,7 @@ INTERFACE_SIZE(shared_knobs, 16)
 INTERFACE_OFFSET(shared_knobs, level_bias, 4)
 
 // Those of one filter are in a struct in the filter's own header, which its shader declares so:
-//   layout(set = 0, binding = FILTER_KNOB_BINDING, std140) uniform filter_knob_block {
+//   layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
 //       lobes_knobs filter_knobs;
 //   };
 #define FILTER_KNOB_BINDING 11

@@ -5,41 +5,47 @@
 // do not need is compiled out. If a knob feeds a constant, its default in GLSL is that of the knob
 // in C.
 
+// Hosts that include shading in shaders of their own may add a number to all of them.
+#ifndef LOBE_CONSTANT_BASE
+#define LOBE_CONSTANT_BASE 0
+#endif
+#define SPECIALISE(number) (LOBE_CONSTANT_BASE + number)
+
 // The material.
-#define SPECIALISE_MODEL                0  // uint, MODEL_...
-#define SPECIALISE_DISTRIBUTION         1  // uint, DISTRIBUTION_...
-#define SPECIALISE_LOBE_COUNT           2  // uint, half-vector lobes
-#define SPECIALISE_MAPS                 3  // uint, bit MAP_...: the material has this map
-#define SPECIALISE_SECOND_COORDINATES   4  // uint, bit MAP_...: the map uses the second set
-#define SPECIALISE_DIFFUSE              5  // bool, half-vector lobes: there is a Lambert part
-#define SPECIALISE_NORMAL_CONCENTRATION 6  // bool, kappa_N is set
-#define SPECIALISE_ALPHA_MASK           7  // bool
-#define SPECIALISE_EMISSION             8  // bool
-#define SPECIALISE_VERTEX_COLOUR        9  // bool
-#define SPECIALISE_MIRRORED             10 // bool, the transform mirrors
-#define SPECIALISE_METALLIC_MAP         11 // bool, the width map says where a microfacet is metal
+#define SPECIALISE_MODEL                SPECIALISE(0)  // uint, MODEL_...
+#define SPECIALISE_DISTRIBUTION         SPECIALISE(1)  // uint, DISTRIBUTION_...
+#define SPECIALISE_LOBE_COUNT           SPECIALISE(2)  // uint, half-vector lobes
+#define SPECIALISE_MAPS                 SPECIALISE(3)  // uint, bit MAP_...: there is this map
+#define SPECIALISE_SECOND_COORDINATES   SPECIALISE(4)  // uint, bit MAP_...: it uses the second set
+#define SPECIALISE_DIFFUSE              SPECIALISE(5)  // bool, of half-vector lobes: a Lambert part
+#define SPECIALISE_NORMAL_CONCENTRATION SPECIALISE(6)  // bool, kappa_N is set
+#define SPECIALISE_ALPHA_MASK           SPECIALISE(7)  // bool
+#define SPECIALISE_EMISSION             SPECIALISE(8)  // bool
+#define SPECIALISE_VERTEX_COLOUR        SPECIALISE(9)  // bool
+#define SPECIALISE_MIRRORED             SPECIALISE(10) // bool, the transform mirrors
+#define SPECIALISE_METALLIC_MAP         SPECIALISE(11) // bool, the width map says where it is metal
 // bool: shading sees the normal map interpolated; in passes that build maps, it or the width map
-#define SPECIALISE_INTERPOLATED 12
-#define SPECIALISE_MASKING      13 // uint, DISTRIBUTION_... whose masking is used
+#define SPECIALISE_INTERPOLATED SPECIALISE(12)
+#define SPECIALISE_MASKING      SPECIALISE(13) // uint, DISTRIBUTION_... whose masking is used
 // The lights.
-#define SPECIALISE_DIRECTIONAL_LIGHTS 16 // bool
-#define SPECIALISE_POINT_LIGHTS       17 // bool
-#define SPECIALISE_SPOT_LIGHTS        18 // bool
-#define SPECIALISE_LIGHTS_AT_ONCE     19 // uint, [1, 4]: lights that filters process together
+#define SPECIALISE_DIRECTIONAL_LIGHTS SPECIALISE(16) // bool
+#define SPECIALISE_POINT_LIGHTS       SPECIALISE(17) // bool
+#define SPECIALISE_SPOT_LIGHTS        SPECIALISE(18) // bool
+#define SPECIALISE_LIGHTS_AT_ONCE     SPECIALISE(19) // uint, [1, 4]: lights that filters take together
 // The knobs of all filters.
-#define SPECIALISE_VIEW              24 // uint, VIEW_...
-#define SPECIALISE_BASE_AS_LOBE      25 // bool: base lobes become von Mises-Fisher lobes
-#define SPECIALISE_DEPTH_AS_COVERAGE 26 // bool: alpha is the depth, see sample_choice.comp
-#define SPECIALISE_CURVATURE         29 // bool: the knob `curvature` is not 0
+#define SPECIALISE_VIEW              SPECIALISE(24) // uint, VIEW_...
+#define SPECIALISE_BASE_AS_LOBE      SPECIALISE(25) // bool: base lobes become von Mises-Fisher lobes
+#define SPECIALISE_DEPTH_AS_COVERAGE SPECIALISE(26) // bool: alpha is depth, see sample_choice.comp
+#define SPECIALISE_CURVATURE         SPECIALISE(29) // bool: the knob `curvature` is not 0
 // Filtered maps, see shaders/shading/filtered_maps.glsl.
-#define SPECIALISE_PROBES         32 // uint, [1, 16]
-#define SPECIALISE_ANISOTROPY     33 // uint, [1, 16]
-#define SPECIALISE_FILTERED_LOBES 34 // bool: lobes vary, and there is a map of them
-#define SPECIALISE_FILTERED_MAPS  35 // uint, bit MAP_...: there is a filtered map
-#define SPECIALISE_MAGNIFIED_MAPS 36 // uint, bit MAP_...: some pixel may use level 0 of the map
-#define SPECIALISE_LIKE_LOBES     37 // uint, bit MAP_...: same size and coordinates as the lobes'
+#define SPECIALISE_PROBES         SPECIALISE(32) // uint, [1, 16]
+#define SPECIALISE_ANISOTROPY     SPECIALISE(33) // uint, [1, 16]
+#define SPECIALISE_FILTERED_LOBES SPECIALISE(34) // bool: lobes vary, and there is a map of them
+#define SPECIALISE_FILTERED_MAPS  SPECIALISE(35) // uint, bit MAP_...: there is a filtered map
+#define SPECIALISE_MAGNIFIED_MAPS SPECIALISE(36) // uint, bit MAP_...: pixels may use its level 0
+#define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
 // The first of the filters' own, which are in their headers; no two of any filters are the same.
-#define SPECIALISE_FILTER 40
+#define SPECIALISE_FILTER SPECIALISE(40)
 
 #define MODEL_MICROFACET        0
 #define MODEL_HALF_VECTOR_LOBES 1

@@ -9,7 +9,7 @@
 
 layout(constant_id = SPECIALISE_MULTIPLE_SCATTERING) const bool MULTIPLE_SCATTERING = false;
 
-layout(set = 0, binding = 30) uniform sampler2D directional_albedo_table;
+layout(LOBE_DESCRIPTOR(30)) uniform sampler2D directional_albedo_table;
 
 vec4 albedo_of(float cosine, float parameter) {
     return directional_albedo(directional_albedo_table, DISTRIBUTION, cosine, parameter);
@@ -17,7 +17,7 @@ vec4 albedo_of(float cosine, float parameter) {
 
 #ifdef SLOPE_FILTER
 // The same for microfacets that the filter has turned into Gaussian slopes.
-layout(set = 0, binding = 32) uniform sampler2D slope_albedo_table;
+layout(LOBE_DESCRIPTOR(32)) uniform sampler2D slope_albedo_table;
 #endif
 
 // Of a lobe of this kind, by the parameter of the material's distribution.

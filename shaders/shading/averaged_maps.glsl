@@ -14,7 +14,7 @@
 
 // xyz: mean normal; w: mean of the concentration of microfacets, or of the factor of the lobes'
 // widths (see parameter_averaging.comp).
-layout(set = 0, binding = 16) uniform sampler2D parameter_map;
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2D parameter_map;
 
 struct appearance {
     base_material base;

@@ -14,11 +14,11 @@ layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
 
-layout(set = 0, binding = 17) uniform sampler2D base_colour_filtered;
-layout(set = 0, binding = 18) uniform sampler2D width_filtered;
-layout(set = 0, binding = 19) uniform sampler2D specular_filtered;
-layout(set = 0, binding = 20) uniform sampler2D emissive_filtered;
-layout(set = 0, binding = 21) uniform sampler2D occlusion_filtered;
+layout(LOBE_DESCRIPTOR(17)) uniform sampler2D base_colour_filtered;
+layout(LOBE_DESCRIPTOR(18)) uniform sampler2D width_filtered;
+layout(LOBE_DESCRIPTOR(19)) uniform sampler2D specular_filtered;
+layout(LOBE_DESCRIPTOR(20)) uniform sampler2D emissive_filtered;
+layout(LOBE_DESCRIPTOR(21)) uniform sampler2D occlusion_filtered;
 
 // How much longer than the extent of its probes a footprint may be, in widths.
 const float SLACK = 0.25;

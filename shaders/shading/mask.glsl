@@ -38,12 +38,10 @@ bool keeps_footprint(surface_point surface) {
         return false;
     if ((FILTERED_MAPS & (1u << MAP_BASE_COLOUR)) == 0u)
         return is_kept(unfiltered_base_colour(surface).a, surface);
-    float depth = dot(frame.axis.xyz, surface.world_position) - frame.axis.w;
-    uint layer = uint(int(floor(DITHER_LAYERS * log2(max(depth, 1e-30)))));
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
-    float along = ordered_dither(pixel, 2u * layer);
+    uint layer = uint(int(floor(DITHER_LAYERS * log2(max(surface.depth, 1e-30)))));
+    float along = ordered_dither(surface.pixel, 2u * layer);
     return mask_coverage(surface, along) >
-           fract(ordered_dither(pixel, 2u * layer + 1u) + frame.dither);
+           fract(ordered_dither(surface.pixel, 2u * layer + 1u) + surface.dither);
 }
 
 #endif

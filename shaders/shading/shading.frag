@@ -18,6 +18,7 @@
 //                                               reflected radiance of the environment
 //   float fetch_occlusion(surface_point)        fraction of it that reaches the footprint
 
+#include "shading/pixel.glsl"
 #include "filter.glsl"
 #include "shading/lights/punctual_lights.glsl"
 #ifdef ENVIRONMENT
@@ -31,7 +32,7 @@ layout(location = 2) out vec2 lobes_level_out;
 #endif
 
 vec3 incoming_direction(uint i, surface_point surface) {
-    return light_direction(i, surface.world_position) * surface.world_from_tangent;
+    return light_direction(i, interpolated_position) * surface.world_from_tangent;
 }
 
 // Radiance from all lights, LIGHTS_AT_ONCE at a time.
@@ -49,22 +50,13 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
                                           : incoming[0];
         gather_lights(fetched, surface, incoming);
         for (uint i = 0u; i < LIGHTS_AT_ONCE && first + i < count; ++i) {
-            vec3 direction = light_direction(first + i, surface.world_position);
-            sum += light_irradiance(first + i, surface.world_position, direction) *
+            vec3 direction = light_direction(first + i, interpolated_position);
+            sum += light_irradiance(first + i, interpolated_position, direction) *
                    evaluate_appearance(fetched, surface, direction * surface.world_from_tangent, i);
         }
     }
     return sum;
 }
-
-#ifdef ENVIRONMENT
-vec3 environment_light(inout appearance fetched, surface_point surface) {
-    vec3 reflected = ENVIRONMENT_METHOD == ENVIRONMENT_EXACT
-                         ? integrated_environment(fetched, surface)
-                         : reflect_environment(fetched, surface);
-    return fetch_occlusion(surface) * reflected;
-}
-#endif
 
 void main() {
     surface_point surface = read_surface();
@@ -89,8 +81,7 @@ void main() {
 
 #ifdef AOV
     vec3 world_normal = normalize(surface.world_from_tangent * fetched.normal);
-    float depth = dot(frame.axis.xyz, surface.world_position) - frame.axis.w;
-    normal_depth_out = vec4(world_normal, depth);
+    normal_depth_out = vec4(world_normal, surface.depth);
     lobes_level_out = vec2(fetched.lobe_count, fetched.level);
 #endif
 }

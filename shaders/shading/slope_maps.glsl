@@ -20,7 +20,7 @@
 // Factor of all slopes: defined by the filter.
 float height_scale();
 
-layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
 
 // Moments of the directions in a footprint and of the base lobes about them.
 struct slope_moments {

@@ -24,8 +24,8 @@ def identifiers():
     found = {}
     for header in ("specialisation.h", "mixture.h"):
         text = (shaders / "interface" / header).read_text()
-        for name, value in re.findall(r"#define SPECIALISE_(\w+)\s+\(?([\w +]+?)\)?\s*(?://|\n)",
-                                      text):
+        for name, value in re.findall(r"#define SPECIALISE_(\w+)\s+(?:SPECIALISE)?\(?([\w +]+?)\)?"
+                                      r"\s*(?://|\n)", text):
             value = value.replace("SPECIALISE_FILTER", str(found.get("FILTER", 0)))
             found[name] = sum(int(part) for part in value.split("+"))
     return found

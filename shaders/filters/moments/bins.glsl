@@ -14,8 +14,8 @@
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 
-layout(set = 0, binding = 16) uniform sampler2DArray moment_map;
-layout(set = 0, binding = 22, std140) uniform binning_block { moment_binning_constants binning; };
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
+layout(LOBE_DESCRIPTOR(22), std140) uniform binning_block { moment_binning_constants binning; };
 
 float colour_unit() {
     return binning.largest.y * material.largest_colour;

@@ -5,7 +5,11 @@
 
 #include "interface/light.h"
 #include "lib/light/light.glsl"
-#include "shading/surface.glsl"
+#include "shading/pixel.glsl"
+
+layout(constant_id = SPECIALISE_DIRECTIONAL_LIGHTS) const bool DIRECTIONAL_LIGHTS = false;
+layout(constant_id = SPECIALISE_POINT_LIGHTS) const bool POINT_LIGHTS = false;
+layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 
 layout(set = 0, binding = 2, std430) readonly buffer light_block { light lights[]; };
 

@@ -1,0 +1,81 @@
+#ifndef PIXEL_GLSL
+#define PIXEL_GLSL
+
+// The surface at a pixel of lobe's own pictures, interpolated over a mesh, and what else filters
+// ask of a picture. Included before the filter.
+
+#include "interface/frame.h"
+#include "interface/instance.h"
+#include "shading/surface.glsl"
+#include "shading/tangent_frame.glsl"
+
+layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
+layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
+layout(constant_id = SPECIALISE_DEPTH_AS_COVERAGE) const bool DEPTH_AS_COVERAGE = false;
+
+layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
+layout(set = 0, binding = 12, std430) readonly buffer instance_block {
+    instance_constants instances[];
+};
+layout(push_constant) uniform draw_block { draw_constants draw; };
+
+layout(location = 0) in vec3 interpolated_position;
+layout(location = 1) in vec3 interpolated_normal;
+layout(location = 2) in vec4 interpolated_tangent;
+layout(location = 3) in vec4 interpolated_coordinates;
+layout(location = 4) in vec4 interpolated_colour;
+
+bool front_side() {
+    return gl_FrontFacing != MIRRORED;
+}
+
+// Distance along the view, metres.
+float view_depth() {
+    return dot(frame.axis.xyz, interpolated_position) - frame.axis.w;
+}
+
+surface_point read_surface() {
+    surface_point surface;
+    mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
+    // The back of a surface has all axes reversed (glTF 2.0, section 3.9.6).
+    surface.world_from_tangent = front_side() ? from_tangent : -from_tangent;
+    vec3 world_outgoing = normalize(frame.eye.xyz - interpolated_position * frame.eye.w);
+    surface.outgoing = world_outgoing * surface.world_from_tangent;
+    surface.coordinates = interpolated_coordinates;
+    surface.coordinates_dx = frame.footprint * dFdx(interpolated_coordinates);
+    surface.coordinates_dy = frame.footprint * dFdy(interpolated_coordinates);
+    surface.colour = interpolated_colour;
+    surface.curvature = vec3(0.0);
+    if (CURVATURE) {
+        vec3 normal = surface.world_from_tangent[2];
+        surface.curvature = normal_covariance(
+            frame.footprint * (dFdx(normal) * surface.world_from_tangent).xy,
+            frame.footprint * (dFdy(normal) * surface.world_from_tangent).xy);
+    }
+    surface.pixel = uvec2(gl_FragCoord.xy);
+    surface.depth = view_depth();
+    surface.dither = frame.dither;
+    return surface;
+}
+
+// Mixtures of lobes are built for a mesh's front; on the back, both they and the frame are
+// reversed.
+mat3 world_from_front(surface_point surface) {
+    return front_side() ? surface.world_from_tangent : -surface.world_from_tangent;
+}
+
+// To the space of the draw's only instance. For a rotation with a uniform scale, the transpose is
+// the inverse up to a factor.
+mat3 object_from_tangent(surface_point surface) {
+    instance_constants instance = instances[draw.first_instance];
+    mat3 world_from_object =
+        transpose(mat3(instance.rows[0].xyz, instance.rows[1].xyz, instance.rows[2].xyz));
+    mat3 frame = transpose(world_from_object) * world_from_front(surface);
+    return frame * inversesqrt(dot(frame[0], frame[0]));
+}
+
+mat3 camera_from_tangent(surface_point surface) {
+    return mat3(frame.world_to_camera) * world_from_front(surface);
+}
+
+#endif
