@@ -9,6 +9,7 @@ static const char *kind_word(lobe_pass_kind kind) {
         [LOBE_PASS_COMPUTE] = "compute",
         [LOBE_PASS_RASTER] = "raster",
         [LOBE_PASS_TRANSFER] = "transfer",
+        [LOBE_PASS_EXPORT] = "export",
     };
     return words[kind];
 }

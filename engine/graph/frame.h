@@ -72,6 +72,7 @@ typedef enum engine_graph_command_kind {
     ENGINE_GRAPH_COPY,
     ENGINE_GRAPH_FILL,
     ENGINE_GRAPH_READ_BACK,
+    ENGINE_GRAPH_EXPORT,
 } engine_graph_command_kind;
 
 typedef struct engine_graph_command {
@@ -87,6 +88,7 @@ typedef struct engine_graph_command {
     float value[4];
     uint64_t read_back_offset, read_back_size; ///< bytes
     lobe_resource read_back;
+    const char *export_shader;
 
     // Set by compilation, from the shaders
     engine_stamp shader_stamp;
@@ -94,6 +96,8 @@ typedef struct engine_graph_command {
     uint32_t group_count[3];
     // Set by execution
     VkDescriptorSet set;
+    lobe_vulkan_descriptor *exported;
+    size_t exported_count;
 } engine_graph_command;
 
 typedef struct engine_graph_attachment {
@@ -134,7 +138,8 @@ typedef struct engine_graph_frame {
     engine_graph_resource *resources;
     lobe_pass **passes;
     uint32_t resource_capacity, pass_capacity;
-    lobe_pass nothing; ///< what lobe_graph_add_pass returns after a failure
+    uint32_t exported_buffers; ///< declared so far
+    lobe_pass nothing;         ///< what lobe_graph_add_pass returns after a failure
 
     engine_graph_object *imported; ///< by resource, in the arena
     engine_graph_flight *flight;   ///< the one of the graph's flights that this frame uses

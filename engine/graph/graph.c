@@ -37,6 +37,7 @@ static void reset_frame(lobe_graph *graph) {
     engine_dependency_graph_reset(&graph->frame.dependencies);
     engine_arena_reset(&graph->frame.arena);
     graph->frame.report = (lobe_graph_report){0};
+    graph->frame.exported_buffers = 0;
     graph->frame.result = LOBE_OK;
     graph->frame.phase = ENGINE_GRAPH_DECLARING;
 }

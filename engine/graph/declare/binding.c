@@ -105,9 +105,20 @@ static bool check_image(const binding_site *site) {
     return true;
 }
 
+/// Whether it is still there after the frame, and its view too.
+static bool check_export(const binding_site *site) {
+    if (site->resource->origin == ENGINE_GRAPH_TRANSIENT)
+        return mismatch(site, "only retained images can be exported");
+    if (site->resource->origin == ENGINE_GRAPH_HOST_IMAGE && !site->resource->host->view)
+        return mismatch(site, "a host image must have a view to be exported");
+    return true;
+}
+
 static bool check_fit(const binding_site *site) {
     if (site->variable->count != 1)
         return mismatch(site, "arrays of bindings are not supported");
+    if (site->pass->kind == LOBE_PASS_EXPORT && !check_export(site))
+        return false;
     return check_direction(site) &&
            (is_block(site->variable) ? check_block(site) : check_image(site));
 }
@@ -115,8 +126,12 @@ static bool check_fit(const binding_site *site) {
 // ---------------------------------------------------------------------------------------------
 // How the resource is used
 
-static uint64_t stage_of(const engine_shader *shader) {
-    switch (shader->stage) {
+static uint64_t stages_of(const binding_site *site) {
+    // The host has shaders of any stage.
+    if (site->pass->kind == LOBE_PASS_EXPORT)
+        return VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+               VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    switch (site->shader->stage) {
     case VK_SHADER_STAGE_VERTEX_BIT:
         return VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
     case VK_SHADER_STAGE_FRAGMENT_BIT:
@@ -157,7 +172,7 @@ static VkFlags usage_of(const engine_shader_binding *variable) {
 static void record_use(const binding_site *site) {
     engine_access_state *state = &site->access->state;
     engine_layout layout = layout_of(site->variable);
-    state->stages |= stage_of(site->shader);
+    state->stages |= stages_of(site);
     state->access |= access_of(site->variable, site->binding->kind);
     // Both a sampled and a storage image in one pass: one layout must allow both.
     state->layout = state->layout == ENGINE_LAYOUT_UNDEFINED || state->layout == layout
@@ -273,12 +288,29 @@ static bool resolve_draw(lobe_pass *pass, engine_graph_command *command) {
            check_names(pass, &command->bindings, draw->vertex_shader);
 }
 
+/// Of the shader's variables, only those that something is bound to are exported.
+static bool resolve_export(lobe_pass *pass, engine_graph_command *command) {
+    const engine_shader *shader = NULL;
+    lobe_result result = engine_shader_find(pass->graph->device, command->export_shader, &shader);
+    if (result != LOBE_OK) {
+        engine_graph_propagate(pass->graph, result);
+        return false;
+    }
+    for (size_t i = 0; i < shader->binding_count; i++)
+        if (engine_graph_find_binding(pass, command, shader->bindings[i].name) &&
+            !resolve_variable(pass, command, shader, &shader->bindings[i]))
+            return false;
+    return check_names(pass, &command->bindings, command->export_shader);
+}
+
 static const char *last_shader(const lobe_pass *pass) {
     const engine_graph_command *command = pass->last_command;
     if (!command)
         return "(none)";
     if (command->kind == ENGINE_GRAPH_DISPATCH)
         return command->dispatch.shader;
+    if (command->kind == ENGINE_GRAPH_EXPORT)
+        return command->export_shader;
     return command->draw.fragment_shader ? command->draw.fragment_shader
                                          : command->draw.vertex_shader;
 }
@@ -293,6 +325,8 @@ static bool resolve_pass(lobe_pass *pass) {
         if (command->kind == ENGINE_GRAPH_DISPATCH && !resolve_dispatch(pass, command))
             return false;
         if (command->kind == ENGINE_GRAPH_DRAW && !resolve_draw(pass, command))
+            return false;
+        if (command->kind == ENGINE_GRAPH_EXPORT && !resolve_export(pass, command))
             return false;
     }
     return check_names(pass, &pass->bindings, last_shader(pass));

@@ -36,6 +36,13 @@ bool engine_graph_check_pass_kind(lobe_pass *pass, lobe_pass_kind kind, const ch
 
 /// Appends a command to the pass; NULL after a failure.
 engine_graph_command *engine_graph_add_command(lobe_pass *pass, engine_graph_command_kind kind);
+/// Binds what a command reads alone.
+void engine_graph_bind_to_command(lobe_pass *pass, engine_graph_command *command,
+                                  const lobe_binding *bindings, size_t count);
+
+/// What an export pass exports in place of a buffer (export.c).
+lobe_resource engine_graph_export_buffer(lobe_pass *pass, const char *variable,
+                                         lobe_resource buffer);
 
 // ---------------------------------------------------------------------------------------------
 // Compilation

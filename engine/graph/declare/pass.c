@@ -8,6 +8,7 @@ static const char *const kind_names[] = {
     [LOBE_PASS_COMPUTE] = "compute",
     [LOBE_PASS_RASTER] = "raster",
     [LOBE_PASS_TRANSFER] = "transfer",
+    [LOBE_PASS_EXPORT] = "export",
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -126,6 +127,10 @@ static lobe_resource add_binding(lobe_pass *pass, engine_graph_binding_list *lis
         return resource;
     if (!engine_graph_find_resource(pass, resource))
         return resource;
+    if (pass->kind == LOBE_PASS_EXPORT && !graph->frame.resources[resource.index].is_image)
+        resource = engine_graph_export_buffer(pass, binding->name, resource);
+    if (graph->frame.result != LOBE_OK)
+        return resource;
     lobe_range range =
         graph->frame.resources[resource.index].is_image ? binding->range : (lobe_range){0};
     // The shaders decide how it is used: see engine_graph_resolve_bindings.
@@ -206,8 +211,8 @@ static bool check_constants(lobe_pass *pass, const char *shader, const void *con
     return pass->graph->frame.result == LOBE_OK;
 }
 
-static void bind_to_command(lobe_pass *pass, engine_graph_command *command,
-                            const lobe_binding *bindings, size_t count) {
+void engine_graph_bind_to_command(lobe_pass *pass, engine_graph_command *command,
+                                  const lobe_binding *bindings, size_t count) {
     for (size_t i = 0; i < count; i++)
         add_binding(pass, &command->bindings, &bindings[i], ENGINE_ACCESS_READ);
 }
@@ -260,7 +265,7 @@ void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
     }
     bind_indirect(pass, command, dispatch->indirect, dispatch->indirect_offset,
                   sizeof(lobe_dispatch_arguments));
-    bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
+    engine_graph_bind_to_command(pass, command, dispatch->bindings, dispatch->binding_count);
 }
 
 static bool copy_draw(engine_arena *arena, const lobe_draw *draw, lobe_draw *copy) {
@@ -316,5 +321,5 @@ void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw) {
     bind_indices(pass, command);
     bind_indirect(pass, command, draw->indirect, draw->indirect_offset,
                   sizeof(lobe_draw_arguments));
-    bind_to_command(pass, command, draw->bindings, draw->binding_count);
+    engine_graph_bind_to_command(pass, command, draw->bindings, draw->binding_count);
 }

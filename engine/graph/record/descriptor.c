@@ -205,14 +205,23 @@ static lobe_result describe_image(lobe_graph *graph, const engine_graph_resource
     return result;
 }
 
+lobe_result engine_graph_describe(lobe_graph *graph, const engine_graph_binding *binding,
+                                  const engine_shader_binding *variable,
+                                  VkDescriptorImageInfo *image, VkDescriptorBufferInfo *buffer) {
+    const engine_graph_resource *resource =
+        &graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource];
+    if (resource->is_image)
+        return describe_image(graph, resource, binding, variable, image);
+    *buffer = describe_block(resource, variable);
+    return LOBE_OK;
+}
+
 static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
                                 const engine_shader_binding *variable, write_batch *batch) {
     const engine_graph_binding *binding =
         engine_graph_find_binding(walk->pass, walk->command, variable->name);
     if (!binding)
         return LOBE_OK; // declared in the shader but not used
-    const engine_graph_resource *resource =
-        &graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource];
     uint32_t n = batch->count++;
     batch->writes[n] = (VkWriteDescriptorSet){
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -223,10 +232,7 @@ static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
         .pImageInfo = &batch->images[n],
         .pBufferInfo = &batch->buffers[n],
     };
-    if (resource->is_image)
-        return describe_image(graph, resource, binding, variable, &batch->images[n]);
-    batch->buffers[n] = describe_block(resource, variable);
-    return LOBE_OK;
+    return engine_graph_describe(graph, binding, variable, &batch->images[n], &batch->buffers[n]);
 }
 
 static lobe_result write_sets(lobe_graph *graph, uint32_t variables) {

@@ -111,6 +111,8 @@ static lobe_result prepare(lobe_graph *graph) {
     if (result == LOBE_OK)
         result = engine_graph_write_descriptors(graph);
     if (result == LOBE_OK)
+        result = engine_graph_describe_exports(graph);
+    if (result == LOBE_OK)
         result = place_read_backs(graph);
     if (result == LOBE_OK)
         result = engine_graph_prepare_timestamps(graph);

@@ -308,6 +308,8 @@ static void record_command(lobe_graph *graph, const engine_graph_command *comman
         break;
     case ENGINE_GRAPH_DRAW:
         break; // needs attachments: record_raster
+    case ENGINE_GRAPH_EXPORT:
+        break; // barriers are all that is needed
     }
 }
 

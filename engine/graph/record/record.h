@@ -11,6 +11,12 @@ lobe_result engine_graph_finish(lobe_graph *graph);
 
 /// Gives every command that runs its descriptor set (descriptor.c).
 lobe_result engine_graph_write_descriptors(lobe_graph *graph);
+/// What a binding is to a shader's variable: an image or a buffer (descriptor.c).
+lobe_result engine_graph_describe(lobe_graph *graph, const engine_graph_binding *binding,
+                                  const engine_shader_binding *variable,
+                                  VkDescriptorImageInfo *image, VkDescriptorBufferInfo *buffer);
+/// Describes what the frame exports (export.c).
+lobe_result engine_graph_describe_exports(lobe_graph *graph);
 
 /// Records one pass (record.c).
 lobe_result engine_graph_record_pass(lobe_graph *graph, lobe_pass *pass);

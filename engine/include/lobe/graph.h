@@ -30,11 +30,12 @@ extern "C" {
 /// Not thread-safe: one graph, one thread.
 typedef struct lobe_graph lobe_graph;
 
-/// An image of a host that uses Vulkan itself, and how such a host submits a frame: both are
-/// defined in lobe/vulkan.h.
+/// An image and a buffer of a host that uses Vulkan itself, how such a host submits a frame, and
+/// what its own shaders read of one: all are defined in lobe/vulkan.h.
 typedef struct lobe_vulkan_image lobe_vulkan_image;
 typedef struct lobe_vulkan_buffer lobe_vulkan_buffer;
 typedef struct lobe_vulkan_submission lobe_vulkan_submission;
+typedef struct lobe_vulkan_descriptor lobe_vulkan_descriptor;
 
 /// A pass being declared; valid until the next lobe_graph_begin.
 typedef struct lobe_pass lobe_pass;
@@ -170,7 +171,8 @@ LOBE_API lobe_resource lobe_graph_upload(lobe_graph *graph, const char *name, co
 typedef enum lobe_pass_kind {
     LOBE_PASS_COMPUTE,
     LOBE_PASS_RASTER,
-    LOBE_PASS_TRANSFER
+    LOBE_PASS_TRANSFER,
+    LOBE_PASS_EXPORT, ///< runs nothing, see lobe_pass_export
 } lobe_pass_kind;
 
 LOBE_API lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
@@ -302,6 +304,25 @@ LOBE_API lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source,
 /// bits of the first value. Returns the new version.
 LOBE_API lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,
                                       const float value[4]);
+
+/// Resources for a shader of the host that runs after the frame.
+typedef struct lobe_export {
+    const char *shader; ///< of lobe, whose variables the bindings name
+    const lobe_binding *bindings;
+    size_t binding_count;
+} lobe_export;
+
+/// Export passes: makes the bindings of `exported` and those that the pass reads visible to all
+/// shaders of the host, and gives them as descriptors (lobe_graph_exported).
+/// Images must be retained, textures, or of the host with a view. Of buffers, copies are exported.
+/// Both keep their handles while later frames export the same, and their content until such a frame
+/// changes it. The pass and what it depends on is kept.
+LOBE_API void lobe_pass_export(lobe_pass *pass, const lobe_export *exported);
+
+/// The descriptors of the frame's export number `index`, in order of declaration; NULL if there is
+/// no such export, or the frame has not been submitted. Valid until the next lobe_graph_begin.
+LOBE_API const lobe_vulkan_descriptor *lobe_graph_exported(const lobe_graph *graph, size_t index,
+                                                           size_t *count);
 
 /// Keeps a pass (and everything it depends on) even if no output depends on it.
 LOBE_API void lobe_pass_keep(lobe_pass *pass);

@@ -190,6 +190,18 @@ struct lobe_vulkan_buffer {
 LOBE_API lobe_format lobe_vulkan_format(VkFormat format);
 
 // ---------------------------------------------------------------------------------------------
+// Descriptors
+
+/// A resource that a shader of the host reads, for its VkWriteDescriptorSet: see lobe_pass_export
+/// and lobe_graph_exported.
+struct lobe_vulkan_descriptor {
+    uint32_t binding; ///< of the variable in lobe's shader
+    VkDescriptorType type;
+    VkDescriptorImageInfo image;   ///< of a COMBINED_IMAGE_SAMPLER: with the sampler that fits it
+    VkDescriptorBufferInfo buffer; ///< of a UNIFORM_BUFFER or STORAGE_BUFFER
+};
+
+// ---------------------------------------------------------------------------------------------
 // Submission
 
 /// A semaphore that the queue waits for, or signals.

@@ -215,6 +215,8 @@ static void graphs_that_are_none(void **state) {
     assert_int_equal(lobe_pass_copy(NULL, none, all, none, all).version, 0);
     assert_int_equal(lobe_pass_fill(NULL, none, all, NULL).version, 0);
     lobe_pass_keep(NULL);
+    lobe_pass_export(NULL, NULL);
+    assert_null(lobe_graph_exported(NULL, 0, NULL));
     assert_int_equal(lobe_graph_fail(NULL, LOBE_ERROR_READ, "%s", "nobody hears"), LOBE_ERROR_READ);
     lobe_graph_output(NULL, none);
     lobe_graph_read_back(NULL, none, all);
@@ -268,6 +270,9 @@ static void declare_nonsense(lobe_graph *graph, int which) {
     case 9:
         lobe_graph_import_image(graph, NULL);
         break;
+    case 10:
+        lobe_pass_export(lobe_graph_add_pass(graph, LOBE_PASS_EXPORT, NULL), NULL);
+        break;
     default:
         lobe_graph_upload(graph, "numbers", NULL, 16);
     }
@@ -275,7 +280,7 @@ static void declare_nonsense(lobe_graph *graph, int which) {
 
 static void declarations_without_arguments(void **state) {
     fixture *f = *state;
-    for (int which = 0; which <= 10; which++) {
+    for (int which = 0; which <= 11; which++) {
         fixture_forget_messages(f);
         lobe_graph_begin(f->graph);
         declare_nonsense(f->graph, which);
