@@ -60,6 +60,15 @@ bool lobe_filter_supersamples(const lobe_filter *filter) {
     return filter->supersamples;
 }
 
+void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, const lobe_host *host) {
+    for (size_t i = 0; filter->ignores && i < scene->material_count; i++) {
+        const char *limit = filter->ignores(&scene->materials[i]);
+        if (limit)
+            lobe_host_log(host, LOBE_LOG_WARNING, "%s: material '%s', filter '%s': %s", scene->name,
+                          scene->materials[i].name, filter->name, limit);
+    }
+}
+
 // ---------------------------------------------------------------------------------------------
 // Appearances
 

@@ -99,6 +99,9 @@ void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler);
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);
 
+/// Warns about each material that the filter cannot fully represent.
+void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, const lobe_host *host);
+
 /// Adds a name to a list for a message, after a comma unless it is the first.
 void passes_append_name(char *names, size_t size, const char *name);
 

@@ -77,8 +77,9 @@ static lobe_result set_number(const lobe_knob *knob, const char *text, double *v
     return LOBE_OK;
 }
 
-lobe_result passes_settings_check(const lobe_filter *filter, const lobe_settings *settings,
-                                  const lobe_host *host) {
+/// Checks every value against its knob.
+static lobe_result check_values(const lobe_filter *filter, const lobe_settings *settings,
+                                const lobe_host *host) {
     for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         const lobe_knob *knob = lobe_filter_knob(filter, i);
         char text[32];
@@ -98,9 +99,9 @@ static const lobe_device_feature *find_missing(const lobe_device_information *de
     return NULL;
 }
 
-lobe_result passes_settings_check_device(const lobe_filter *filter, const lobe_settings *settings,
-                                         const lobe_device_information *device,
-                                         const lobe_host *host) {
+/// Checks that the device has the features that knobs need which are not at their defaults.
+static lobe_result check_device(const lobe_filter *filter, const lobe_settings *settings,
+                                const lobe_device_information *device, const lobe_host *host) {
     for (size_t i = 0; i < lobe_filter_knob_count(filter); i++) {
         const filter_knob *knob = passes_filter_knob(filter, i);
         const lobe_device_feature *missing = find_missing(device, knob->needs);
@@ -111,6 +112,22 @@ lobe_result passes_settings_check_device(const lobe_filter *filter, const lobe_s
                                   missing->name, missing->use);
     }
     return LOBE_OK;
+}
+
+lobe_result passes_settings_choose(const lobe_filter *wanted, const lobe_settings *given,
+                                   const lobe_device_information *device, const lobe_host *host,
+                                   const lobe_filter **filter, lobe_settings *settings) {
+    lobe_result result = LOBE_OK;
+    *filter = wanted;
+    if (!wanted)
+        result = lobe_filter_find("moments", host, filter);
+    if (result != LOBE_OK)
+        return result;
+    lobe_settings_default(*filter, settings);
+    if (given)
+        *settings = *given;
+    result = check_values(*filter, settings, host);
+    return result ? result : check_device(*filter, settings, device, host);
 }
 
 lobe_result lobe_settings_set(const lobe_filter *filter, lobe_settings *settings,

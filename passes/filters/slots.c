@@ -14,7 +14,8 @@ struct filter_slots {
 };
 
 /// The version of a material that what the filter keeps is valid for.
-static uint32_t version_of(const lobe_filter *filter, const device_material *material) {
+static uint32_t version_of(const lobe_filter *filter, const device_scene *scene, size_t index) {
+    const device_material *material = &scene->materials[index];
     return filter->adapts_to_texels ? material->parameter_version : material->version;
 }
 
@@ -50,8 +51,9 @@ static filter_slots *slots_of(filter_slots **first, const filter_context *contex
     return added;
 }
 
-lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_context *context,
-                                        uint32_t material, const void **prepared) {
+/// Lets the context's filter prepare a material, and returns what it keeps for it; NULL: nothing.
+static lobe_result prepare(filter_slots **slots, const filter_context *context, uint32_t material,
+                           const void **prepared) {
     *prepared = NULL;
     if (!context->filter->prepare)
         return LOBE_OK;
@@ -59,16 +61,32 @@ lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_conte
     if (!own)
         return LOBE_ERROR_OUT_OF_MEMORY;
     filter_slot *slot = &own->slots[material];
-    slot->version = version_of(context->filter, &context->scene->materials[material]);
+    slot->version = version_of(context->filter, context->scene, material);
     lobe_result result = context->filter->prepare(context, material, &slot->prepared);
     *prepared = slot->prepared;
     return result;
 }
 
+void passes_filter_slots_build(filter_slots **slots, const filter_context *context, size_t instance,
+                               filtered_appearance *appearance) {
+    const uint32_t material = context->scene->instances[instance].material;
+    const void *prepared;
+    *appearance = (filtered_appearance){.graph = context->graph};
+    if (!context->filter->build)
+        return;
+    lobe_result result = prepare(slots, context, material, &prepared);
+    if (result == LOBE_OK)
+        context->filter->build(context, instance, prepared, appearance);
+    else
+        lobe_graph_fail(context->graph, result, "filter '%s', material '%s': %s",
+                        context->filter->name, context->scene->scene->materials[material].name,
+                        lobe_result_message(result));
+}
+
 void passes_filter_slots_update(filter_slots *slots, const device_scene *scene) {
     for (; slots; slots = slots->next)
         for (size_t i = 0; i < slots->count; i++)
-            if (slots->slots[i].version != version_of(slots->filter, &scene->materials[i]))
+            if (slots->slots[i].version != version_of(slots->filter, scene, i))
                 forget(slots->filter, &slots->slots[i]);
 }
 

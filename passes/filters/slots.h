@@ -8,10 +8,10 @@
 /// prepare each material once, whether they differ in the filter or in its knobs. NULL: none yet.
 typedef struct filter_slots filter_slots;
 
-/// Lets the context's filter prepare a material, and returns what it keeps for it; NULL: nothing.
-/// Errors: those of the filter's `prepare`, LOBE_ERROR_OUT_OF_MEMORY; not logged.
-lobe_result passes_filter_slots_prepare(filter_slots **slots, const filter_context *context,
-                                        uint32_t material, const void **prepared);
+/// Lets the context's filter prepare an instance's material, where it has not, and add the passes
+/// that build the maps. If it cannot prepare, nothing is built and the frame fails.
+void passes_filter_slots_build(filter_slots **slots, const filter_context *context, size_t instance,
+                               filtered_appearance *appearance);
 
 /// Forgets what was prepared for materials that have changed since. `scene` is the one they were
 /// prepared for.

@@ -2,32 +2,16 @@
 
 #include <string.h>
 
+#include "passes/context/given_content.h"
+
 static bool has_own_maps(const filter_context *context, size_t instance) {
     const lobe_filter *filter = context->filter;
     return filter->for_each_instance && filter->for_each_instance(context, instance);
 }
 
-/// Without what the filter keeps for the material, nothing is built and the frame fails.
-static void build_appearance(rendering *r, size_t instance, filtered_appearance *appearance) {
-    const filter_context *context = &r->context;
-    const uint32_t material = context->scene->instances[instance].material;
-    const void *prepared;
-    *appearance = (filtered_appearance){.graph = context->graph};
-    if (!context->filter->build)
-        return;
-    lobe_result result =
-        passes_filter_slots_prepare(&r->renderer->slots, context, material, &prepared);
-    if (result == LOBE_OK)
-        context->filter->build(context, instance, prepared, appearance);
-    else
-        lobe_graph_fail(context->graph, result, "filter '%s', material '%s': %s",
-                        context->filter->name, context->scene->scene->materials[material].name,
-                        lobe_result_message(result));
-}
-
 static const filtered_appearance *build_counted(rendering *r, size_t instance, lobe_frame *frame) {
     filtered_appearance *appearance = &r->renderer->appearances[instance];
-    build_appearance(r, instance, appearance);
+    passes_filter_slots_build(&r->renderer->slots, &r->context, instance, appearance);
     frame->filtered_bytes += appearance->bytes;
     frame->base_texels += appearance->base_texels;
     return appearance;
@@ -54,7 +38,7 @@ static void add_instances(rendering *r, const device_material *material, lobe_fr
 
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
-    passes_given_content_take(r);
+    passes_given_content_take(&r->context, r->renderer->give_content, r->renderer->giver);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
     r->images.bytes = 0;
@@ -68,15 +52,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
 
 void passes_instance_maps_warn(const rendering *r) {
     const lobe_filter *filter = r->context.filter;
-    const lobe_scene *scene = r->context.scene->scene;
-    if (!filter->ignores || r->renderer->reported_filter == filter)
-        return;
-    for (size_t i = 0; i < scene->material_count; i++) {
-        const char *limit = filter->ignores(&scene->materials[i]);
-        if (limit)
-            lobe_host_log(&r->renderer->host, LOBE_LOG_WARNING,
-                          "%s: material '%s', filter '%s': %s", scene->name,
-                          scene->materials[i].name, filter->name, limit);
-    }
+    if (r->renderer->reported_filter != filter)
+        passes_filter_warn(filter, r->context.scene->scene, &r->renderer->host);
     r->renderer->reported_filter = filter;
 }

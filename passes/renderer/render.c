@@ -44,24 +44,6 @@ static lobe_result check(const rendering *r) {
                                         host);
 }
 
-static lobe_result choose_filter(rendering *r, const lobe_filter **filter) {
-    const lobe_host *host = &r->renderer->host;
-    lobe_result result = LOBE_OK;
-    *filter = r->parameters->filter;
-    if (!*filter)
-        result = lobe_filter_find("moments", host, filter);
-    if (result != LOBE_OK)
-        return result;
-    lobe_settings_default(*filter, &r->settings);
-    if (r->parameters->settings)
-        r->settings = *r->parameters->settings;
-    result = passes_settings_check(*filter, &r->settings, host);
-    return result == LOBE_OK
-               ? passes_settings_check_device(*filter, &r->settings,
-                                              lobe_device_describe(r->renderer->device), host)
-               : result;
-}
-
 // ---------------------------------------------------------------------------------------------
 // Preparation
 
@@ -99,7 +81,9 @@ static lobe_result prepare(rendering *r) {
     const lobe_filter *filter;
     lobe_result result = check(r);
     if (result == LOBE_OK)
-        result = choose_filter(r, &filter);
+        result = passes_settings_choose(r->parameters->filter, r->parameters->settings,
+                                        lobe_device_describe(r->renderer->device),
+                                        &r->renderer->host, &filter, &r->settings);
     if (result != LOBE_OK)
         return result;
     fill_context(r, filter);

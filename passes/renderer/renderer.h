@@ -36,10 +36,6 @@ typedef struct rendering {
 /// Warns about materials that the filter cannot fully represent, once per filter and scene.
 void passes_instance_maps_warn(const rendering *r);
 
-/// Lets the host give the texels of images and the vertices of meshes that are on the device; fails
-/// the frame if it does not.
-void passes_given_content_take(rendering *r);
-
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the
 /// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.
 void passes_instance_maps_build(rendering *r, lobe_frame *frame);

@@ -6,13 +6,12 @@
 
 #include "passes/context/camera.h"
 #include "passes/context/knob_values.h"
-#include "passes/context/material_specialisation.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/filters/material_shading.h"
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/light_parts.h"
 #include "passes/upload/device_mesh.h"
-#include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/light.h"
@@ -20,8 +19,6 @@
 
 /// The draws of a pass, in order; only a selection has a mask, and not every scene a background.
 enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
-
-#define SHADER_NAME_SIZE 80
 
 /// What the passes of one picture share.
 typedef struct shading {
@@ -42,15 +39,6 @@ typedef struct drawing {
     bool aov;
     lobe_pass *pass;
 } drawing;
-
-static const char *const map_names[MAP_COUNT] = {
-    [MAP_BASE_COLOUR] = "base_colour_map",
-    [MAP_NORMAL] = "normal_map",
-    [MAP_WIDTH] = "width_map",
-    [MAP_SPECULAR] = "specular_map",
-    [MAP_EMISSIVE] = "emissive_map",
-    [MAP_OCCLUSION] = "occlusion_map",
-};
 
 static lobe_resource declare_target(lobe_graph *graph, const char *name, lobe_format format,
                                     uint32_t width, uint32_t height) {
@@ -195,73 +183,35 @@ shading_draw_count passes_shading_draw_counts(const filter_context *context, con
     return (shading_draw_count){index_count(context, batch), batch->count};
 }
 
-/// The constants of a draw: for its material, its mesh, the lights and the settings, then the
-/// filter's own.
+/// The constants of a draw: for its material, its mesh, the lights and the settings.
 static void specialise_draw(const drawing *d, const instance_batch *batch,
                             specialisation_list *list) {
-    const filter_context *context = d->context;
-    const lobe_scene *scene = context->scene->scene;
-    const device_instance *drawn = &context->scene->instances[batch->instance];
-    const filtered_appearance *appearance = batch->appearance;
-    passes_material_specialise(&context->scene->materials[drawn->material], list);
-    passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->meshes[drawn->mesh].has_colour);
+    const device_scene *scene = d->context->scene;
+    const device_instance *drawn = &scene->instances[batch->instance];
+    passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     const uint32_t *of_type = d->lights->of_type;
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
     passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);
     passes_specialise(list, SPECIALISE_SPOT_LIGHTS, of_type[LOBE_LIGHT_SPOT] > 0);
-    uint32_t lights = (uint32_t)scene->light_count;
+    uint32_t lights = (uint32_t)scene->scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
                       passes_environment_light_lights_at_once(d->light, lights));
     passes_specialise(list, SPECIALISE_DEPTH_AS_COVERAGE, d->depth_as_coverage);
-    passes_environment_light_specialise(d->light, list);
-    passes_knobs_specialise(context, list);
-    for (size_t i = 0; i < appearance->specialisation_count; i++)
-        passes_specialise(list, appearance->specialisation[i].id,
-                          appearance->specialisation[i].bits);
+    passes_material_shading_specialise(d->context, d->light, &scene->materials[drawn->material],
+                                       batch->appearance, list);
 }
 
-static size_t bind_draw(const filter_context *context, const environment_light *light,
-                        const instance_batch *batch, lobe_binding *bindings) {
-    lobe_graph *graph = context->graph;
-    const device_instance *drawn = &context->scene->instances[batch->instance];
-    const device_material *material = &context->scene->materials[drawn->material];
-    const filtered_appearance *appearance = batch->appearance;
-    size_t count = 0;
-    bindings[count++] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
-    bindings[count++] =
-        (lobe_binding){.name = "vertex_block",
-                       .resource = passes_device_mesh_import(graph, context->scene, drawn->mesh)};
-    bindings[count++] = (lobe_binding){
-        .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
-        bindings[count++] = (lobe_binding){
-            .name = map_names[map],
-            .resource = passes_device_map_import(graph, context->scene, material, map),
-            .sampler = passes_device_map_sampler(material, map)};
-    bindings[count++] = passes_environment_light_albedo(light, context, material->material);
-    if (context->filter->slopes)
-        bindings[count++] =
-            passes_environment_light_slope_albedo(light, context, material->material);
-    for (size_t i = 0; i < appearance->binding_count; i++)
-        bindings[count++] = appearance->bindings[i];
-    return count;
-}
-
-/// Whether a material's normal map is that of a closed surface. Half-vector lobes include their own
-/// masking.
-static bool closes_surface(const filter_context *context, const device_material *material) {
-    return passes_closes_surfaces(context) &&
-           material->material->model == LOBE_MATERIAL_MICROFACET &&
-           material->map_bits & 1u << MAP_NORMAL;
-}
-
-/// The variant of the filter's shader that has what this draw needs.
-static void name_shader(const drawing *d, const device_material *material,
-                        char name[SHADER_NAME_SIZE]) {
-    snprintf(name, SHADER_NAME_SIZE, "shading/shading_%s%s%s%s.frag", d->context->filter->shading,
-             d->light->present ? "_environment" : "", d->aov ? "_aov" : "",
-             closes_surface(d->context, material) ? "_closed_surface" : "");
+static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_binding *bindings) {
+    const device_scene *scene = d->context->scene;
+    const device_instance *drawn = &scene->instances[batch->instance];
+    bindings[0] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
+    bindings[1] = (lobe_binding){
+        .name = "vertex_block",
+        .resource = passes_device_mesh_import(d->context->graph, scene, drawn->mesh)};
+    return 2 + passes_material_shading_bind(d->context, d->light,
+                                            &scene->materials[drawn->material], batch->appearance,
+                                            bindings + 2);
 }
 
 static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
@@ -270,12 +220,12 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
     const struct draw_constants constants = {.first_instance = batch->first};
-    lobe_binding bindings[5 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS];
-    size_t binding_count = bind_draw(context, d->light, batch, bindings);
+    lobe_binding bindings[2 + MATERIAL_SHADING_BINDINGS];
+    size_t binding_count = bind_draw(d, batch, bindings);
     specialisation_list list = {.graph = context->graph};
     specialise_draw(d, batch, &list);
-    char fragment_shader[SHADER_NAME_SIZE];
-    name_shader(d, material, fragment_shader);
+    char fragment_shader[SHADING_NAME_SIZE];
+    passes_material_shading_name(context, d->light, material, d->aov, fragment_shader);
     lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",

@@ -1,11 +1,12 @@
-#include "passes/renderer/renderer.h"
+#include "passes/context/given_content.h"
 
 #include <string.h>
 
 /// `kind`: "image" or "mesh".
-static void fail(const rendering *r, const char *kind, const char *name, const char *what) {
-    lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: %s '%s' %s",
-                    r->context.scene->scene->name, kind, name, what);
+static void fail(const filter_context *context, const char *kind, const char *name,
+                 const char *what) {
+    lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT, "%s: %s '%s' %s",
+                    context->scene->scene->name, kind, name, what);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -26,35 +27,36 @@ static bool can_be_sampled(const lobe_image_description *image) {
            image->format != LOBE_FORMAT_D32_FLOAT;
 }
 
-static void check_given(const rendering *r, uint32_t index, const lobe_image_description *given) {
-    const lobe_scene *scene = r->context.scene->scene;
+static void check_given(const filter_context *context, uint32_t index,
+                        const lobe_image_description *given) {
+    const lobe_scene *scene = context->scene->scene;
     const lobe_scene_image *image = &scene->images[index];
     if (!image->on_device)
-        fail(r, "image", image->name, "is not on the device, but the host gave texels that are");
+        fail(context, "image", image->name,
+             "is not on the device, but the host gave texels that are");
     else if (given->width == 0)
-        fail(r, "image", image->name, "is given by something that is no image of this frame");
+        fail(context, "image", image->name, "is given by something that is no image of this frame");
     else if (given->width != image->image.width || given->height != image->image.height)
-        lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: image '%s' is of %ux%u texels, but the host gave %ux%u", scene->name,
                         image->name, image->image.width, image->image.height, given->width,
                         given->height);
     else if (!can_be_sampled(given))
-        lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: image '%s' is given with %u levels, %u layers, %u samples of %s; "
                         "expected one each, of colours",
                         scene->name, image->name, given->levels, given->layers,
                         given->samples > 0 ? given->samples : 1, lobe_format_name(given->format));
 }
 
-static void check_image(const rendering *r, uint32_t index) {
-    const device_scene *scene = r->context.scene;
+static void check_image(const filter_context *context, uint32_t index) {
+    const device_scene *scene = context->scene;
     const lobe_resource given = scene->given[index];
     if (given.version > 0) {
-        const lobe_image_description description =
-            lobe_graph_describe_image(r->context.graph, given);
-        check_given(r, index, &description);
+        const lobe_image_description description = lobe_graph_describe_image(context->graph, given);
+        check_given(context, index, &description);
     } else if (scene->scene->images[index].on_device && is_drawn(scene, index)) {
-        fail(r, "image", scene->scene->images[index].name,
+        fail(context, "image", scene->scene->images[index].name,
              "is on the device, but the host gave no texels in this frame");
     }
 }
@@ -66,19 +68,20 @@ static bool is_mesh_drawn(const device_scene *scene, uint32_t mesh) {
     return scene->indices[mesh] != NULL;
 }
 
-static void check_vertices(const rendering *r, uint32_t index) {
-    const device_scene *scene = r->context.scene;
+static void check_vertices(const filter_context *context, uint32_t index) {
+    const device_scene *scene = context->scene;
     const lobe_mesh *mesh = &scene->scene->meshes[index];
     const lobe_resource given = scene->given_vertices[index];
     const size_t expected = mesh->vertex_count * sizeof *mesh->vertices,
-                 found = lobe_graph_buffer_size(r->context.graph, given);
+                 found = lobe_graph_buffer_size(context->graph, given);
     if (given.version == 0 && mesh->on_device && is_mesh_drawn(scene, index))
-        fail(r, "mesh", mesh->name,
+        fail(context, "mesh", mesh->name,
              "is on the device, but the host gave no vertices in this frame");
     else if (given.version > 0 && !mesh->on_device)
-        fail(r, "mesh", mesh->name, "is not on the device, but the host gave vertices that are");
+        fail(context, "mesh", mesh->name,
+             "is not on the device, but the host gave vertices that are");
     else if (given.version > 0 && found < expected)
-        lobe_graph_fail(r->context.graph, LOBE_ERROR_INVALID_ARGUMENT,
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: mesh '%s' has %zu bytes of vertices, but the host gave %zu",
                         scene->scene->name, mesh->name, expected, found);
 }
@@ -86,17 +89,26 @@ static void check_vertices(const rendering *r, uint32_t index) {
 // ---------------------------------------------------------------------------------------------
 // Both
 
-void passes_given_content_take(rendering *r) {
-    const lobe_renderer *renderer = r->renderer;
-    const device_scene *scene = r->context.scene;
-    const lobe_scene *source = scene->scene;
+static void take_images(const filter_context *context, const lobe_given_content *content,
+                        lobe_content_giver give, void *giver) {
+    const device_scene *scene = context->scene;
+    memset(scene->given, 0, scene->scene->image_count * sizeof *scene->given);
+    if (give)
+        give(giver, context->graph, content);
+    for (uint32_t i = 0; i < scene->scene->image_count; i++)
+        check_image(context, i);
+}
+
+void passes_given_images_take(const filter_context *context, lobe_content_giver give, void *giver) {
+    take_images(context, &(lobe_given_content){.images = context->scene->given}, give, giver);
+}
+
+void passes_given_content_take(const filter_context *context, lobe_content_giver give,
+                               void *giver) {
+    const device_scene *scene = context->scene;
     const lobe_given_content content = {scene->given, scene->given_vertices};
-    memset(scene->given, 0, source->image_count * sizeof *scene->given);
-    memset(scene->given_vertices, 0, source->mesh_count * sizeof *scene->given_vertices);
-    if (renderer->give_content)
-        renderer->give_content(renderer->giver, r->context.graph, &content);
-    for (uint32_t i = 0; i < source->image_count; i++)
-        check_image(r, i);
-    for (uint32_t i = 0; i < source->mesh_count; i++)
-        check_vertices(r, i);
+    memset(scene->given_vertices, 0, scene->scene->mesh_count * sizeof *scene->given_vertices);
+    take_images(context, &content, give, giver);
+    for (uint32_t i = 0; i < scene->scene->mesh_count; i++)
+        check_vertices(context, i);
 }
