@@ -136,10 +136,15 @@ static void forget_paint(struct material_constants *constants) {
     constants->largest_colour = 0;
 }
 
-/// What neither the directions nor the widths of lobes depend on.
-static void forget_colours(struct material_constants *constants) {
+/// The same, and metal, which may follow from texels alone.
+static void forget_paint_and_metal(struct material_constants *constants) {
     forget_paint(constants);
     constants->metallic = 0;
+}
+
+/// What neither the directions nor the widths of lobes depend on.
+static void forget_colours(struct material_constants *constants) {
+    forget_paint_and_metal(constants);
     for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; i++)
         memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
 }
@@ -187,14 +192,16 @@ static bool is_same_map(const device_map *a, const device_map *b) {
 }
 
 /// Whether the material has the lobes that it had, apart from other texels in its maps.
-static bool keeps_lobes(const device_material *before, const device_material *after) {
+static bool keeps_lobes(const device_scene *scene, const device_material *before,
+                        const device_material *after) {
     for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (!is_same_map(&before->maps[map], &after->maps[map]))
             return false;
     return before->model == after->model && before->distribution == after->distribution &&
            before->lobe_count == after->lobe_count &&
            before->second_coordinates == after->second_coordinates &&
-           are_equal(&before->values, &after->values, forget_paint);
+           are_equal(&before->values, &after->values,
+                     scene->keeps_conclusions ? forget_paint_and_metal : forget_paint);
 }
 
 lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t index,
@@ -218,7 +225,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         find_metal(scene, material);
         status = store_constants(scene->graph, material);
     }
-    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(&before, material)) {
+    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(scene, &before, material)) {
         ++material->version;
         ++material->parameter_version;
     }

@@ -91,6 +91,8 @@ typedef struct device_scene {
     lobe_buffer **indices;   ///< one for each mesh; NULL: not used
     mesh_measures *measures; ///< one for each mesh
     device_instance *instances;
+    /// What was concluded from texels stays when these change, as long as it holds for them too.
+    bool keeps_conclusions;
     bool torn; ///< an update failed half-way: the copy can only be destroyed
 } device_scene;
 

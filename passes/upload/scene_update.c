@@ -180,7 +180,8 @@ static bool keeps_texture(const scene_update *update, uint32_t index) {
 /// Where extent and format stay the same.
 static lobe_result update_texels(const scene_update *update, size_t n) {
     const uint32_t index = update->changes->images[n];
-    update->scene->metals[index].known = false;
+    image_metal *metal = &update->scene->metals[index];
+    metal->known = metal->varies && update->scene->keeps_conclusions;
     if (!keeps_texture(update, index))
         return LOBE_OK;
     return lobe_texture_update_part(update->scene->images[index],

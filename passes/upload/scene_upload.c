@@ -46,9 +46,8 @@ static bool allocate_tables(device_scene *result) {
            result->instances;
 }
 
-lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
-                                       const lobe_scene *scene, const lobe_host *host,
-                                       device_scene **result) {
+static lobe_result create(lobe_device *device, lobe_graph *graph, const lobe_scene *scene,
+                          bool keeps_conclusions, const lobe_host *host, device_scene **result) {
     lobe_result status = LOBE_ERROR_OUT_OF_MEMORY;
     const lobe_allocator *allocator = lobe_device_allocator(device);
     *result = lobe_allocate(allocator, 1, sizeof **result);
@@ -56,6 +55,7 @@ lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
         (*result)->scene = scene;
         (*result)->graph = graph;
         (*result)->allocator = allocator;
+        (*result)->keeps_conclusions = keeps_conclusions;
     }
     if (!*result || !allocate_tables(*result)) {
         lobe_host_log(host, LOBE_LOG_ERROR, "%s: out of memory", scene->name);
@@ -82,6 +82,19 @@ lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
 fail:
     passes_device_scene_destroy(result);
     return status;
+}
+
+lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
+                                       const lobe_scene *scene, const lobe_host *host,
+                                       device_scene **result) {
+    return create(device, graph, scene, false, host, result);
+}
+
+lobe_result passes_device_scene_create_for_changing_texels(lobe_device *device, lobe_graph *graph,
+                                                           const lobe_scene *scene,
+                                                           const lobe_host *host,
+                                                           device_scene **result) {
+    return create(device, graph, scene, true, host, result);
 }
 
 void passes_device_scene_destroy(device_scene **scene) {

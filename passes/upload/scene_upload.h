@@ -8,6 +8,11 @@
 lobe_result passes_device_scene_create(lobe_device *device, lobe_graph *graph,
                                        const lobe_scene *scene, const lobe_host *host,
                                        device_scene **result);
+/// The same, for texels that change: with `keeps_conclusions`.
+lobe_result passes_device_scene_create_for_changing_texels(lobe_device *device, lobe_graph *graph,
+                                                           const lobe_scene *scene,
+                                                           const lobe_host *host,
+                                                           device_scene **result);
 /// Uploads what changed in the scene. Errors: as lobe_renderer_update_scene. If it fails half-way,
 /// the copy is `torn`; if it fails for texels alone, it can still be drawn.
 lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_changes *changes,

@@ -17,6 +17,7 @@
 #include <lobe/graph.h>
 #include <lobe/host.h>
 #include <lobe/image.h>
+#include <lobe/maps.h>
 #include <lobe/png.h>
 #include <lobe/profile.h>
 #include <lobe/renderer.h>

@@ -46,6 +46,25 @@ int main(void) {
 }
 """
 
+HOST_SHADER = """#version 460
+#extension GL_GOOGLE_include_directive : require
+#define LOBE_SET 2
+#define LOBE_BINDING_BASE 5
+#define LOBE_CONSTANT_BASE 30
+#include "lobe/FILTER.glsl"
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 colour;
+void main() {
+    lobe_surface surface = lobe_surface_at(mat3(1.0), vec3(0.0, 0.0, 1.0), uv, dFdx(uv), dFdy(uv));
+    lobe_appearance fetched = lobe_fetch(surface);
+    vec3 sum = lobe_evaluate(fetched, surface, vec3(0.0, 0.6, 0.8)) + lobe_emission(fetched);
+#ifdef LOBE_ENVIRONMENT
+    sum += lobe_integrate_environment(fetched, surface);
+#endif
+    colour = vec4(sum, 1.0);
+}
+"""
+
 CMAKE_SHARED_PROJECT = """
 cmake_minimum_required(VERSION 3.16)
 project(embedding C)
@@ -119,6 +138,20 @@ def test_library_is_versioned():
 def test_every_public_header_is_installed():
     for path in ROOT.glob("*/include/lobe/*.h"):
         installed(f"lobe/{path.name}")
+
+
+def test_shading_is_installed():
+    """A shader of a host compiles against what is installed alone, for each filter."""
+    folder = Path(run(["pkg-config", "--variable=shaderdir", "lobe"],
+                      PKG_CONFIG_LIBDIR=str(installed("lobe.pc").parent),
+                      PKG_CONFIG_SYSROOT_DIR=str(TARGET)).strip())
+    compiler = shutil.which("glslangValidator")
+    for name in sorted(path.stem for path in (ROOT / "shaders/filters").glob("*.glsl")):
+        for options in ([], ["-DLOBE_ENVIRONMENT"], ["-DLOBE_CLOSED_SURFACE"]):
+            source = FOLDER / f"{name}.frag"
+            source.write_text(HOST_SHADER.replace("FILTER", name))
+            run([compiler, "-V", "--target-env", "vulkan1.3", f"-I{folder}", *options, source,
+                 "-o", FOLDER / "host.spv"])
 
 
 def named_paths(text):

@@ -398,6 +398,25 @@ static void environment_maps(void **state) {
     assert_true(lobe_environment_level_concentration(0, 99) >= 0);
 }
 
+static void maps_of_materials(void **state) {
+    fixture *f = *state;
+    lobe_maps *maps;
+    lobe_material_maps material;
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_maps_create",
+            lobe_maps_create(f->device, NULL, &f->host, &maps));
+    const lobe_scene empty = {.name = "empty"}, hollow = {.name = "hollow", .material_count = 2};
+    REFUSED(f, LOBE_ERROR_MALFORMED, "nothing to draw",
+            lobe_maps_create(f->device, &(lobe_maps_parameters){.scene = &empty}, &f->host, &maps));
+    REFUSED(
+        f, LOBE_ERROR_MALFORMED, "2 materials, but no array",
+        lobe_maps_create(f->device, &(lobe_maps_parameters){.scene = &hollow}, &f->host, &maps));
+    REFUSED_SILENTLY(lobe_maps_update(NULL, NULL));
+    REFUSED_SILENTLY(lobe_maps_record(NULL, NULL));
+    REFUSED_SILENTLY(lobe_maps_get(NULL, 0, &material));
+    assert_null(lobe_maps_graph(NULL));
+    lobe_maps_destroy(NULL);
+}
+
 static void renderers(void **state) {
     fixture *f = *state;
     lobe_renderer *renderer;
@@ -443,6 +462,7 @@ int main(void) {
         cmocka_unit_test(scenes),
         cmocka_unit_test(filters),
         cmocka_unit_test(environment_maps),
+        cmocka_unit_test(maps_of_materials),
         cmocka_unit_test(renderers),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
