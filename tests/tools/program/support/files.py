@@ -49,6 +49,37 @@ def exr_pixels(path):
     return data[8 * -(-(window[3] - window[1] + 1) // lines):]
 
 
+def _unpacked(block, size):
+    """A block of ZIP compression: differences of bytes, the first halves of words before the
+    second."""
+    if len(block) == size:
+        return block
+    values = bytearray(zlib.decompress(block))
+    for i in range(1, size):
+        values[i] = (values[i - 1] + values[i] - 128) & 255
+    words = bytearray(size)
+    words[0::2], words[1::2] = values[:(size + 1) // 2], values[(size + 1) // 2:]
+    return bytes(words)
+
+
+def exr_texels(path):
+    """The texels of a file with channels A, B, G, R of floats, in blocks of 16 scan lines: tuples
+    in that order."""
+    attributes = exr_header(path)
+    assert list(attributes["channels"].items()) == [(name, "float") for name in "ABGR"], attributes
+    left, top, right, bottom = attributes["dataWindow"]
+    width, data, at, texels = right - left + 1, exr_pixels(path), 0, []
+    while at < len(data):
+        first, size = struct.unpack_from("<ii", data, at)
+        lines = min(16, bottom - first + 1)
+        block = _unpacked(data[at + 8:at + 8 + size], 16 * width * lines)
+        for line in range(lines):
+            values = struct.unpack_from(f"<{4 * width}f", block, 16 * width * line)
+            texels += zip(*(values[width * channel:width * (channel + 1)] for channel in range(4)))
+        at += 8 + size
+    return texels
+
+
 def _header(path):
     data = path.read_bytes()
     assert data[:4] == b"\x76\x2f\x31\x01", f"{path} is no OpenEXR file"
