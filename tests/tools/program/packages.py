@@ -49,8 +49,9 @@ def test_libraries_are_depended_on():
 
 
 def test_each_file_is_where_it_belongs():
-    for name, pattern in {"liblobe0": r"/liblobe\.so\.0$", "liblobe-dev": r"/lobe/lobe\.h$",
-                          "lobe-tools": r"/libexec/lobe/lobe-report$"}.items():
+    for name, pattern in (("liblobe0", r"/liblobe\.so\.0$"), ("liblobe-dev", r"/lobe/lobe\.h$"),
+                          ("liblobe-dev", r"/lobe/moments\.glsl$"),
+                          ("lobe-tools", r"/libexec/lobe/lobe-report$")):
         paths = [line.split()[5] for line in
                  run(["dpkg-deb", "--contents", package(name)]).splitlines()]
         check(any(re.search(pattern, path) for path in paths), f"{name}: {paths}")
