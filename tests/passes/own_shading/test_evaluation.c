@@ -1,0 +1,326 @@
+// A compute pipeline of a host evaluates what lobe filters, on the host's device: lights at once
+// are as one by one, and changed texels reach a pipeline and descriptors that stay as they are.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <lobe/maps.h>
+
+#include "evaluation_lean.h"
+#include "evaluation_moments.h"
+#include "tests/engine/support/host_device.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { MAP = 16, POINTS = 64, CONSTANT_BASE = 7 };
+
+#define CHECK(call) assert_int_equal(call, VK_SUCCESS)
+
+/// Sums over the lights, one by one and at once.
+typedef struct result {
+    float one_by_one[4], at_once[4];
+} result;
+
+// ---------------------------------------------------------------------------------------------
+// The host's pipeline
+
+typedef struct evaluation {
+    host_device *host;
+    host_buffer results;
+    VkDescriptorPool pool;
+    VkDescriptorSetLayout set_layouts[2];
+    VkDescriptorSet sets[2];
+    VkPipelineLayout layout;
+    VkPipeline pipeline;
+} evaluation;
+
+static void create_pool(evaluation *e) {
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 32},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 32},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 32}};
+    const VkDescriptorPoolCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+        .maxSets = 2,
+        .poolSizeCount = 3,
+        .pPoolSizes = sizes,
+    };
+    CHECK(vkCreateDescriptorPool(e->host->vulkan.device, &create, NULL, &e->pool));
+}
+
+static void create_set(evaluation *e, uint32_t number, const lobe_vulkan_descriptor *descriptors,
+                       size_t count) {
+    const VkDevice device = e->host->vulkan.device;
+    VkDescriptorSetLayoutBinding bindings[64];
+    assert_in_range(count, 1, 64);
+    for (size_t i = 0; i < count; i++)
+        bindings[i] = (VkDescriptorSetLayoutBinding){descriptors[i].binding, descriptors[i].type, 1,
+                                                     VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    const VkDescriptorSetLayoutCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = (uint32_t)count,
+        .pBindings = bindings,
+    };
+    CHECK(vkCreateDescriptorSetLayout(device, &create, NULL, &e->set_layouts[number]));
+    const VkDescriptorSetAllocateInfo allocate = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+        .descriptorPool = e->pool,
+        .descriptorSetCount = 1,
+        .pSetLayouts = &e->set_layouts[number],
+    };
+    CHECK(vkAllocateDescriptorSets(device, &allocate, &e->sets[number]));
+    for (size_t i = 0; i < count; i++) {
+        const VkWriteDescriptorSet write = {
+            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+            .dstSet = e->sets[number],
+            .dstBinding = descriptors[i].binding,
+            .descriptorCount = 1,
+            .descriptorType = descriptors[i].type,
+            .pImageInfo = &descriptors[i].image,
+            .pBufferInfo = &descriptors[i].buffer,
+        };
+        vkUpdateDescriptorSets(device, 1, &write, 0, NULL);
+    }
+}
+
+static void create_pipeline(evaluation *e, const uint32_t *words, size_t size,
+                            const lobe_material_maps *maps) {
+    const VkDevice device = e->host->vulkan.device;
+    const VkShaderModuleCreateInfo code = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = words};
+    const VkPipelineLayoutCreateInfo layout = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = 2,
+        .pSetLayouts = e->set_layouts,
+    };
+    VkSpecializationMapEntry entries[128];
+    VkShaderModule module;
+    CHECK(vkCreateShaderModule(device, &code, NULL, &module));
+    CHECK(vkCreatePipelineLayout(device, &layout, NULL, &e->layout));
+    assert_in_range(maps->constant_count, 1, 128);
+    for (uint32_t i = 0; i < maps->constant_count; i++)
+        entries[i] = (VkSpecializationMapEntry){
+            CONSTANT_BASE + maps->constants[i].id,
+            (uint32_t)(i * sizeof *maps->constants + offsetof(lobe_specialisation, bits)), 4};
+    const VkSpecializationInfo specialisation = {(uint32_t)maps->constant_count, entries,
+                                                 maps->constant_count * sizeof *maps->constants,
+                                                 maps->constants};
+    const VkComputePipelineCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main",
+                  .pSpecializationInfo = &specialisation},
+        .layout = e->layout,
+    };
+    CHECK(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &create, NULL, &e->pipeline));
+    vkDestroyShaderModule(device, module, NULL);
+}
+
+static void end_evaluation(evaluation *e) {
+    const VkDevice device = e->host->vulkan.device;
+    vkDestroyPipeline(device, e->pipeline, NULL);
+    vkDestroyPipelineLayout(device, e->layout, NULL);
+    vkDestroyDescriptorPool(device, e->pool, NULL);
+    for (int i = 0; i < 2; i++)
+        vkDestroyDescriptorSetLayout(device, e->set_layouts[i], NULL);
+    host_buffer_destroy(e->host, &e->results);
+}
+
+// ---------------------------------------------------------------------------------------------
+// A host with maps
+
+typedef struct subject {
+    host_device host;
+    lobe_device *device;
+    lobe_scene *scene;
+    const char *filter;
+    const uint32_t *words; ///< of the host's shader
+    size_t size;
+} subject;
+
+static void open_subject(subject *s, const char *filter, const uint32_t *words, size_t size) {
+    host_device_open(&s->host);
+    s->device = host_device_import(&s->host);
+    s->filter = filter;
+    s->words = words;
+    s->size = size;
+    s->scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.6, 0.5);
+    material.normal_map = scene_add_map(s->scene, random_normal_map(MAP, MAP, 0.5, 11));
+    material.base_colour_map = scene_add_map(s->scene, random_map(MAP, MAP, 0.1, 0.9, 12));
+    scene_end_with_square(s->scene, &material);
+}
+
+static void close_subject(subject *s) {
+    lobe_scene_destroy(&s->scene);
+    lobe_device_destroy(&s->device);
+    host_device_close(&s->host);
+}
+
+/// Gives an image of the host for the first one of the scene.
+static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    content->images[0] = lobe_graph_import_image(graph, user);
+}
+
+/// `given`: what to give if the image is on the device.
+static lobe_maps *make_maps(subject *s, lobe_vulkan_image *given) {
+    const lobe_maps_parameters parameters = {.scene = s->scene,
+                                             .filter = filter_named(s->filter),
+                                             .lights_at_once = 4,
+                                             .give_content = given ? give : NULL,
+                                             .user = given};
+    lobe_maps *maps;
+    if (lobe_maps_create(s->device, &parameters, &s->host.recorder.host, &maps) != LOBE_OK)
+        fail_msg("%s", s->host.recorder.last_error);
+    return maps;
+}
+
+/// Filtering and evaluation in one command buffer. The pipeline is made where there is none.
+static void evaluate(subject *s, lobe_maps *maps, evaluation *e, result results[POINTS]) {
+    const size_t size = POINTS * sizeof *results;
+    VkCommandBuffer commands = host_begin(&s->host);
+    if (lobe_maps_record(maps, &(lobe_vulkan_submission){.commands = commands}) != LOBE_OK)
+        fail_msg("%s", s->host.recorder.last_error);
+    if (!e->host) {
+        lobe_material_maps material;
+        assert_int_equal(lobe_maps_get(maps, 0, &material), LOBE_OK);
+        e->host = &s->host;
+        e->results = host_buffer_create(&s->host, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        create_pool(e);
+        const lobe_vulkan_descriptor own = {.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                            .buffer = {e->results.buffer, 0, size}};
+        create_set(e, 0, &own, 1);
+        create_set(e, 1, material.descriptors, material.descriptor_count);
+        create_pipeline(e, s->words, s->size, &material);
+    }
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, e->pipeline);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, e->layout, 0, 2, e->sets, 0,
+                            NULL);
+    vkCmdDispatch(commands, POINTS / 64, 1, 1);
+    host_finish(&s->host, commands);
+    void *mapped;
+    CHECK(vkMapMemory(s->host.vulkan.device, e->results.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+    memcpy(results, mapped, size);
+    vkUnmapMemory(s->host.vulkan.device, e->results.memory);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Tests
+
+static void lights_at_once_are_as_one_by_one(void **state) {
+    (void)state;
+    subject s;
+    evaluation e = {0};
+    result results[POINTS];
+    open_subject(&s, "moments", evaluation_moments, sizeof evaluation_moments);
+    lobe_maps *maps = make_maps(&s, NULL);
+    evaluate(&s, maps, &e, results);
+    for (int i = 0; i < POINTS; i++)
+        for (int channel = 0; channel < 3; channel++) {
+            const float expected = results[i].one_by_one[channel];
+            assert_true(expected > 0.01f && expected < 100);
+            assert_float_equal(results[i].at_once[channel], expected, 1e-6f * expected);
+        }
+    end_evaluation(&e);
+    lobe_maps_destroy(&maps);
+    close_subject(&s);
+}
+
+/// As if the maps had been made of the changed texels, which `lean` prepares nothing for.
+static void changed_texels_reach_the_same_pipeline(void **state) {
+    (void)state;
+    static const uint32_t first = 0;
+    subject s;
+    evaluation e = {0}, fresh = {0};
+    result before[POINTS], after[POINTS], unchanged[POINTS], expected[POINTS];
+    open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
+    lobe_maps *maps = make_maps(&s, NULL);
+    evaluate(&s, maps, &e, before);
+    float *texels = s.scene->images[0].image.texels;
+    for (size_t i = 0; i < 4 * MAP * MAP; i += 4)
+        texels[i] = 1 - texels[i];
+    evaluate(&s, maps, &e, unchanged); // nobody has said so
+    assert_memory_equal(unchanged, before, sizeof before);
+    assert_int_equal(
+        lobe_maps_update(maps, &(lobe_scene_changes){.images = &first, .image_count = 1}), LOBE_OK);
+    evaluate(&s, maps, &e, after);
+    assert_memory_not_equal(after, before, sizeof before);
+    lobe_maps *others = make_maps(&s, NULL);
+    evaluate(&s, others, &fresh, expected);
+    assert_memory_equal(after, expected, sizeof after);
+    end_evaluation(&e);
+    end_evaluation(&fresh);
+    lobe_maps_destroy(&maps);
+    lobe_maps_destroy(&others);
+    close_subject(&s);
+}
+
+/// An image of one colour, which the host has made.
+static lobe_vulkan_image clear_image(subject *s, const host_image *image, const float colour[4]) {
+    VkCommandBuffer commands = host_begin(&s->host);
+    host_barrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    host_clear(commands, image, colour);
+    host_barrier(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    host_finish(&s->host, commands);
+    const VkImageViewCreateInfo create = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image->image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = image->format,
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+    };
+    VkImageView view;
+    CHECK(vkCreateImageView(s->host.vulkan.device, &create, NULL, &view));
+    return (lobe_vulkan_image){.image = image->image,
+                               .format = image->format,
+                               .width = MAP,
+                               .height = MAP,
+                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                               .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                               .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                               .view = view};
+}
+
+static void an_image_of_the_host_is_read_in_place(void **state) {
+    (void)state;
+    static const float colour[] = {0.6f, 0.45f, 0.9f, 1};
+    subject s;
+    evaluation e = {0}, uploaded = {0};
+    result results[POINTS], expected[POINTS];
+    open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
+    host_image image =
+        host_image_create(&s.host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
+                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    lobe_vulkan_image given = clear_image(&s, &image, colour);
+    for (size_t i = 0; i < MAP * MAP; i++)
+        memcpy((float *)s.scene->images[0].image.texels + 4 * i, colour, sizeof colour);
+    lobe_maps *maps = make_maps(&s, NULL);
+    evaluate(&s, maps, &uploaded, expected);
+    s.scene->images[0].on_device = true;
+    lobe_maps *others = make_maps(&s, &given);
+    for (int recording = 0; recording < 2; recording++) {
+        evaluate(&s, others, &e, results);
+        assert_memory_equal(results, expected, sizeof expected);
+    }
+    end_evaluation(&e);
+    end_evaluation(&uploaded);
+    lobe_maps_destroy(&maps);
+    lobe_maps_destroy(&others);
+    vkDestroyImageView(s.host.vulkan.device, given.view, NULL);
+    host_image_destroy(&s.host, &image);
+    close_subject(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lights_at_once_are_as_one_by_one),
+        cmocka_unit_test(changed_texels_reach_the_same_pipeline),
+        cmocka_unit_test(an_image_of_the_host_is_read_in_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
