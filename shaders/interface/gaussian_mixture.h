@@ -28,9 +28,8 @@
 #define SPECIALISE_MIXTURE_LAST  (SPECIALISE_FILTER + 26) // bool: no level reads the components
 #define SPECIALISE_MIXTURE_PLANE (SPECIALISE_FILTER + 27) // uint, MIXTURE_PLANE_...
 #define SPECIALISE_MIXTURE_START (SPECIALISE_FILTER + 28) // uint, MIXTURE_START_...
-#define SPECIALISE_MIXTURE_PRIOR (SPECIALISE_FILTER + 29) // bool: mixture_fit_constants.prior > 0
 #define SPECIALISE_MIXTURE_PRINTED                                                                 \
-    (SPECIALISE_FILTER + 30) // bool: formulas as Tan et al. print them
+    (SPECIALISE_FILTER + 29) // bool: formulas as Tan et al. print them
 
 // Places of directions, and with it what the map holds.
 // The Lambert plane: the moments of moment_bins.h, with a component for each bin.

@@ -232,12 +232,22 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 // ---------------------------------------------------------------------------------------------
 // What comes from the host
 
-static uint32_t find_import(const lobe_graph *graph, const void *object) {
+/// What a texture or buffer was imported as; textures or buffers of equal content may share one
+/// Vulkan object, of which a frame keeps one layout.
+static uint32_t find_texture(const lobe_graph *graph, const lobe_texture *texture) {
     for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
-        if ((graph->frame.resources[i].origin == ENGINE_GRAPH_TEXTURE &&
-             graph->frame.resources[i].texture == object) ||
-            (graph->frame.resources[i].origin == ENGINE_GRAPH_BUFFER &&
-             graph->frame.resources[i].buffer == object))
+        if (graph->frame.resources[i].origin == ENGINE_GRAPH_TEXTURE &&
+            (graph->frame.resources[i].texture == texture ||
+             graph->frame.resources[i].texture->image == texture->image))
+            return i;
+    return ENGINE_DEPENDENCY_NONE;
+}
+
+static uint32_t find_buffer(const lobe_graph *graph, const lobe_buffer *buffer) {
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        if (graph->frame.resources[i].origin == ENGINE_GRAPH_BUFFER &&
+            (graph->frame.resources[i].buffer == buffer ||
+             graph->frame.resources[i].buffer->buffer == buffer->buffer))
             return i;
     return ENGINE_DEPENDENCY_NONE;
 }
@@ -260,7 +270,7 @@ lobe_resource lobe_graph_import_texture(lobe_graph *graph, const lobe_texture *t
     if (!engine_graph_can_declare(graph, texture->name) ||
         !may_use(graph, &texture->uploads, texture->name))
         return (lobe_resource){0};
-    uint32_t known = find_import(graph, texture);
+    uint32_t known = find_texture(graph, texture);
     if (known != ENGINE_DEPENDENCY_NONE)
         return (lobe_resource){.index = known, .version = 1};
     engine_graph_resource resource = {.name = copy_name(graph, texture->name, "texture"),
@@ -293,7 +303,7 @@ lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_buffer *buf
     if (!engine_graph_can_declare(graph, buffer->name) ||
         !may_use(graph, &buffer->uploads, buffer->name))
         return (lobe_resource){0};
-    uint32_t known = find_import(graph, buffer);
+    uint32_t known = find_buffer(graph, buffer);
     if (known != ENGINE_DEPENDENCY_NONE)
         return (lobe_resource){.index = known, .version = 1};
     engine_graph_resource resource = {.name = copy_name(graph, buffer->name, "buffer"),

@@ -8,10 +8,6 @@
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/moment_bins.h"
 
-/// Texels of the maps along a side of a level's texel, above which a group fits each texel to a
-/// sample; and those of the parts whose sums are gathered then.
-enum { LARGEST_BOX = 64 };
-
 /// What all passes of a map share.
 typedef struct mixture_build {
     lobe_graph *graph;
@@ -20,7 +16,26 @@ typedef struct mixture_build {
     mixture_samples samples;
     moment_map target;
     lobe_resource components; ///< of the level before
+    /// Texels of the maps along a side of a level's texel, above which a group fits each texel to a
+    /// sample; and those of the parts whose sums are gathered then.
+    uint32_t largest_box;
 } mixture_build;
+
+static uint32_t lobe_count(const device_material *material) {
+    return material->model == LOBE_MATERIAL_MICROFACET ? 1 : material->lobe_count;
+}
+
+/// lavapipe leaves all loops of a thread when it has gone through them 65535 times in all.
+static uint32_t find_largest_box(const device_material *material, const mixture_kind *kind) {
+    enum { ITERATIONS = 60000, ROUNDS_OF_K_MEANS = 5 };
+    const uint32_t start =
+        kind->start == MIXTURE_START_K_MEANS ? kind->components + ROUNDS_OF_K_MEANS : 0;
+    const uint32_t each = (start + kind->steps + 1) * (lobe_count(material) + 1);
+    uint32_t box = 64;
+    while ((box + 2) * (box + 2) * each > ITERATIONS)
+        box /= 2;
+    return box;
+}
 
 static uint32_t level_extent(uint32_t extent, uint32_t level) {
     return extent >> level > 0 ? extent >> level : 1;
@@ -68,8 +83,7 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
                      uint32_t rows, uint32_t steps, bool last, lobe_pass *pass) {
     const device_material *material = build->material;
     specialisation_list list = {.graph = build->graph};
-    passes_specialise(&list, SPECIALISE_LOBE_COUNT,
-                      material->model == LOBE_MATERIAL_MICROFACET ? 1 : material->lobe_count);
+    passes_specialise(&list, SPECIALISE_LOBE_COUNT, lobe_count(material));
     passes_specialise(&list, SPECIALISE_BINS, build->kind->components);
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, build->kind->own_colours);
     passes_specialise(&list, SPECIALISE_BIN_WIDTHS, passes_bin_widths_vary(material));
@@ -77,7 +91,6 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
     passes_specialise(&list, SPECIALISE_MIXTURE_LAST, last);
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, build->kind->plane);
     passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
-    passes_specialise(&list, SPECIALISE_MIXTURE_PRIOR, build->kind->prior > 0);
     passes_specialise(&list, SPECIALISE_MIXTURE_PRINTED, build->kind->is_printed);
     const struct mixture_fit_constants constants = {build->samples.width, build->samples.height,
                                                     steps, build->kind->prior};
@@ -141,8 +154,9 @@ static void add_gathered_level(mixture_build *build, uint32_t level) {
     const uint32_t width = level_extent(map->width, level);
     const uint32_t height = level_extent(map->height, level);
     add_fit(build, width, height);
-    const uint32_t columns = level_extent(build->samples.width / LARGEST_BOX, 0);
-    const uint32_t rows = level_extent(build->samples.height / LARGEST_BOX, 0);
+    const uint32_t box = build->largest_box;
+    const uint32_t columns = (build->samples.width + box - 1) / box;
+    const uint32_t rows = (build->samples.height + box - 1) / box;
     const lobe_resource parts = declare_layers(build, "sums of parts", columns, rows, map->layers);
     const lobe_resource sums = add_sums(
         build, (lobe_binding){.name = "moment_map", .resource = parts}, columns, rows, 0, true);
@@ -156,7 +170,7 @@ static void add_gathered_level(mixture_build *build, uint32_t level) {
 
 static void add_level(mixture_build *build, uint32_t level) {
     const reduced_map *map = &build->target.map;
-    if (box_side(build, level) > LARGEST_BOX)
+    if (box_side(build, level) > build->largest_box)
         add_gathered_level(build, level);
     else
         build->target.map.resource =
@@ -176,6 +190,7 @@ moment_map passes_mixture_map(const filter_context *context, uint32_t index,
         .graph = context->graph,
         .material = &context->scene->materials[index],
         .kind = kind,
+        .largest_box = find_largest_box(&context->scene->materials[index], kind),
         .samples = passes_mixture_samples(context, index, kind->plane, kind->own_colours),
         .target = {.format = kind->format}};
     char name[64];

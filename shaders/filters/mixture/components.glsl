@@ -15,7 +15,6 @@ layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 layout(constant_id = SPECIALISE_MIXTURE_SHAPE) const uint SHAPE = MIXTURE_SHAPE_AUTOMATIC;
 layout(constant_id = SPECIALISE_MIXTURE_START) const uint START = MIXTURE_START_PARENT;
-layout(constant_id = SPECIALISE_MIXTURE_PRIOR) const bool PRIOR = false;
 layout(constant_id = SPECIALISE_MIXTURE_PRINTED) const bool PRINTED = false;
 
 layout(set = 0, binding = 0) uniform sampler2DArray sample_map;

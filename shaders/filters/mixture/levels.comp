@@ -83,7 +83,7 @@ void take_step(level_box box, bool nearest, mixture_units units,
         whole += sums[j].first.x;
     for (int j = 0; j < BINS; ++j) {
         components[j] = improved(components[j], sums[j], whole, units);
-        if (PRIOR && !nearest)
+        if (constants.prior > 0.0 && !nearest)
             components[j].mean.xy = drawn_to_neighbours(box, j, components[j]);
     }
 }
