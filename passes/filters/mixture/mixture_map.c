@@ -80,7 +80,7 @@ static lobe_resource write_components(lobe_pass *pass, lobe_resource components)
 }
 
 static void dispatch(const mixture_build *build, const char *shader, uint32_t columns,
-                     uint32_t rows, uint32_t steps, bool last, lobe_pass *pass) {
+                     uint32_t rows, uint32_t steps, lobe_pass *pass) {
     const device_material *material = build->material;
     specialisation_list list = {.graph = build->graph};
     passes_specialise(&list, SPECIALISE_LOBE_COUNT, lobe_count(material));
@@ -88,7 +88,6 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, build->kind->own_colours);
     passes_specialise(&list, SPECIALISE_BIN_WIDTHS, passes_bin_widths_vary(material));
     passes_specialise(&list, SPECIALISE_MIXTURE_SHAPE, build->kind->shape);
-    passes_specialise(&list, SPECIALISE_MIXTURE_LAST, last);
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, build->kind->plane);
     passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
     passes_specialise(&list, SPECIALISE_MIXTURE_PRINTED, build->kind->is_printed);
@@ -115,7 +114,7 @@ static void add_root(mixture_build *build, const char *name) {
     build->components = write_components(pass, declare_components(build, 1, 1));
     build->target.bins =
         lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
-    dispatch(build, "filters/mixture/root.comp", 1, 1, 0, false, pass);
+    dispatch(build, "filters/mixture/root.comp", 1, 1, 0, pass);
 }
 
 /// From the components of the level before to those of a level with few texels.
@@ -124,8 +123,7 @@ static void add_fit(mixture_build *build, uint32_t width, uint32_t height) {
     lobe_pass *pass = add_pass(build, "mixture_fit");
     read_parents(build, pass);
     build->components = write_components(pass, declare_components(build, width, height));
-    dispatch(build, "filters/mixture/fit.comp", THREADS * width, height, build->kind->steps, false,
-             pass);
+    dispatch(build, "filters/mixture/fit.comp", THREADS * width, height, build->kind->steps, pass);
 }
 
 /// Writes sums for the components after so many steps, and those components unless they are the
@@ -137,7 +135,7 @@ static lobe_resource add_sums(mixture_build *build, lobe_binding target, uint32_
     const lobe_resource components = write_components(
         pass, last ? declare_components(build, 1, 1) : declare_components(build, width, height));
     const lobe_resource written = lobe_pass_write(pass, &target);
-    dispatch(build, "filters/mixture/levels.comp", width, height, steps, last, pass);
+    dispatch(build, "filters/mixture/levels.comp", width, height, steps, pass);
     if (!last)
         build->components = components;
     return written;

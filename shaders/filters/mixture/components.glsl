@@ -41,6 +41,7 @@ struct mixture_units {
 struct mixture_sample {
     vec3 place; // from the origin; z: the width
     vec3 covariance;
+    vec2 widths; // sharpness and variance
     float mass;
 };
 
@@ -68,7 +69,7 @@ mixture_sample read_sample(ivec2 texel, int lobe, mixture_units units) {
     vec4 means = texelFetch(sample_map, ivec3(texel, LAYERS * lobe), 0);
     vec4 spread = texelFetch(sample_map, ivec3(texel, LAYERS * lobe + 1), 0);
     float width = BIN_WIDTHS ? -log(means.z * units.deviation) * units.deviation : 0.0;
-    return mixture_sample(vec3(means.xy - units.origin, width), spread.xyz, spread.w);
+    return mixture_sample(vec3(means.xy - units.origin, width), spread.xyz, means.zw, spread.w);
 }
 
 component_density density_of(mixture_component component) {

@@ -23,8 +23,9 @@ const uint FAR_APART = 0, K_MEANS = 1;
 const uint ROUNDS_OF_K_MEANS = 8;
 
 const uint NUMBERS = 8; // of component_sums
-shared float own_numbers[NUMBERS][THREADS];
-shared float numbers[NUMBERS];
+shared float own_numbers[NUMBERS * MOMENT_MAXIMUM_BINS][THREADS];
+shared float numbers[NUMBERS * MOMENT_MAXIMUM_BINS];
+shared component_density densities[MOMENT_MAXIMUM_BINS];
 shared mixture_component components[MOMENT_MAXIMUM_BINS];
 shared float keys[THREADS];
 shared uint key_samples[THREADS];
@@ -52,19 +53,19 @@ mixture_sample area_sample(sampled_area area, uint index, mixture_units units) {
     return read_sample(ivec2(area.low + texel), int(index % LOBE_COUNT), units);
 }
 
-// Sums of all threads' own numbers.
-void merge_sums() {
+// Sums of the first `count` of all threads' own numbers.
+void merge_sums(uint count) {
     const uint PARTS = 4, SIZE = THREADS / PARTS;
     barrier();
-    uint number = thread() / PARTS, first = thread() % PARTS * SIZE;
-    if (number < NUMBERS) {
+    uint first = thread() % PARTS * SIZE;
+    for (uint number = thread() / PARTS; number < count; number += THREADS / PARTS) {
         float sum = 0.0;
         for (uint i = 0; i < SIZE; ++i)
             sum += own_numbers[number][first + i];
         own_numbers[number][first] = sum;
     }
     barrier();
-    if (thread() < NUMBERS) {
+    if (thread() < count) {
         float sum = 0.0;
         for (uint i = 0; i < PARTS; ++i)
             sum += own_numbers[thread()][i * SIZE];
@@ -73,41 +74,52 @@ void merge_sums() {
     barrier();
 }
 
+component_sums merged_sums(uint index) {
+    uint i = NUMBERS * index;
+    return component_sums(vec4(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]),
+                          vec4(numbers[i + 4], numbers[i + 5], numbers[i + 6], numbers[i + 7]));
+}
+
+// From the merged sums; a thread for each component.
+void improve_components(mixture_units units) {
+    float whole = 0.0;
+    for (int j = 0; j < BINS; ++j)
+        whole += numbers[NUMBERS * j];
+    if (thread() < BINS)
+        components[thread()] =
+            improved(components[thread()], merged_sums(thread()), whole, units);
+    barrier();
+}
+
 // One step, by shares or by distance.
 void take_step(sampled_area area, bool nearest, mixture_units units) {
-    component_density densities[MOMENT_MAXIMUM_BINS];
+    if (thread() < BINS)
+        densities[thread()] = density_of(components[thread()]);
+    barrier();
+    component_density own[MOMENT_MAXIMUM_BINS];
     component_sums sums[MOMENT_MAXIMUM_BINS];
     for (int j = 0; j < BINS; ++j) {
-        densities[j] = density_of(components[j]);
+        own[j] = densities[j];
         sums[j] = component_sums(vec4(0.0), vec4(0.0));
     }
     for (uint i = thread(); i < sample_count(area); i += THREADS) {
         mixture_sample lobe = area_sample(area, i, units);
         float shares[MOMENT_MAXIMUM_BINS];
         if (nearest)
-            find_nearest(densities, lobe, shares);
+            find_nearest(own, lobe, shares);
         else
-            find_shares(densities, lobe, shares);
+            find_shares(own, lobe, shares);
         for (int j = 0; j < BINS; ++j)
-            add_share(sums[j], densities[j].mean, lobe, lobe.mass * shares[j]);
+            add_share(sums[j], own[j].mean, lobe, lobe.mass * shares[j]);
     }
-    component_sums whole[MOMENT_MAXIMUM_BINS];
-    float mass = 0.0;
     for (int j = 0; j < BINS; ++j) {
         for (int k = 0; k < 4; ++k) {
-            own_numbers[k][thread()] = sums[j].first[k];
-            own_numbers[4 + k][thread()] = sums[j].second[k];
+            own_numbers[NUMBERS * j + k][thread()] = sums[j].first[k];
+            own_numbers[NUMBERS * j + 4 + k][thread()] = sums[j].second[k];
         }
-        merge_sums();
-        whole[j].first = vec4(numbers[0], numbers[1], numbers[2], numbers[3]);
-        whole[j].second = vec4(numbers[4], numbers[5], numbers[6], numbers[7]);
-        mass += numbers[0];
-        barrier();
     }
-    for (int j = 0; j < BINS; ++j)
-        if (thread() == j)
-            components[j] = improved(components[j], whole[j], mass, units);
-    barrier();
+    merge_sums(NUMBERS * BINS);
+    improve_components(units);
 }
 
 // How much a sample should become component `count`: its squared distance from the nearest other.

@@ -10,12 +10,12 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(constant_id = SPECIALISE_MIXTURE_LAST) const bool LAST = false;
 layout(constant_id = SPECIALISE_MIXTURE_PLANE) const uint PLANE = MIXTURE_PLANE_LAMBERT;
 
 const bool PROJECTED = PLANE == MIXTURE_PLANE_PROJECTED;
 const uint ROUNDS_OF_K_MEANS = 5;
 
+// Of another size than the level where no finer level needs the components.
 layout(set = 0, binding = 15) uniform writeonly image2DArray component_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
 
@@ -24,9 +24,10 @@ struct level_box {
     uvec2 low, high;
 };
 
-struct bin_sums {
-    vec4 place[MOMENT_MAXIMUM_BINS];
-    vec4 spread[MOMENT_MAXIMUM_BINS];
+// What the components have of the lobes under a texel.
+struct level_sums {
+    component_sums moments[MOMENT_MAXIMUM_BINS]; // d from the components' means
+    vec2 widths[MOMENT_MAXIMUM_BINS];            // m / sqrt(v), m v
     vec4 colour[MOMENT_MAXIMUM_BINS];
     vec3 diffuse;
 };
@@ -54,36 +55,59 @@ vec2 drawn_to_neighbours(level_box box, int index, mixture_component own) {
     return sum.xy / sum.z;
 }
 
-// One step, by shares or by distance.
-void take_step(level_box box, bool nearest, mixture_units units,
-               inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
+void add_lobe(inout level_sums sums, ivec2 texel, int i, float weight, bool nearest,
+              mixture_units units, component_density densities[MOMENT_MAXIMUM_BINS]) {
+    mixture_sample lobe = read_sample(texel, i, units);
+    float shares[MOMENT_MAXIMUM_BINS];
+    if (nearest)
+        find_nearest(densities, lobe, shares);
+    else
+        find_shares(densities, lobe, shares);
+    vec4 colour = vec4(0.0);
+    if (BIN_COLOUR)
+        colour = texelFetch(sample_map, ivec3(texel, LAYERS * i + 2), 0);
+    for (int j = 0; j < BINS; ++j) {
+        float mass = shares[j] * weight * lobe.mass;
+        add_share(sums.moments[j], densities[j].mean, lobe, mass);
+        sums.widths[j] += mass * lobe.widths;
+        if (BIN_COLOUR)
+            sums.colour[j] += mass * colour;
+    }
+}
+
+// Shared out by densities or, `nearest`, by distance.
+level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
+                     mixture_component components[MOMENT_MAXIMUM_BINS]) {
     component_density densities[MOMENT_MAXIMUM_BINS];
-    component_sums sums[MOMENT_MAXIMUM_BINS];
+    level_sums sums;
+    sums.diffuse = vec3(0.0);
     for (int j = 0; j < BINS; ++j) {
         densities[j] = density_of(components[j]);
-        sums[j] = component_sums(vec4(0.0), vec4(0.0));
+        sums.moments[j] = component_sums(vec4(0.0), vec4(0.0));
+        sums.widths[j] = vec2(0.0);
+        sums.colour[j] = vec4(0.0);
     }
     for (uint y = box.low.y; y < box.high.y; ++y) {
         for (uint x = box.low.x; x < box.high.x; ++x) {
             float weight = weight_of(box, uvec2(x, y));
-            for (int i = 0; i < LOBE_COUNT; ++i) {
-                mixture_sample lobe = read_sample(ivec2(x, y), i, units);
-                float shares[MOMENT_MAXIMUM_BINS];
-                if (nearest)
-                    find_nearest(densities, lobe, shares);
-                else
-                    find_shares(densities, lobe, shares);
-                for (int j = 0; j < BINS; ++j)
-                    add_share(sums[j], densities[j].mean, lobe, weight * lobe.mass * shares[j]);
-            }
+            for (int i = 0; i < LOBE_COUNT; ++i)
+                add_lobe(sums, ivec2(x, y), i, weight, nearest, units, densities);
+            if (BIN_COLOUR)
+                sums.diffuse +=
+                    weight * texelFetch(sample_map, ivec3(x, y, LAYERS * LOBE_COUNT), 0).rgb;
         }
     }
+    return sums;
+}
+
+void improve(level_box box, level_sums sums, bool by_distance, mixture_units units,
+             inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
     float whole = 0.0;
     for (int j = 0; j < BINS; ++j)
-        whole += sums[j].first.x;
+        whole += sums.moments[j].first.x;
     for (int j = 0; j < BINS; ++j) {
-        components[j] = improved(components[j], sums[j], whole, units);
-        if (constants.prior > 0.0 && !nearest)
+        components[j] = improved(components[j], sums.moments[j], whole, units);
+        if (PROJECTED && constants.prior > 0.0 && !by_distance)
             components[j].mean.xy = drawn_to_neighbours(box, j, components[j]);
     }
 }
@@ -112,56 +136,6 @@ void start_apart(level_box box, mixture_units units,
     }
 }
 
-void add_lobe(inout bin_sums sums, ivec2 texel, int i, float weight, mixture_units units,
-              component_density densities[MOMENT_MAXIMUM_BINS]) {
-    mixture_sample lobe = read_sample(texel, i, units);
-    vec2 means = texelFetch(sample_map, ivec3(texel, LAYERS * i), 0).zw;
-    vec4 colour = vec4(0.0);
-    if (BIN_COLOUR)
-        colour = texelFetch(sample_map, ivec3(texel, LAYERS * i + 2), 0);
-    float shares[MOMENT_MAXIMUM_BINS];
-    find_shares(densities, lobe, shares);
-    for (int j = 0; j < BINS; ++j) {
-        float mass = shares[j] * weight * lobe.mass;
-        if (PROJECTED) {
-            vec2 p = lobe.place.xy + units.origin;
-            float spread = lobe.covariance.x + lobe.covariance.y + 2.0 * means.y;
-            sums.place[j] += mass * vec4(1.0, p, dot(p, p) + spread);
-            continue;
-        }
-        vec4 range = binning.bins[0].range; // of all components alike
-        vec2 p = lobe.place.xy / range.z;
-        vec3 square = vec3(p * p, p.x * p.y) + lobe.covariance / (range.z * range.z);
-        mass /= binning.largest.x;
-        sums.place[j] += mass * vec4(1.0, p, means.x / range.w);
-        sums.spread[j] += mass * vec4(square, means.y / binning.bins[0].shape.w);
-        if (BIN_COLOUR)
-            sums.colour[j] += mass * colour;
-    }
-}
-
-bin_sums sum_lobes(level_box box, mixture_units units,
-                   mixture_component components[MOMENT_MAXIMUM_BINS]) {
-    component_density densities[MOMENT_MAXIMUM_BINS];
-    bin_sums sums;
-    sums.diffuse = vec3(0.0);
-    for (int j = 0; j < BINS; ++j) {
-        densities[j] = density_of(components[j]);
-        sums.place[j] = sums.spread[j] = sums.colour[j] = vec4(0.0);
-    }
-    for (uint y = box.low.y; y < box.high.y; ++y) {
-        for (uint x = box.low.x; x < box.high.x; ++x) {
-            float weight = weight_of(box, uvec2(x, y));
-            for (int i = 0; i < LOBE_COUNT; ++i)
-                add_lobe(sums, ivec2(x, y), i, weight, units, densities);
-            if (BIN_COLOUR)
-                sums.diffuse +=
-                    weight * texelFetch(sample_map, ivec3(x, y, LAYERS * LOBE_COUNT), 0).rgb;
-        }
-    }
-    return sums;
-}
-
 // What Tan et al. store of the fit. Base lobes have the material's usual variance.
 vec4 printed_layer(mixture_component component, mixture_units units) {
     vec2 mean = component.mean.xy + units.origin;
@@ -169,23 +143,45 @@ vec4 printed_layer(mixture_component component, mixture_units units) {
     return component.part * vec4(1.0, mean, variance + dot(mean, mean));
 }
 
-void write_layers(uvec2 texel, bin_sums sums, mixture_units units,
-                  mixture_component components[MOMENT_MAXIMUM_BINS]) {
-    for (int j = 0; j < BINS; ++j)
-        imageStore(moment_map, ivec3(texel, j),
-                   PRINTED ? printed_layer(components[j], units) : sums.place[j]);
+// About a point at `offset` from the mean: m, m p and m p p (xx, yy, xy).
+component_sums moved(component_sums sums, vec2 offset) {
+    float mass = sums.first.x;
+    vec2 place = sums.first.yz;
+    vec3 square = sums.second.xyz + vec3(2.0 * place * offset + mass * offset * offset,
+                                         place.x * offset.y + place.y * offset.x +
+                                             mass * offset.x * offset.y);
+    return component_sums(vec4(mass, place + mass * offset, 0.0), vec4(square, 0.0));
 }
 
-void write_sums(uvec2 texel, bin_sums sums) {
-    vec4 unit = vec4(vec3(1.0 / binning.largest.y), 1.0);
+void write_layers(uvec2 texel, level_sums sums, mixture_units units,
+                  mixture_component components[MOMENT_MAXIMUM_BINS]) {
     for (int j = 0; j < BINS; ++j) {
-        imageStore(moment_map, ivec3(texel, LAYERS * j), sums.place[j]);
-        imageStore(moment_map, ivec3(texel, LAYERS * j + 1), sums.spread[j]);
+        component_sums own = moved(sums.moments[j], components[j].mean.xy + units.origin);
+        vec4 layer = vec4(own.first.xyz, own.second.x + own.second.y + 2.0 * sums.widths[j].y);
+        imageStore(moment_map, ivec3(texel, j),
+                   PRINTED ? printed_layer(components[j], units) : layer);
+    }
+}
+
+void write_sums(uvec2 texel, level_sums sums,
+                mixture_component components[MOMENT_MAXIMUM_BINS]) {
+    vec4 range = binning.bins[0].range; // of all components alike
+    float unit = 1.0 / binning.largest.x;
+    vec4 colour_unit = vec4(vec3(1.0 / binning.largest.y), 1.0);
+    for (int j = 0; j < BINS; ++j) {
+        component_sums own = moved(sums.moments[j], components[j].mean.xy);
+        imageStore(moment_map, ivec3(texel, LAYERS * j),
+                   unit * vec4(own.first.x, own.first.yz / range.z, sums.widths[j].x / range.w));
+        imageStore(moment_map, ivec3(texel, LAYERS * j + 1),
+                   unit * vec4(own.second.xyz / (range.z * range.z),
+                               sums.widths[j].y / binning.bins[0].shape.w));
         if (BIN_COLOUR)
-            imageStore(moment_map, ivec3(texel, LAYERS * j + 2), sums.colour[j] * unit);
+            imageStore(moment_map, ivec3(texel, LAYERS * j + 2),
+                       unit * sums.colour[j] * colour_unit);
     }
     if (BIN_COLOUR)
-        imageStore(moment_map, ivec3(texel, LAYERS * BINS), vec4(sums.diffuse, 0.0) * unit);
+        imageStore(moment_map, ivec3(texel, LAYERS * BINS),
+                   vec4(sums.diffuse, 0.0) * colour_unit);
 }
 
 void main() {
@@ -202,16 +198,21 @@ void main() {
         start_apart(box, units, components);
         rounds = ROUNDS_OF_K_MEANS;
     }
-    for (uint step = 0; step < rounds + constants.steps; ++step)
-        take_step(box, step < rounds, units, components);
-    for (int j = 0; j < BINS && !LAST; ++j) {
+    level_sums sums;
+    for (uint step = 0;; ++step) {
+        sums = sum_lobes(box, step < rounds, units, components);
+        if (step == rounds + constants.steps)
+            break;
+        improve(box, sums, step < rounds, units, components);
+    }
+    ivec2 kept = imageSize(component_map).xy;
+    for (int j = 0; j < BINS && all(equal(kept, ivec2(size))); ++j) {
         imageStore(component_map, ivec3(texel, 2 * j),
                    vec4(components[j].part, components[j].mean));
         imageStore(component_map, ivec3(texel, 2 * j + 1), components[j].covariance);
     }
-    bin_sums sums = sum_lobes(box, units, components);
     if (PROJECTED)
         write_layers(texel, sums, units, components);
     else
-        write_sums(texel, sums);
+        write_sums(texel, sums, components);
 }

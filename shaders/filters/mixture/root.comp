@@ -103,11 +103,11 @@ float squared_error(sampled_area area, mixture_units units) {
     }
     own_numbers[0][thread()] = overlap;
     own_numbers[1][thread()] = mass;
-    merge_sums();
+    merge_sums(2);
     float error = -2.0 * numbers[0] / numbers[1];
     for (int j = 0; j < BINS; ++j) {
         mixture_sample as_sample =
-            mixture_sample(components[j].mean, components[j].covariance.xyz, 1.0);
+            mixture_sample(components[j].mean, components[j].covariance.xyz, vec2(0.0), 1.0);
         error += components[j].part * overlap_with_sample(as_sample, units);
     }
     barrier();

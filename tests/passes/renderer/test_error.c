@@ -87,11 +87,17 @@ static size_t scene_number(const char *name) {
     return i;
 }
 
-/// Every filter is measured.
+/// Mixtures are fitted for seconds to some scenes' maps.
+static bool is_measured(const char *scene, const char *filter) {
+    const bool large = strcmp(scene, "hall") == 0 || strcmp(scene, "tablecloth") == 0;
+    const bool mixture = strcmp(filter, "mixture") == 0 || strcmp(filter, "tan") == 0;
+    return strcmp(filter, "reference") != 0 && !(large && mixture);
+}
+
 static void check_table(const error_bounds *bounds) {
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
-        if (strcmp(filter, "reference") != 0 && !has_bound(bounds, filter))
+        if (is_measured(bounds->scene, filter) && !has_bound(bounds, filter))
             fail_msg("%s, %s: no bound", bounds->scene, filter);
     }
 }
@@ -129,9 +135,7 @@ static void tablecloth_is_within_bounds(void **state) {
                                          {"lean", 0.36},
                                          {"leadr", 0.365},
                                          {"lobes", 0.134},
-                                         {"moments", 0.103},
-                                         {"tan", 0.15},
-                                         {"mixture", 0.1}},
+                                         {"moments", 0.103}},
                                         {{"lobes", "mipmap", 0.3},
                                          {"lobes", "direct", 0.3},
                                          {"toksvig", "mipmap", 0.5},
@@ -208,9 +212,7 @@ static void hall_is_within_bounds(void **state) {
                                          {"lean", 0.56},
                                          {"leadr", 0.705},
                                          {"lobes", 0.505},
-                                         {"moments", 0.37},
-                                         {"tan", 0.61},
-                                         {"mixture", 0.37}},
+                                         {"moments", 0.37}},
                                         {{"lobes", "mipmap", 0.95},
                                          {"toksvig", "mipmap", 0.95},
                                          {"moments", "lobes", 0.85},
