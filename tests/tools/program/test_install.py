@@ -365,13 +365,17 @@ def test_either_library_alone():
     return None
 
 
-def test_cmake_refuses_another_version():
+def test_cmake_refuses_what_is_not_installed():
     if not shutil.which("cmake"):
         return "there is no cmake"
-    project = fresh_folder("cmake-version")
-    (project / "CMakeLists.txt").write_text(CMAKE_PROJECT.replace("lobe 0.1", "lobe 0.99"))
-    result = subprocess.run(configure(project), text=True, capture_output=True, check=False)
-    check(result.returncode != 0 and 'requested version "0.99"' in result.stderr, result.stderr)
+    project = fresh_folder("cmake-refused")
+    for wanted, message in (("lobe 0.99 REQUIRED", 'requested version "0.99"'),
+                            ("lobe 0.1 REQUIRED COMPONENTS vulkan", "no component 'vulkan'")):
+        text = CMAKE_SHARED_PROJECT.replace("lobe 0.1 REQUIRED", wanted)
+        (project / "CMakeLists.txt").write_text(text)
+        result = subprocess.run(configure(project), text=True, capture_output=True, check=False)
+        check(result.returncode != 0 and message in " ".join(result.stderr.split()),
+              result.stderr)
     return None
 
 
