@@ -28,10 +28,9 @@ static bool any(const float colour[3]) {
 
 void passes_material_specialise(const device_material *material, specialisation_list *list) {
     const lobe_material *source = material->material;
-    bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
     passes_specialise(list, SPECIALISE_MODEL, source->model);
     passes_specialise(list, SPECIALISE_DISTRIBUTION, source->distribution);
-    passes_specialise(list, SPECIALISE_LOBE_COUNT, microfacet ? 1 : source->lobe_count);
+    passes_specialise(list, SPECIALISE_LOBE_COUNT, material->lobe_count);
     passes_specialise(list, SPECIALISE_MAPS, material->map_bits);
     passes_specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
     passes_specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));

@@ -31,6 +31,9 @@ struct lobe_maps {
 // Creation
 
 static lobe_result check_parameters(const lobe_maps_parameters *parameters, const lobe_host *host) {
+    if (parameters->scene->material_count == 0)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "lobe_maps_create: the scene has no materials");
     if (parameters->lights_at_once > 4)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                               "lobe_maps_create: %u lights at once, more than 4",

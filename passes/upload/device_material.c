@@ -210,15 +210,16 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
     const device_material before = *material;
     // Rebuild everything except the GPU buffers.
     const lobe_material *source = &scene->scene->materials[index];
-    *material = (device_material){.material = source,
-                                  .model = source->model,
-                                  .distribution = source->distribution,
-                                  .lobe_count = source->lobe_count,
-                                  .constants = before.constants,
-                                  .map_constants = before.map_constants,
-                                  .values = before.values,
-                                  .version = before.version,
-                                  .parameter_version = before.parameter_version};
+    *material = (device_material){
+        .material = source,
+        .model = source->model,
+        .distribution = source->distribution,
+        .lobe_count = source->model == LOBE_MATERIAL_MICROFACET ? 1 : source->lobe_count,
+        .constants = before.constants,
+        .map_constants = before.map_constants,
+        .values = before.values,
+        .version = before.version,
+        .parameter_version = before.parameter_version};
     memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {

@@ -33,7 +33,7 @@ typedef struct device_material {
     struct material_constants values; ///< what `constants` holds
     lobe_material_model model;        ///< when it was uploaded, like the next two
     lobe_distribution distribution;
-    uint32_t lobe_count;
+    uint32_t lobe_count; ///< of microfacets 1
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set

@@ -3,26 +3,27 @@
 #include "passes/upload/number_check.h"
 #include "passes/upload/scene_check.h"
 
-static lobe_result check_texture(const lobe_scene *scene, const char *material,
-                                 const lobe_texture_use *use, const lobe_host *host) {
+enum { OBJECT_SIZE = 160 };
+
+static lobe_result check_texture(const number_owner *owner, const lobe_scene *scene,
+                                 const lobe_texture_use *use) {
+    char object[OBJECT_SIZE];
     if (use->image < 0)
         return LOBE_OK;
+    passes_print_owner(owner, object, sizeof object);
     if ((size_t)use->image >= scene->image_count)
-        return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: material '%s' uses image %d of %zu",
-                              scene->name, material, use->image, scene->image_count);
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED, "%s: %s uses image %d of %zu",
+                              owner->where, object, use->image, scene->image_count);
     if (use->texture_coordinates > 1)
-        return lobe_host_fail(
-            host, LOBE_ERROR_MALFORMED,
-            "%s: material '%s' uses set %u of texture coordinates; there are 0 and 1", scene->name,
-            material, use->texture_coordinates);
-    const number_owner owner = {
-        .host = host, .where = scene->name, .kind = "material", .name = material};
-    return passes_check_numbers(&owner, "transform of a map", use->transform[0], 6, -INFINITY,
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s uses set %u of texture coordinates; there are 0 and 1",
+                              owner->where, object, use->texture_coordinates);
+    return passes_check_numbers(owner, "transform of a map", use->transform[0], 6, -INFINITY,
                                 INFINITY);
 }
 
-static lobe_result check_textures(const lobe_scene *scene, const lobe_material *material,
-                                  const lobe_host *host) {
+static lobe_result check_textures(const number_owner *owner, const lobe_scene *scene,
+                                  const lobe_material *material) {
     const lobe_texture_use *uses[] = {
         &material->base_colour_map, &material->normal_map,
         &material->emissive_map,    &material->metallic_roughness_map,
@@ -31,7 +32,7 @@ static lobe_result check_textures(const lobe_scene *scene, const lobe_material *
     };
     lobe_result result = LOBE_OK;
     for (size_t i = 0; !result && i < sizeof uses / sizeof *uses; i++)
-        result = check_texture(scene, material->name, uses[i], host);
+        result = check_texture(owner, scene, uses[i]);
     return result;
 }
 
@@ -68,20 +69,22 @@ static lobe_result check_lobe(const number_owner *owner, const lobe_base_lobe *l
 }
 
 static lobe_result check_model(const number_owner *owner, const lobe_material *material) {
+    char object[OBJECT_SIZE];
     if (material->model == LOBE_MATERIAL_MICROFACET) {
         lobe_result result = passes_check_number(owner, "metallic", material->metallic, 0, 1);
         return result ? result : passes_check_number(owner, "roughness", material->roughness, 0, 1);
     }
+    passes_print_owner(owner, object, sizeof object);
     if (material->distribution != LOBE_DISTRIBUTION_BLINN_PHONG &&
         material->distribution != LOBE_DISTRIBUTION_VMF)
         return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
-                              "%s: material '%s': half-vector lobes are Blinn-Phong or von "
-                              "Mises-Fisher lobes, not those of distribution %d",
-                              owner->where, material->name, (int)material->distribution);
+                              "%s: %s: half-vector lobes are Blinn-Phong or von Mises-Fisher "
+                              "lobes, not those of distribution %d",
+                              owner->where, object, (int)material->distribution);
     if (material->lobe_count < 1 || material->lobe_count > LOBE_MATERIAL_MAXIMUM_LOBES)
         return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
-                              "%s: material '%s' has %u lobes; there may be 1 to %d", owner->where,
-                              material->name, material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
+                              "%s: %s has %u lobes; there may be 1 to %d", owner->where, object,
+                              material->lobe_count, LOBE_MATERIAL_MAXIMUM_LOBES);
     lobe_result result = LOBE_OK;
     for (uint32_t i = 0; !result && i < material->lobe_count; i++)
         result = check_lobe(owner, &material->lobes[i]);
@@ -96,7 +99,7 @@ lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
                                 .kind = "material",
                                 .name = material->name,
                                 .index = index};
-    lobe_result result = check_textures(scene, material, host);
+    lobe_result result = check_textures(&owner, scene, material);
     result = result ? result : check_factors(&owner, material);
     return result ? result : check_model(&owner, material);
 }

@@ -4,8 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/// "light 2", "material 'brass'", "camera".
-static void print_owner(const number_owner *owner, char *text, size_t size) {
+void passes_print_owner(const number_owner *owner, char *text, size_t size) {
     if (owner->name)
         snprintf(text, size, "%s '%.128s'", owner->kind, owner->name);
     else if (owner->index != SIZE_MAX)
@@ -30,7 +29,7 @@ lobe_result passes_check_number(const number_owner *owner, const char *member, d
     if (isfinite(value) && value >= minimum && value <= maximum)
         return LOBE_OK;
     char object[160], range[64];
-    print_owner(owner, object, sizeof object);
+    passes_print_owner(owner, object, sizeof object);
     print_range(minimum, maximum, range, sizeof range);
     return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED, "%s: %s: %s is %g; expected %s",
                           owner->where, object, member, value, range);
@@ -52,7 +51,7 @@ lobe_result passes_check_numbers(const number_owner *owner, const char *member, 
 lobe_result passes_fail_vector(const number_owner *owner, const char *member, const float vector[3],
                                const char *expectation) {
     char object[160];
-    print_owner(owner, object, sizeof object);
+    passes_print_owner(owner, object, sizeof object);
     return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED, "%s: %s: %s is (%g, %g, %g); %s",
                           owner->where, object, member, (double)vector[0], (double)vector[1],
                           (double)vector[2], expectation);

@@ -14,6 +14,8 @@ typedef struct number_owner {
     size_t index;      ///< of an object without a name; SIZE_MAX: there is only one
 } number_owner;
 
+/// "light 2", "material 'brass'", "camera".
+void passes_print_owner(const number_owner *owner, char *text, size_t size);
 /// Checks that numbers of an object are finite and in [minimum, maximum], which may be infinite. Of
 /// numbers without maximum, the minimum is 0, or FLT_MIN for those above 0.
 /// The first one that is not is logged in one line, and LOBE_ERROR_MALFORMED is returned.

@@ -237,8 +237,7 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
 static uint32_t find_texture(const lobe_graph *graph, const lobe_texture *texture) {
     for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
         if (graph->frame.resources[i].origin == ENGINE_GRAPH_TEXTURE &&
-            (graph->frame.resources[i].texture == texture ||
-             graph->frame.resources[i].texture->image == texture->image))
+            graph->frame.resources[i].texture->image == texture->image)
             return i;
     return ENGINE_DEPENDENCY_NONE;
 }
@@ -246,8 +245,7 @@ static uint32_t find_texture(const lobe_graph *graph, const lobe_texture *textur
 static uint32_t find_buffer(const lobe_graph *graph, const lobe_buffer *buffer) {
     for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
         if (graph->frame.resources[i].origin == ENGINE_GRAPH_BUFFER &&
-            (graph->frame.resources[i].buffer == buffer ||
-             graph->frame.resources[i].buffer->buffer == buffer->buffer))
+            graph->frame.resources[i].buffer->buffer == buffer->buffer)
             return i;
     return ENGINE_DEPENDENCY_NONE;
 }

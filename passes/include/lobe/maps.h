@@ -51,10 +51,10 @@ LOBE_API lobe_result lobe_maps_create(lobe_device *device, const lobe_maps_param
 LOBE_API void lobe_maps_destroy(lobe_maps **maps);
 
 /// Takes over what the host changed in the scene, of which `changes` lists images, materials and
-/// the environment alone; the rotation and intensity of the environment need not be listed.
-/// Nothing is submitted or waited for. Errors: as lobe_renderer_update_scene; after one that is not
-/// LOBE_ERROR_INVALID_ARGUMENT or LOBE_ERROR_MALFORMED, the maps may have to be made anew, which
-/// lobe_maps_record says.
+/// the environment alone; the rotation and intensity of the environment need not be listed, but
+/// only an update takes them over, too. Nothing is submitted or waited for. Errors: as
+/// lobe_renderer_update_scene; after one that is not LOBE_ERROR_INVALID_ARGUMENT or
+/// LOBE_ERROR_MALFORMED, the maps may have to be made anew, which lobe_maps_record says.
 LOBE_API lobe_result lobe_maps_update(lobe_maps *maps, const lobe_scene_changes *changes);
 
 /// Records what must be built into the host's command buffer, or submits it, as for

@@ -198,6 +198,11 @@ static void mistakes_are_named(void **state) {
     scene->materials[0].roughness = 2;
     check_refused(f, &(lobe_maps_parameters){.scene = scene}, LOBE_ERROR_MALFORMED, "'material'");
     scene->materials[0].roughness = 1;
+    lobe_material unnamed = {.name = NULL}; // uses image 0
+    check_refused(
+        f,
+        &(lobe_maps_parameters){.scene = &(lobe_scene){.materials = &unnamed, .material_count = 1}},
+        LOBE_ERROR_MALFORMED, "material 0 uses image 0 of 0");
     lobe_maps *maps = make_maps(f, scene, "moments");
     lobe_material_maps material;
     assert_failure(f, lobe_maps_get(maps, 0, &material), LOBE_ERROR_INVALID_ARGUMENT, "'material'");

@@ -405,7 +405,7 @@ static void maps_of_materials(void **state) {
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_maps_create",
             lobe_maps_create(f->device, NULL, &f->host, &maps));
     const lobe_scene empty = {.name = "empty"}, hollow = {.name = "hollow", .material_count = 2};
-    REFUSED(f, LOBE_ERROR_MALFORMED, "nothing to draw",
+    REFUSED(f, LOBE_ERROR_MALFORMED, "no materials",
             lobe_maps_create(f->device, &(lobe_maps_parameters){.scene = &empty}, &f->host, &maps));
     REFUSED(
         f, LOBE_ERROR_MALFORMED, "2 materials, but no array",
