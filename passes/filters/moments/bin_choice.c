@@ -58,6 +58,7 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
     for (uint32_t i = 0; set && i < FOOTPRINTS; i++) {
         footprint *patch = &set->all[i];
         patch->lobes = set->lobes + (size_t)i * LOBES;
+        patch->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
         if (i < MATERIAL_PATCHES) {
             read_patch(scene, material, i, patch);
         } else {

@@ -154,11 +154,15 @@ static bell bell_of_bin(const bin_sums *sums, double base) {
     return result;
 }
 
-static footprint_bin make_bin(const bin_sums *sums) {
+/// Two Gaussians with the mean sharpness and the mean variance of the base lobes; or of log-normal
+/// deviations with these.
+static footprint_bin make_bin(const bin_sums *sums, bool log_normal) {
     const double weight = sums->places.weight, sharpness = sums->sharpness / weight;
-    double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
-    double median = cbrt(ratio) / (sharpness * sharpness);
-    double factor = exp(2 * sqrt(fmin(log(ratio) / 3, 0.64)));
+    const double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
+    const double square = 0.25 + 0.25 * sqrt(1 + 8 * ratio);
+    const double median = (log_normal ? cbrt(ratio) : square) / (sharpness * sharpness);
+    const double varies = log_normal ? sqrt(fmin(log(ratio) / 3, 0.64)) : acosh(sqrt(square));
+    const double factor = exp(2 * varies);
     footprint_bin bin = {
         .terms = {bell_of_bin(sums, median / factor), bell_of_bin(sums, median * factor)}};
     for (int j = 0; j < 3; j++)
@@ -184,7 +188,7 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
     uint32_t count = 0;
     for (uint32_t k = 0; k < m->count; k++)
         if (sums[k].places.weight > 1e-6)
-            bins[count++] = make_bin(&sums[k]);
+            bins[count++] = make_bin(&sums[k], patch->log_normal);
     return count;
 }
 

@@ -11,6 +11,7 @@ enum { FOOTPRINT_PLACES = 128 };
 typedef struct footprint {
     uint32_t count;
     plane_sample *lobes; ///< weights add up to one
+    bool log_normal;     ///< what bins take the deviations of base lobes for: those of GGX
     /// Half vectors, drawn with a density proportional to all lobes.
     double places[FOOTPRINT_PLACES][2];
     double densities[FOOTPRINT_PLACES];
@@ -19,7 +20,7 @@ typedef struct footprint {
     double diffuse_error; ///< of the diffuse colour of averaged maps, relative to all colours
 } footprint;
 
-/// Completes a footprint of which `lobes` and `count` are set. `microfacet`: colours are F0.
+/// Completes a footprint of which the first three are set. `microfacet`: colours are F0.
 void passes_footprint_complete(footprint *patch, bool microfacet);
 
 /// Squared errors and squares of the truth, integrated over half vectors.

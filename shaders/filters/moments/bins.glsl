@@ -61,18 +61,27 @@ int term_count() {
     return distribution_kind() == DISTRIBUTION_GGX ? MAXIMUM_TERMS : BIN_WIDTHS ? 2 : 1;
 }
 
-// The median variance and, returned, the variance of log sqrt(v), for base lobes whose deviations
-// vary log-normally: mean(1/sqrt(v))^2 = exp(varies) / median, mean(v) = exp(2 varies) median.
+// The median variance and, returned, the variance of log sqrt(v). Base lobes of a kind that is one
+// Gaussian are represented by two, of deviations exp(-s) and exp(s) times the median:
+//   median mean(1 / sqrt(v))^2 = cosh(s)^2, mean(v) = cosh(2 s) median;
+// those with tails vary log-normally:
+//   median mean(1 / sqrt(v))^2 = exp(s^2), mean(v) = exp(2 s^2) median.
 float width_statistics(inout plane_bin bin) {
     bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
     if (!BIN_WIDTHS) {
         bin.mean_variance = bin.variance;
         return 0.0;
     }
-    float ratio = clamp(bin.mean_variance / bin.variance, 1.0, exp(3.0 * TAIL_VARIES_MAXIMUM));
-    float varies = log(ratio) / 3.0;
-    bin.variance *= exp(varies);
-    return varies;
+    float ratio = clamp(bin.mean_variance / bin.variance, 1.0, 1e8);
+    if (distribution_kind() == DISTRIBUTION_GGX) {
+        float varies = min(log(ratio) / 3.0, TAIL_VARIES_MAXIMUM);
+        bin.variance *= exp(varies);
+        return varies;
+    }
+    float square = 0.25 + 0.25 * sqrt(1.0 + 8.0 * ratio);
+    bin.variance *= square;
+    float s = acosh(sqrt(square));
+    return s * s;
 }
 
 // The base lobe's own shape, which no sum of Gaussians matches exactly. While the normals spread

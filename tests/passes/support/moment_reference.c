@@ -105,13 +105,29 @@ typedef struct bin {
     double colour[3];
 } bin;
 
-/// Deviations vary log-normally: exp(n m + n^2 varies / 2) is the mean of their power n.
-static void find_widths(bin *b, double mean_variance) {
+/// GGX: deviations vary log-normally, exp(n m + n^2 varies / 2) is the mean of their power n.
+/// Others: two deviations of equal weight have both means.
+static void find_widths(bin *b, double mean_variance, lobe_distribution distribution) {
     b->variance = 1 / (b->sharpness * b->sharpness);
     if (!b->widths)
         return;
-    b->varies = fmin(log(fmax(mean_variance / b->variance, 1)) / 3, 0.64);
-    b->variance *= exp(b->varies);
+    const double ratio = fmax(mean_variance / b->variance, 1);
+    if (distribution == LOBE_DISTRIBUTION_GGX) {
+        b->varies = fmin(log(ratio) / 3, 0.64);
+        b->variance *= exp(b->varies);
+        return;
+    }
+    // cosh(2 s) cosh(s)^2 = ratio
+    double low = 0, high = 6;
+    for (int i = 0; i < 60; i++) {
+        const double s = 0.5 * (low + high), square = cosh(s) * cosh(s);
+        if (cosh(2 * s) * square < ratio)
+            low = s;
+        else
+            high = s;
+    }
+    b->varies = low * low;
+    b->variance *= cosh(low) * cosh(low);
 }
 
 static bin read_bin(const lobe_material *material, const reference_moment_bins *partition,
@@ -137,7 +153,7 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
     result.widths = material->metallic_roughness_map.image >= 0 || material->width_map.image >= 0;
     for (uint32_t j = 1; j < material->lobe_count; j++)
         result.widths |= material->lobes[j].width != material->lobes[0].width;
-    find_widths(&result, spread[3] / place[0] * (double)range->shape[3]);
+    find_widths(&result, spread[3] / place[0] * (double)range->shape[3], material->distribution);
     reference_plane_distortion(result.mean, result.base);
     for (int j = 0; j < 3; j++)
         result.base[j] *= result.variance;
