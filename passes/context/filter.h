@@ -62,6 +62,8 @@ struct lobe_filter {
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
     bool fetches_for_lights; ///< the shader fetches maps for each four lights
+    /// The shader reads the lobes' map texel by texel, in loops for each four lights.
+    bool fetches_texels;
     filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material and the current values of the knobs that decide slots;

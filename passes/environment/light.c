@@ -13,9 +13,9 @@
 
 /// Maximum number of texels along a face that the exact integral sums. Lavapipe silently ends the
 /// loops of a shader after 65535 iterations in total, and filters have loops of their own: a closed
-/// surface, for instance, two dozen for each texel.
-#define EXACT_WIDTH        64
-#define EXACT_WIDTH_CLOSED 16
+/// surface, for instance, two dozen for each texel, and all texels of a map around a pixel 56.
+#define EXACT_WIDTH               64
+#define EXACT_WIDTH_OF_MANY_LOOPS 16
 
 static const lobe_sampler trilinear = {LOBE_SAMPLE_LINEAR, LOBE_SAMPLE_LINEAR, LOBE_WRAP_CLAMP,
                                        LOBE_WRAP_CLAMP, 0};
@@ -252,7 +252,8 @@ static struct environment_constants constants_of(const filter_context *context,
 static lobe_range levels_read(const environment_light *light, const filter_context *context) {
     if (light->method != ENVIRONMENT_EXACT)
         return (lobe_range){0};
-    const uint32_t width = passes_closes_surfaces(context) ? EXACT_WIDTH_CLOSED : EXACT_WIDTH;
+    const bool many_loops = passes_closes_surfaces(context) || context->filter->fetches_texels;
+    const uint32_t width = many_loops ? EXACT_WIDTH_OF_MANY_LOOPS : EXACT_WIDTH;
     uint32_t level = 0;
     while (environment_width(context) >> level > width)
         ++level;

@@ -11,6 +11,7 @@
     FILTER(moments)                                                                                \
     FILTER(tan)                                                                                    \
     FILTER(mixture)                                                                                \
+    FILTER(fournier)                                                                               \
     FILTER(reference)
 
 #define FILTER(name) extern const lobe_filter passes_filter_##name;

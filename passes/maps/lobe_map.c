@@ -26,6 +26,19 @@ void passes_base_maps_read(const filter_context *context, const device_material 
                                                                      : material->map_constants)});
 }
 
+void passes_colour_maps_read(const filter_context *context, const device_material *material,
+                             bool reads, lobe_pass *pass) {
+    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
+    static const char *const names[] = {"base_colour_map", "specular_map"};
+    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
+    for (int i = 0; i < 2; i++) {
+        if (reads)
+            passes_base_map_read(context, material, maps[i], names[i], pass);
+        else
+            lobe_pass_read(pass, &(lobe_binding){.name = names[i], .resource = white});
+    }
+}
+
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
     passes_material_specialise(material, list);
     passes_specialise(list, SPECIALISE_INTERPOLATED,
@@ -40,8 +53,12 @@ void passes_lobe_map_bind(const filter_context *context, uint32_t material, cons
     const lobe_grid grid = passes_lobe_grid(uploaded);
     lobe_resource resource =
         map ? map->resource : lobe_graph_import_texture(context->graph, context->scene->white);
-    passes_appearance_bind(appearance, binding, resource,
-                           passes_filtered_map_sampler(context, uploaded, grid.map));
+    lobe_sampler sampler = passes_filtered_map_sampler(context, uploaded, grid.map);
+    if (context->filter->fetches_texels)
+        sampler.texels = sampler.levels = LOBE_SAMPLE_NEAREST;
+    passes_appearance_bind(appearance, binding, resource, sampler);
+    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, map != NULL);
+    passes_filtered_maps_build(context, material, appearance);
     if (!map)
         return;
     appearance->bytes = passes_reduced_map_bytes(map, format);
@@ -86,6 +103,4 @@ void passes_lobe_map_build(const filter_context *context, size_t instance,
         map = passes_lobe_map(context, index, kind);
     passes_lobe_map_bind(context, index, kind->binding, varies ? &map : NULL,
                          passes_filtered_map_format(context), appearance);
-    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, varies);
-    passes_filtered_maps_build(context, index, appearance);
 }

@@ -18,8 +18,13 @@ void passes_base_map_read(const filter_context *context, const device_material *
 /// The constants of the material and of shaders/maps/base_maps.glsl.
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list);
 
-/// Binds a map of a material's lobes to the shading, and counts its size. `map`: NULL if there is
-/// nothing to filter; a white texel is bound instead.
+/// The colour maps, or white where the shader's constants say that it reads none: it then depends
+/// on no map of colours.
+void passes_colour_maps_read(const filter_context *context, const device_material *material,
+                             bool reads, lobe_pass *pass);
+
+/// Binds a map of a material's lobes to the shading, counts its size, and adds the filtered colour
+/// maps. `map`: NULL if there is nothing to filter; a white texel is bound instead.
 void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
                           const reduced_map *map, lobe_format format,
                           filtered_appearance *appearance);

@@ -69,6 +69,4 @@ void passes_bin_appearance_bind(const filter_context *context, uint32_t material
     passes_lobe_map_bind(context, material, "moment_map", moments ? &moments->map : NULL,
                          moments ? moments->format : LOBE_FORMAT_RGBA16_SNORM, appearance);
     passes_appearance_bind(appearance, "binning_block", bins, (lobe_sampler){0});
-    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, moments != NULL);
-    passes_filtered_maps_build(context, material, appearance);
 }

@@ -349,16 +349,8 @@ vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3
                                 incoming);
 }
 
-// The colour of all base lobes together.
-vec3 mixture_colour() {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i)
-        sum += material.lobe_colour[i].rgb;
-    return sum;
-}
-
 vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfway, vec3 incoming) {
-    vec3 sum = mixture_colour() * distribution;
+    vec3 sum = lobes_colour() * distribution;
     if (may_see_level_0(lobe_map()) && !base_in_walk())
         sum += fetched.base_share * evaluate_half_vector_lobes(fetched.base, halfway);
     sum *= fetched.filtered.specular;
@@ -423,7 +415,7 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
     fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     vec3 sum = reflect_mixture(fetched, surface);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
-        sum *= mixture_colour() * fetched.filtered.specular;
+        sum *= lobes_colour() * fetched.filtered.specular;
     if (may_see_level_0(lobe_map()) && !base_in_walk()) {
         base_material base = fetched.base;
         base.specular = fetched.filtered.specular;

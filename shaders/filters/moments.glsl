@@ -280,18 +280,10 @@ vec3 evaluate_closed_bins(appearance fetched, light_sum sum, vec3 halfway, vec3 
     return value;
 }
 
-// The colour of all base lobes together.
-vec3 mixture_colour() {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i)
-        sum += material.lobe_colour[i].rgb;
-    return sum;
-}
-
 vec3 evaluate_bin_lobes(appearance fetched, light_sum sum, vec3 halfway, vec3 incoming) {
     vec3 value = BIN_COLOUR
                      ? sum.colour
-                     : fetched.filtered.specular * mixture_colour() * sum.distribution;
+                     : fetched.filtered.specular * lobes_colour() * sum.distribution;
     vec3 diffuse = fetched.filtered.diffuse;
     value *= 1.0 - fetched.base_share;
     if (may_see_level_0(lobe_map())) {
@@ -370,7 +362,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
                                           : reflect_bin(fetched, surface, bin, f0);
         reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
-            reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * mixture_colour();
+            reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * lobes_colour();
         sum += reflected;
     }
     take_means(fetched, surface, means);

@@ -2,35 +2,23 @@
 // 2005, Multiresolution Reflectance Filtering. Their Cook-Torrance term has neither masking nor the
 // factors that make a density of projected normals one of half vectors per solid angle and solid
 // angles of half vectors those of light; the two factors, cos(theta_h) and 1/4, are added here.
-//
-// The paper has no light from all around. Here each Gaussian reflects it as a lobe of half vectors,
-// masked like the base material.
 
 #include "shading/level_0.glsl"
 #include "shading/mask.glsl"
-#include "interface/gaussian_mixture.h"
-#include "interface/moment_bins.h"
+#include "filters/mixture/projected.glsl"
 
-#ifdef ENVIRONMENT
-#include "environment/reflection.glsl"
-#endif
-
-layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
 layout(constant_id = SPECIALISE_MIXTURE_PRINTED) const bool PRINTED = false;
 
-layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
-
-struct projected_lobe {
+struct gaussian_lobe {
     float part;
-    vec2 mean;
-    float variance; // along each axis
     vec3 normal;
+    float variance; // along each axis
 };
 
 struct appearance {
     base_material base;     // level 0, where it may be seen
     base_material filtered; // averaged over the footprint
-    projected_lobe lobes[MOMENT_MAXIMUM_BINS];
+    gaussian_lobe lobes[MOMENT_MAXIMUM_BINS];
     float base_share; // [0, 1]: how much of the appearance is level 0
     vec3 emission;
     bool kept;
@@ -41,17 +29,11 @@ struct appearance {
 
 // Printed: the variance is the difference of |n|^2's mean and |m|^2, although |n|^2 has those of
 // both axes.
-projected_lobe read_lobe(surface_point surface, map_area area, uint index) {
-    vec4 sums = filtered_layer(moment_map, area, index);
-    projected_lobe lobe;
-    lobe.part = sums.x;
-    vec2 mean = sums.yz / max(sums.x, 1e-6);
-    float square = sums.w / max(sums.x, 1e-6) - dot(mean, mean);
-    lobe.variance =
-        max(PRINTED ? square : 0.5 * square, 1e-6) + isotropic_variance(surface.curvature);
-    lobe.mean = mean * min(1.0, 0.999 * inversesqrt(max(dot(mean, mean), 1e-12)));
-    lobe.normal = vec3(lobe.mean, sqrt(1.0 - dot(lobe.mean, lobe.mean)));
-    return lobe;
+gaussian_lobe read_lobe(surface_point surface, map_area area, uint index) {
+    projected_lobe lobe = lobe_of_sums(filtered_layer(moment_map, area, index));
+    float variance = max(PRINTED ? lobe.square : 0.5 * lobe.square, 1e-6);
+    return gaussian_lobe(lobe.part, lobe.normal,
+                         variance + isotropic_variance(surface.curvature));
 }
 
 appearance fetch_appearance(surface_point surface) {
@@ -82,22 +64,16 @@ appearance fetch_appearance(surface_point surface) {
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 
-float density_of(projected_lobe lobe, vec2 place) {
-    vec2 d = place - lobe.mean;
+float density_of(gaussian_lobe lobe, vec2 place) {
+    vec2 d = place - lobe.normal.xy;
     return lobe.part * exp(-0.5 * dot(d, d) / lobe.variance) / (2.0 * PI * lobe.variance);
 }
 
-// Without a divisor for half-vector lobes; otherwise over 4 <m, omega_o> for each Gaussian.
 float sum_lobes(appearance fetched, vec3 halfway, vec3 outgoing) {
     float sum = 0.0;
-    for (uint i = 0u; i < BINS; ++i) {
-        float density = density_of(fetched.lobes[i], halfway.xy) * halfway.z;
-        float cosine = dot(fetched.lobes[i].normal, outgoing);
-        if (MODEL == MODEL_HALF_VECTOR_LOBES)
-            sum += density;
-        else if (cosine > 0.0)
-            sum += density / (4.0 * max(cosine, COSINE_MINIMUM));
-    }
+    for (uint i = 0u; i < BINS; ++i)
+        sum += reflected_density(fetched.lobes[i].normal,
+                                 density_of(fetched.lobes[i], halfway.xy) * halfway.z, outgoing);
     return sum;
 }
 
@@ -108,25 +84,10 @@ float mean_cosine(appearance fetched, vec3 incoming) {
     return sum;
 }
 
-vec3 colour_of_all_lobes() {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i)
-        sum += material.lobe_colour[i].rgb;
-    return sum;
-}
-
 vec3 evaluate_mixture(appearance fetched, vec3 outgoing, vec3 incoming) {
     vec3 halfway = half_vector(incoming, outgoing);
-    float specular = sum_lobes(fetched, halfway, outgoing);
-    vec3 fresnel = vec3(0.0), colour = fetched.filtered.specular * colour_of_all_lobes();
-    if (MODEL == MODEL_MICROFACET)
-        colour = fresnel =
-            fresnel_schlick(fetched.filtered.specular, vec3(1.0), dot(incoming, halfway));
-    vec3 sum = colour * specular;
-    if (DIFFUSE)
-        sum += microfacet_diffuse(fetched.filtered.diffuse, fresnel,
-                                  mean_cosine(fetched, incoming));
-    return sum;
+    return evaluate_projected(fetched.filtered, sum_lobes(fetched, halfway, outgoing),
+                              mean_cosine(fetched, incoming), halfway, incoming);
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
@@ -142,18 +103,11 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-vec3 reflect_lobe(appearance fetched, surface_point surface, projected_lobe lobe) {
+direction_lobe shape_of(gaussian_lobe lobe) {
     float deviation = sqrt(lobe.variance);
-    vec2 down = -lobe.mean / max(lobe.normal.z, 0.2);
-    half_vector_distribution half_vectors = half_vector_distribution(
-        direction_lobe(lobe.normal, deviation * vec3(1.0, 0.0, down.x),
-                       deviation * vec3(0.0, 1.0, down.y)),
-        DISTRIBUTION_VMF);
-    if (MODEL == MODEL_MICROFACET)
-        return reflect_microfacets(surface, half_vectors, fetched.filtered.specular,
-                                   fetched.filtered.width);
-    return colour_of_all_lobes() * fetched.filtered.specular *
-           reflect_half_vectors(surface, half_vectors);
+    vec2 down = -lobe.normal.xy / max(lobe.normal.z, 0.2);
+    return direction_lobe(lobe.normal, deviation * vec3(1.0, 0.0, down.x),
+                          deviation * vec3(0.0, 1.0, down.y));
 }
 
 vec3 reflect_environment(inout appearance fetched, surface_point surface) {
@@ -161,10 +115,10 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
         return reflect_base_material(surface, fetched.filtered, fetched.filtered.normal);
     vec3 sum = vec3(0.0), mean = vec3(0.0);
     for (uint i = 0u; i < BINS; ++i) {
-        projected_lobe lobe = fetched.lobes[i];
+        gaussian_lobe lobe = fetched.lobes[i];
         if (lobe.part < 1.0 / 64.0)
             continue;
-        sum += lobe.part * reflect_lobe(fetched, surface, lobe);
+        sum += lobe.part * reflect_projected(surface, fetched.filtered, shape_of(lobe));
         mean += lobe.part * lobe.normal;
     }
     if (DIFFUSE)

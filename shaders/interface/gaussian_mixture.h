@@ -21,6 +21,10 @@
 // A width is the logarithm of a lobe's deviation sqrt(v), times the material's usual deviation, so
 // that widths and places have one unit.
 
+// Components of a texel's mixture, at most. In the Lambert plane they are bins: at most
+// MOMENT_MAXIMUM_BINS.
+#define MIXTURE_MAXIMUM_COMPONENTS 7
+
 // A group of mixture_samples takes a square of so many texels along each side.
 #define MIXTURE_TILE 32
 
@@ -43,8 +47,9 @@
 #define MIXTURE_SHAPE_ROUND     1
 #define MIXTURE_SHAPE_OVAL      2
 
-#define MIXTURE_START_PARENT  0 // the components of the texel's parent
-#define MIXTURE_START_K_MEANS 1 // the texel's lobes alone
+#define MIXTURE_START_PARENT      0 // the components of the texel's parent
+#define MIXTURE_START_K_MEANS     1 // the texel's lobes alone
+#define MIXTURE_ROUNDS_OF_K_MEANS 5 // of mixture_level
 
 // Least values over the texels of a tile: the negative of what is largest.
 struct mixture_extremes {

@@ -96,6 +96,14 @@ vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distributi
            microfacet_diffuse(base.diffuse, fresnel, dot(mean_normal, incoming));
 }
 
+// The colour of all half-vector lobes together, without the specular map.
+vec3 lobes_colour() {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBE_COUNT; ++i)
+        sum += material.lobe_colour[i].rgb;
+    return sum;
+}
+
 // All lobes with their colours, without the specular map.
 vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     vec3 sum = vec3(0.0);

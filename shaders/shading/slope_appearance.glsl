@@ -84,14 +84,6 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     return sum;
 }
 
-// The colour of all base lobes together.
-vec3 lobes_colour() {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < LOBE_COUNT; ++i)
-        sum += material.lobe_colour[i].rgb;
-    return sum;
-}
-
 #ifdef ENVIRONMENT
 // Like evaluate_footprint, for light from the environment: defined by the filter.
 vec3 reflect_footprint(appearance fetched, surface_point surface);

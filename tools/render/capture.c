@@ -137,7 +137,7 @@ lobe_result capture_write_exr(const char *path, const capture *capture, const lo
 // ---------------------------------------------------------------------------------------------
 // PNG
 
-/// Values are counts of lobes, at most 8 per mixture, or MIP levels, of which a map of 4096 texels
+/// Values are counts of lobes, rarely above 8, or MIP levels, of which a map of 4096 texels
 /// has 12 above the base: fixed scales, so that pictures can be compared.
 static lobe_result heat_map(const capture *capture, float maximum, const lobe_host *host,
                             lobe_image *picture) {

@@ -233,7 +233,6 @@ static bool has_one_hue(const lobe_material *material) {
 
 static void specialise_mixture(const lobe_material *material, const mixture_map *mixture,
                                uint32_t coarsest, filtered_appearance *appearance) {
-    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, 1);
     passes_appearance_specialise(appearance, SPECIALISE_ONE_HUE, has_one_hue(material));
     passes_appearance_specialise(appearance, SPECIALISE_SUBDIVISION, mixture->subdivision);
     passes_appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
@@ -272,7 +271,6 @@ static void build(const filter_context *context, size_t instance, const void *pr
         mixture = build_mixture(context, instance, prepared, appearance);
     passes_lobe_map_bind(context, material, "mixture_map", varies ? &mixture.map : NULL,
                          mixture.format, appearance);
-    passes_filtered_maps_build(context, material, appearance);
 }
 
 /// One mixture represents all lobes of a material, in the colour of their sum.

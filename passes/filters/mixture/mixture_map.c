@@ -21,16 +21,12 @@ typedef struct mixture_build {
     uint32_t largest_box;
 } mixture_build;
 
-static uint32_t lobe_count(const device_material *material) {
-    return material->model == LOBE_MATERIAL_MICROFACET ? 1 : material->lobe_count;
-}
-
 /// lavapipe leaves all loops of a thread when it has gone through them 65535 times in all.
 static uint32_t find_largest_box(const device_material *material, const mixture_kind *kind) {
-    enum { ITERATIONS = 60000, ROUNDS_OF_K_MEANS = 5 };
+    enum { ITERATIONS = 60000 };
     const uint32_t start =
-        kind->start == MIXTURE_START_K_MEANS ? kind->components + ROUNDS_OF_K_MEANS : 0;
-    const uint32_t each = (start + kind->steps + 1) * (lobe_count(material) + 1);
+        kind->start == MIXTURE_START_K_MEANS ? kind->components + MIXTURE_ROUNDS_OF_K_MEANS : 0;
+    const uint32_t each = (start + kind->steps + 1) * (material->lobe_count + 1);
     uint32_t box = 64;
     while ((box + 2) * (box + 2) * each > ITERATIONS)
         box /= 2;
@@ -83,7 +79,7 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
                      uint32_t rows, uint32_t steps, lobe_pass *pass) {
     const device_material *material = build->material;
     specialisation_list list = {.graph = build->graph};
-    passes_specialise(&list, SPECIALISE_LOBE_COUNT, lobe_count(material));
+    passes_specialise(&list, SPECIALISE_LOBE_COUNT, material->lobe_count);
     passes_specialise(&list, SPECIALISE_BINS, build->kind->components);
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, build->kind->own_colours);
     passes_specialise(&list, SPECIALISE_BIN_WIDTHS, passes_bin_widths_vary(material));
@@ -135,7 +131,7 @@ static lobe_resource add_sums(mixture_build *build, lobe_binding target, uint32_
     const lobe_resource components = write_components(
         pass, last ? declare_components(build, 1, 1) : declare_components(build, width, height));
     const lobe_resource written = lobe_pass_write(pass, &target);
-    dispatch(build, "filters/mixture/levels.comp", width, height, steps, pass);
+    dispatch(build, "filters/mixture/level.comp", width, height, steps, pass);
     if (!last)
         build->components = components;
     return written;
@@ -166,6 +162,12 @@ static void add_gathered_level(mixture_build *build, uint32_t level) {
                                               .threads = {width, height, map->layers}});
 }
 
+/// At the finest level the parent's components share out what lies under a texel as well as ones
+/// fitted to its few lobes. What is printed are the components.
+static uint32_t steps_of_level(const mixture_build *build, uint32_t level) {
+    return level > 0 || build->kind->is_printed ? build->kind->steps : 0;
+}
+
 static void add_level(mixture_build *build, uint32_t level) {
     const reduced_map *map = &build->target.map;
     if (box_side(build, level) > build->largest_box)
@@ -173,7 +175,7 @@ static void add_level(mixture_build *build, uint32_t level) {
     else
         build->target.map.resource =
             add_sums(build, target_level(build, level), level_extent(map->width, level),
-                     level_extent(map->height, level), build->kind->steps, level == 0);
+                     level_extent(map->height, level), steps_of_level(build, level), level == 0);
 }
 
 static uint32_t layer_count(const mixture_kind *kind) {

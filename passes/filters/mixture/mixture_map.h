@@ -5,7 +5,7 @@
 
 /// What is fitted to each texel.
 typedef struct mixture_kind {
-    uint32_t components; ///< Gaussians a texel [1, MOMENT_MAXIMUM_BINS]
+    uint32_t components; ///< Gaussians a texel [1, MIXTURE_MAXIMUM_COMPONENTS]
     uint32_t steps;      ///< of expectation maximisation in each level
     uint32_t plane;      ///< MIXTURE_PLANE_...; decides the map's layers, too
     uint32_t start;      ///< MIXTURE_START_...

@@ -8,11 +8,6 @@
 #include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/moment_bins.h"
 
-static uint32_t layer_count(const device_material *material, bool own_colours) {
-    const uint32_t lobes = material->model == LOBE_MATERIAL_MICROFACET ? 1 : material->lobe_count;
-    return own_colours ? 3 * lobes + 1 : 2 * lobes;
-}
-
 static mixture_samples declare(lobe_graph *graph, const lobe_grid *grid, uint32_t layers) {
     const uint32_t columns = (grid->width + MIXTURE_TILE - 1) / MIXTURE_TILE;
     const uint32_t rows = (grid->height + MIXTURE_TILE - 1) / MIXTURE_TILE;
@@ -31,23 +26,16 @@ static mixture_samples declare(lobe_graph *graph, const lobe_grid *grid, uint32_
     return samples;
 }
 
-static void read_maps(const filter_context *context, const device_material *material,
-                      bool own_colours, lobe_pass *pass) {
-    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
-    static const char *const names[] = {"base_colour_map", "specular_map"};
-    passes_base_maps_read(context, material, own_colours, pass);
-    for (int i = 0; i < 2; i++)
-        passes_base_map_read(context, material, maps[i], names[i], pass);
-}
-
 mixture_samples passes_mixture_samples(const filter_context *context, uint32_t index,
                                        uint32_t plane, bool own_colours) {
     enum { GROUP_SIDE = 8 };
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
-    mixture_samples samples = declare(context->graph, &grid, layer_count(material, own_colours));
+    const uint32_t layers = own_colours ? 3 * material->lobe_count + 1 : 2 * material->lobe_count;
+    mixture_samples samples = declare(context->graph, &grid, layers);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "mixture_samples");
-    read_maps(context, material, own_colours, pass);
+    passes_base_maps_read(context, material, own_colours, pass);
+    passes_colour_maps_read(context, material, own_colours, pass);
     samples.lobes =
         lobe_pass_write(pass, &(lobe_binding){.name = "sample_map", .resource = samples.lobes});
     samples.extremes = lobe_pass_write(

@@ -1,12 +1,9 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
-#include "passes/filters/mixture/mixture_map.h"
+#include "passes/filters/mixture/projected_map.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/maps/lobe_map.h"
-#include "passes/upload/material_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/moment_bins.h"
-#include "shaders/interface/specialisation.h"
 
 static const char *const starts[] = {"parent", "kmeans", NULL};
 static const char *const formulas[] = {"repaired", "printed", NULL};
@@ -67,7 +64,9 @@ static const filter_knob *const knobs[] = {
     NULL,
 };
 
-static moment_map build_map(const filter_context *context, uint32_t material) {
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    (void)prepared;
     const mixture_kind kind = {
         .components = (uint32_t)passes_knob_value(context, &components_knob),
         .steps = (uint32_t)passes_knob_value(context, &steps_knob),
@@ -78,24 +77,7 @@ static moment_map build_map(const filter_context *context, uint32_t material) {
         .is_printed = passes_knob_choice(context, &formulas_knob) > 0,
         .format = passes_filtered_map_format(context),
     };
-    return passes_mixture_map(context, material, &kind);
-}
-
-static void build(const filter_context *context, size_t instance, const void *prepared,
-                  filtered_appearance *appearance) {
-    (void)prepared;
-    const uint32_t material = context->scene->instances[instance].material;
-    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[material]);
-    const bool varies = passes_lobe_grid_varies(&grid);
-    moment_map mixture = {.format = passes_filtered_map_format(context)};
-    if (varies)
-        mixture = build_map(context, material);
-    passes_lobe_map_bind(context, material, "moment_map", varies ? &mixture.map : NULL,
-                         mixture.format, appearance);
-    passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, varies);
-    passes_appearance_specialise(appearance, SPECIALISE_BINS,
-                                 (uint32_t)passes_knob_value(context, &components_knob));
-    passes_filtered_maps_build(context, material, appearance);
+    passes_projected_map_build(context, instance, &kind, appearance);
 }
 
 static const char *ignores(const lobe_material *material) {

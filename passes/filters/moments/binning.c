@@ -8,14 +8,6 @@
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
 
-static void read_colours(const filter_context *context, const device_material *material,
-                         lobe_pass *pass) {
-    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
-    static const char *const names[] = {"base_colour_map", "specular_map"};
-    for (int i = 0; i < 2; i++)
-        passes_base_map_read(context, material, maps[i], names[i], pass);
-}
-
 static void specialise_binning(const filter_context *context, const device_material *material,
                                const moment_partition *partition, bool colour,
                                specialisation_list *list) {
@@ -39,7 +31,7 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
                                             partition->height, layers);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
     passes_base_maps_read(context, material, colour, pass);
-    read_colours(context, material, pass);
+    passes_colour_maps_read(context, material, colour, pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
     result.map.resource = lobe_pass_write(
         pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});

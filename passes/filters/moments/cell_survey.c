@@ -21,20 +21,6 @@ static lobe_resource declare(lobe_graph *graph, const char *content, uint32_t ma
         graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
 }
 
-/// Without bright texels the pass depends on no map of colours.
-static void read_colours(const filter_context *context, const device_material *material,
-                         bool bright_texels, lobe_pass *pass) {
-    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
-    static const char *const names[] = {"base_colour_map", "specular_map"};
-    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
-    for (int i = 0; i < 2; i++) {
-        if (bright_texels)
-            passes_base_map_read(context, material, maps[i], names[i], pass);
-        else
-            lobe_pass_read(pass, &(lobe_binding){.name = names[i], .resource = white});
-    }
-}
-
 static void dispatch(lobe_graph *graph, const device_material *material, bool bright_texels,
                      const struct cell_survey_constants *constants, lobe_pass *pass) {
     enum { THREADS = 64 };
@@ -54,19 +40,18 @@ static void dispatch(lobe_graph *graph, const device_material *material, bool br
 cell_survey passes_moment_cell_survey(const filter_context *context, uint32_t index,
                                       bool bright_texels) {
     const device_material *material = &context->scene->materials[index];
-    const bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_grid grid = passes_lobe_grid(material);
     const struct cell_survey_constants constants = {grid.width, grid.height, cell_count(grid.width),
                                                     cell_count(grid.height)};
     cell_survey survey = {.cells = constants.columns * constants.rows};
-    survey.lobe_count = survey.cells * SURVEY_DRAWS * (microfacet ? 1 : material->lobe_count);
+    survey.lobe_count = survey.cells * SURVEY_DRAWS * material->lobe_count;
     survey.extremes = declare(context->graph, "extremes of lobes", index,
                               survey.cells * sizeof(struct survey_extremes));
     survey.lobes =
         declare(context->graph, "sample of lobes", index, survey.lobe_count * sizeof(float4));
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_cell_survey");
     passes_base_maps_read(context, material, false, pass);
-    read_colours(context, material, bright_texels, pass);
+    passes_colour_maps_read(context, material, bright_texels, pass);
     survey.extremes = lobe_pass_write(
         pass, &(lobe_binding){.name = "extremes_block", .resource = survey.extremes});
     survey.lobes =

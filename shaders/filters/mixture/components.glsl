@@ -93,8 +93,8 @@ float evaluate_density(component_density density, mixture_sample lobe) {
 }
 
 // Bayes: what each component has of a sample.
-void find_shares(component_density densities[MOMENT_MAXIMUM_BINS], mixture_sample lobe,
-                  out float shares[MOMENT_MAXIMUM_BINS]) {
+void find_shares(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixture_sample lobe,
+                  out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
     float most = -1e30, sum = 0.0;
     for (int j = 0; j < BINS; ++j) {
         shares[j] = evaluate_density(densities[j], lobe);
@@ -109,8 +109,8 @@ void find_shares(component_density densities[MOMENT_MAXIMUM_BINS], mixture_sampl
 }
 
 // Each sample wholly to the nearest component.
-void find_nearest(component_density densities[MOMENT_MAXIMUM_BINS], mixture_sample lobe,
-                  out float shares[MOMENT_MAXIMUM_BINS]) {
+void find_nearest(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixture_sample lobe,
+                  out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
     int nearest = 0;
     float least = 1e30;
     for (int j = 0; j < BINS; ++j) {

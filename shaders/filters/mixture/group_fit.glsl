@@ -23,10 +23,10 @@ const uint FAR_APART = 0, K_MEANS = 1;
 const uint ROUNDS_OF_K_MEANS = 8;
 
 const uint NUMBERS = 8; // of component_sums
-shared float own_numbers[NUMBERS * MOMENT_MAXIMUM_BINS][THREADS];
-shared float numbers[NUMBERS * MOMENT_MAXIMUM_BINS];
-shared component_density densities[MOMENT_MAXIMUM_BINS];
-shared mixture_component components[MOMENT_MAXIMUM_BINS];
+shared float own_numbers[NUMBERS * BINS][THREADS];
+shared float numbers[NUMBERS * BINS];
+shared component_density densities[BINS];
+shared mixture_component components[BINS];
 shared float keys[THREADS];
 shared uint key_samples[THREADS];
 
@@ -96,15 +96,15 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
     if (thread() < BINS)
         densities[thread()] = density_of(components[thread()]);
     barrier();
-    component_density own[MOMENT_MAXIMUM_BINS];
-    component_sums sums[MOMENT_MAXIMUM_BINS];
+    component_density own[MIXTURE_MAXIMUM_COMPONENTS];
+    component_sums sums[MIXTURE_MAXIMUM_COMPONENTS];
     for (int j = 0; j < BINS; ++j) {
         own[j] = densities[j];
         sums[j] = component_sums(vec4(0.0), vec4(0.0));
     }
     for (uint i = thread(); i < sample_count(area); i += THREADS) {
         mixture_sample lobe = area_sample(area, i, units);
-        float shares[MOMENT_MAXIMUM_BINS];
+        float shares[MIXTURE_MAXIMUM_COMPONENTS];
         if (nearest)
             find_nearest(own, lobe, shares);
         else

@@ -6,6 +6,7 @@
 // lobes in the end. Also the units of the mixture's map. One group.
 
 #include "filters/mixture/group_fit.glsl"
+#include "lib/lobe/plane_gaussian.glsl"
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray component_map;
 layout(set = 0, binding = 17, std430) readonly buffer extremes_block {
@@ -18,43 +19,47 @@ layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
 const uint CELLS = 64; // along each side: of all texels, so many are sampled
 const uint ROUNDS = 25;
 
-shared mixture_extremes least[THREADS];
-shared mixture_component kept[MOMENT_MAXIMUM_BINS];
+shared mixture_component kept[BINS];
 
-void find_extremes() {
+mixture_extremes find_extremes() {
     mixture_extremes own = mixture_extremes(vec4(1e30), vec4(1e30));
     for (uint i = thread(); i < uint(extremes.length()); i += THREADS) {
         own.places = min(own.places, extremes[i].places);
         own.lobes = min(own.lobes, extremes[i].lobes);
     }
-    least[thread()] = own;
-    for (uint count = THREADS / 2; count > 0; count /= 2) {
-        barrier();
-        if (thread() < count) {
-            least[thread()].places = min(least[thread()].places, least[thread() + count].places);
-            least[thread()].lobes = min(least[thread()].lobes, least[thread() + count].lobes);
-        }
+    for (int k = 0; k < 4; ++k) {
+        own_numbers[k][thread()] = own.places[k];
+        own_numbers[4 + k][thread()] = own.lobes[k];
     }
     barrier();
+    if (thread() < 8) {
+        float number = 1e30;
+        for (uint i = 0; i < THREADS; ++i)
+            number = min(number, own_numbers[thread()][i]);
+        numbers[thread()] = number;
+    }
+    barrier();
+    return mixture_extremes(vec4(numbers[0], numbers[1], numbers[2], numbers[3]),
+                            vec4(numbers[4], numbers[5], numbers[6], numbers[7]));
 }
 
 // Of lobes between the sharpest and the broadest.
-mixture_units find_units() {
-    vec2 low = least[0].places.xy, high = -least[0].places.zw;
-    float sharpness = -least[0].lobes.x, variance = -least[0].lobes.y;
+mixture_units find_units(mixture_extremes least) {
+    vec2 low = least.places.xy, high = -least.places.zw;
+    float sharpness = -least.lobes.x, variance = -least.lobes.y;
     return mixture_units(0.5 * (low + high), sqrt(sqrt(variance) / sharpness), false);
 }
 
-void write_units(mixture_units units) {
-    vec2 half_size = 0.5 * (-least[0].places.zw - least[0].places.xy);
+void write_units(mixture_extremes least, mixture_units units) {
+    vec2 half_size = 0.5 * (-least.places.zw - least.places.xy);
     float reach = max(1.001 * max(half_size.x, half_size.y), 1e-6);
     if (thread() < MOMENT_MAXIMUM_BINS)
         binning.bins[thread()] =
-            moment_bin(vec4(0.0), vec4(vec3(0.0), -1.001 * least[0].lobes.y),
-                       vec4(units.origin, reach, -1.001 * least[0].lobes.x));
+            moment_bin(vec4(0.0), vec4(vec3(0.0), -1.001 * least.lobes.y),
+                       vec4(units.origin, reach, -1.001 * least.lobes.x));
     if (thread() == 0) {
-        binning.largest = vec4(max(-1.001 * least[0].lobes.z, 1e-6),
-                               max(BIN_COLOUR ? -least[0].lobes.w : 1.0, 1e-6), 0.0, 0.0);
+        binning.largest = vec4(max(-1.001 * least.lobes.z, 1e-6),
+                               max(BIN_COLOUR ? -least.lobes.w : 1.0, 1e-6), 0.0, 0.0);
     }
 }
 
@@ -67,12 +72,6 @@ void keep_components() {
 // ---------------------------------------------------------------------------------------------
 // How close components are to the lobes
 
-float evaluate_gaussian(vec2 d, vec3 covariance) {
-    float determinant = covariance.x * covariance.y - covariance.z * covariance.z;
-    float square = dot(vec3(covariance.yx, -2.0 * covariance.z), vec3(d * d, d.x * d.y));
-    return exp(-0.5 * square / determinant) * inversesqrt(determinant);
-}
-
 // The variance of base lobes of a width.
 vec3 base_covariance(float width, mixture_units units) {
     float deviation = units.deviation * exp(width / units.deviation);
@@ -84,10 +83,12 @@ float overlap_with_sample(mixture_sample lobe, mixture_units units) {
     float sum = 0.0;
     for (int j = 0; j < BINS; ++j)
         sum += components[j].part *
-               evaluate_gaussian(lobe.place.xy - components[j].mean.xy,
-                                 components[j].covariance.xyz + lobe.covariance +
-                                     base_covariance(components[j].mean.z, units) +
-                                     base_covariance(lobe.place.z, units));
+               evaluate_plane_gaussian(
+                   make_plane_gaussian(components[j].covariance.xyz + lobe.covariance +
+                                           base_covariance(components[j].mean.z, units) +
+                                           base_covariance(lobe.place.z, units),
+                                       1.0),
+                   lobe.place.xy - components[j].mean.xy);
     return sum;
 }
 
@@ -131,7 +132,7 @@ float fit_from(sampled_area area, uint start, mixture_units units) {
 
 // True: of round components.
 bool fit(sampled_area area, mixture_units units) {
-    float least_error = 0.0;
+    float least_error = 1e38;
     bool is_round = false;
     for (uint i = 0; i < 4; ++i) {
         units.is_round = i < 2;
@@ -149,9 +150,9 @@ bool fit(sampled_area area, mixture_units units) {
 }
 
 void main() {
-    find_extremes();
-    mixture_units units = find_units();
-    write_units(units);
+    mixture_extremes least = find_extremes();
+    mixture_units units = find_units(least);
+    write_units(least, units);
     bool is_round =
         fit(make_area(uvec2(0), uvec2(constants.width, constants.height), CELLS), units);
     if (thread() == 0)

@@ -63,7 +63,8 @@ lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
             specular.rgb /= material.largest_colour;
         }
         plane_lobe lobe = lobe_in_plane(i, normal_at(point), width_at(point), specular);
-        float mass = lobe.mass / float(POINTS), sharpness = inversesqrt(lobe.variance);
+        // Lobes without mass have a place and a width, too.
+        float mass = max(lobe.mass, 1e-20) / float(POINTS), sharpness = inversesqrt(lobe.variance);
         sums.mass += mass;
         sums.lobe += mass * vec4(lobe.place, sharpness, lobe.variance);
         sums.square += mass * vec3(lobe.place * lobe.place, lobe.place.x * lobe.place.y);

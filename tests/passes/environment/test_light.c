@@ -195,6 +195,7 @@ static void half_vector_lobes_agree_with_the_exact_sum(void **state) {
         {"direct", {0, 0.2, 0.12, 0.12}},
         {"lean", {0, 0.2, 0.15, 0.12}},
         {"moments", {0, 0.2, 0.12, 0.12}},
+        {"fournier", {0, 0.2, 0.12, 0.12}},
         {NULL, {0}},
     };
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 40);

@@ -63,15 +63,16 @@ static bool is_beckmann(const lobe_material *material, const char *base) {
            material->distribution == LOBE_DISTRIBUTION_BECKMANN && strcmp(base, "base=exact") == 0;
 }
 
-/// Gaussians of projected normals without masking: test_tan.c compares them with what is printed.
-static bool has_projected_gaussians(const char *filter) {
-    return strcmp(filter, "tan") == 0;
+/// Gaussians of projected normals, or Phong peaks, without masking: test_tan.c and test_fournier.c
+/// compare them with what is printed.
+static bool has_projected_lobes(const char *filter) {
+    return strcmp(filter, "tan") == 0 || strcmp(filter, "fournier") == 0;
 }
 
 /// A filter may turn half-vector lobes into von Mises-Fisher lobes, but nothing else.
 static void check_filter(fixture *f, const char *filter, const lobe_material *material,
                          const expectation *expected) {
-    if (has_projected_gaussians(filter) ||
+    if (has_projected_lobes(filter) ||
         (has_beckmann_alone(filter) && !is_beckmann(material, expected->base)))
         return;
     // Over the surface's plane and masked as a height field: test_leadr.c checks how close that is.

@@ -49,7 +49,8 @@ static void print_scene(fixture *f, const lobe_scene *scene, const char *const (
 /// Mixtures are fitted for seconds to the maps of the built-in scenes: they are drawn with those of
 /// the atlas.
 static bool fits_mixtures(const char *filter) {
-    return strcmp(filter, "mixture") == 0 || strcmp(filter, "tan") == 0;
+    return strcmp(filter, "mixture") == 0 || strcmp(filter, "tan") == 0 ||
+           strcmp(filter, "fournier") == 0;
 }
 
 /// With every other filter.
@@ -87,7 +88,8 @@ static void print_atlas_scene(fixture *f) {
                                               {"mipmap", "probes=3"},
                                               {"lobes", "samples=auto"},
                                               {"mixture", NULL},
-                                              {"tan", NULL}};
+                                              {"tan", NULL},
+                                              {"fournier", NULL}};
     lobe_scene *scene = atlas_scene();
     print_scene(f, scene, requests, sizeof requests / sizeof *requests, 0);
     lobe_scene_destroy(&scene);
@@ -147,7 +149,7 @@ static void run(const char *threads, char text[TEXT]) {
     size_t lines = 0;
     for (const char *c = text; *c; c++)
         lines += *c == '\n';
-    assert_int_equal(lines, (lobe_filter_count() - 2) * lobe_builtin_scene_count() + 8);
+    assert_int_equal(lines, (lobe_filter_count() - 3) * lobe_builtin_scene_count() + 9);
 }
 
 /// Two runs with different numbers of threads: if they agree, neither matters.

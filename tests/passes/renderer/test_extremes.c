@@ -189,6 +189,13 @@ static void black_and_dark(lobe_scene *scene, lobe_material *material) {
     memset(material->lobes[0].colour, 0, sizeof material->lobes[0].colour);
 }
 
+/// A lobe that reflects nothing, of another width than the one that does.
+static void black_beside_white(lobe_scene *scene, lobe_material *material) {
+    (void)scene;
+    material->lobe_count = 2;
+    material->lobes[1] = (lobe_base_lobe){{0, 0, 1}, 1, {0, 0, 0}};
+}
+
 static void materials_at_their_limits(void **state) {
     static const extreme extremes[] = {
         {"smooth", smooth, NULL},
@@ -205,6 +212,7 @@ static void materials_at_their_limits(void **state) {
         {"normals that cancel", normals_that_cancel, NULL},
         {"normals of huge numbers", normals_of_huge_numbers, NULL},
         {"black", black_and_dark, NULL},
+        {"black beside white", black_beside_white, NULL},
     };
     check_all(*state, extremes, sizeof extremes / sizeof *extremes);
 }

@@ -105,9 +105,9 @@ static double most_reflected(const lobe_material *material) {
     return own || material->roughness < 0.5f ? 1.003 : 1.15;
 }
 
-/// `tan` has no masking, as printed, and divides by the cosine to the viewer.
+/// `tan` and `fournier` have no masking, as printed, and divide by the cosine to the viewer.
 static bool is_masked(const char *filter) {
-    return strcmp(filter, "tan") != 0;
+    return strcmp(filter, "tan") != 0 && strcmp(filter, "fournier") != 0;
 }
 
 static void check_furnace(fixture *f, const lobe_material *material, double degrees) {

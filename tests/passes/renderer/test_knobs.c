@@ -4,6 +4,7 @@
 #include "tests/passes/support/fixture.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -76,6 +77,11 @@ static void every_knob_draws_at_both_ends(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
+/// `fournier`: seven peaks of eight texels, and base lobes.
+static float most_lobes(const char *filter) {
+    return strcmp(filter, "fournier") == 0 ? 60 : 15;
+}
+
 /// Views show plausible numbers: whole lobes, levels that the maps have.
 static void views_show_what_they_say(void **state) {
     fixture *f = *state;
@@ -102,7 +108,8 @@ static void views_show_what_they_say(void **state) {
                 continue;
             assert_true(lobe[0] == both[0] && lobe[1] == both[0] && lobe[2] == both[0]);
             assert_true(level[0] == both[1]);
-            assert_true(lobe[0] >= 1 && lobe[0] <= 15 && lobe[0] == (float)(int)lobe[0]);
+            assert_true(lobe[0] >= 1 && lobe[0] <= most_lobes(filter) &&
+                        lobe[0] == (float)(int)lobe[0]);
             assert_true(level[0] >= 0 && level[0] < 10);
         }
         lobe_frame_free(&outputs);

@@ -56,7 +56,8 @@ static void check(const char *filter, double footprint, departure found, departu
 
 /// Beckmann lobes, which all filters can represent.
 static void zoom_out(fixture *f, double tilt, departure most) {
-    static const char *const filters[] = {"toksvig", "lean", "leadr", "lobes", "moments"};
+    static const char *const filters[] = {"toksvig", "lean",    "leadr",
+                                          "lobes",   "moments", "mixture"};
     enum { FILTERS = sizeof filters / sizeof *filters };
     double nearer[FILTERS];
     for (int i = 0; i < DISTANCES; i++) {

@@ -61,8 +61,8 @@ static lobe_resource picture_of(const viewer_display *display, const viewer_side
     return lobe_graph_import_texture(display->graph, display->blank);
 }
 
-/// The meaning of a picture's numbers, by the knob "view", as in capture_write_png: a mixture has
-/// at most 8 lobes, a map of 4096 texels has 12 levels above the base.
+/// The meaning of a picture's numbers, by the knob "view", as in capture_write_png: a mixture
+/// rarely has more than 8 lobes, a map of 4096 texels has 12 levels above the base.
 static uint kind_of(const viewer_side *side, float *maximum) {
     double view = 0;
     (void)lobe_settings_get(side->filter, &side->settings, "view", &view, NULL); // all have it

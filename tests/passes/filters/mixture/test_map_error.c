@@ -2,7 +2,7 @@
 // against the mean of all texel's lobes: at centres of a level's texels and at corners between
 // four, where components of neighbours that differ would blend into ones that neither has.
 //
-// `test_filters_mixture_map_error FILE...` prints the same of photographed normal maps.
+// `test_filters_mixture_map_error NORMALS[,ROUGHNESS]...` prints the same of photographed maps.
 
 #include "tests/passes/support/fixture.h"
 
@@ -17,7 +17,8 @@
 
 enum { EXTENT = 256, GRID = 15, MAXIMUM_DIRECTIONS = GRID * GRID };
 
-static const double concentration = 50;
+/// Of base lobes where no map of roughness changes it.
+static const double usual_concentration = 50;
 
 /// Half vectors, in the tangent frame of the map.
 typedef struct direction_list {
@@ -67,16 +68,18 @@ static void decode(const float *texel, double normal[3]) {
         normal[i] /= sqrt(length);
 }
 
-/// The mean of the lobes under each pixel.
+/// The mean of the lobes under each pixel. The fourth channel of the map is the concentration.
 static distributions exact_distributions(const lobe_image *map, const direction_list *list,
                                          uint32_t side) {
     distributions exact = allocate(side);
     const uint32_t box = EXTENT / side;
-    const double peak = concentration / (2 * M_PI * (1 - exp(-2 * concentration)));
     for (uint32_t texel = 0; texel < EXTENT * EXTENT; texel++) {
         const uint32_t pixel = texel / EXTENT / box * side + texel % EXTENT / box;
+        const float *values = (const float *)map->texels + (size_t)4 * texel;
+        const double concentration = (double)values[3];
+        const double peak = concentration / (2 * M_PI * (1 - exp(-2 * concentration)));
         double normal[3];
-        decode((const float *)map->texels + (size_t)4 * texel, normal);
+        decode(values, normal);
         for (uint32_t i = 0; i < list->count; i++) {
             const double *h = list->directions[i];
             const double cosine = normal[0] * h[0] + normal[1] * h[1] + normal[2] * h[2];
@@ -87,13 +90,34 @@ static distributions exact_distributions(const lobe_image *map, const direction_
     return exact;
 }
 
+/// Concentrations as multiples of the usual one.
+static lobe_image width_map(const lobe_image *map, bool *varies) {
+    lobe_image widths = map_image(LOBE_FORMAT_R32_FLOAT, EXTENT, EXTENT);
+    float *values = widths.texels;
+    *varies = false;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        values[i] = ((const float *)map->texels)[4 * i + 3] / (float)usual_concentration;
+        *varies |= values[i] != values[0];
+    }
+    return widths;
+}
+
 static lobe_scene *make_scene(const lobe_image *map) {
+    bool varies;
     lobe_scene *scene = scene_begin();
     lobe_image copy = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    lobe_image widths = width_map(map, &varies);
     memcpy(copy.texels, map->texels, (size_t)16 * EXTENT * EXTENT);
-    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, (float)concentration);
+    lobe_material material =
+        half_vector_material(LOBE_DISTRIBUTION_VMF, (float)usual_concentration);
     material.normal_map = scene_add_map(scene, copy);
     material.normal_map.nearest = true;
+    if (varies) {
+        material.width_map = scene_add_map(scene, widths);
+        material.width_map.nearest = true;
+    } else {
+        lobe_image_free(&widths);
+    }
     scene_add_square(scene, &material, 1, NULL);
     scene_look_down(scene, 2);
     scene_add_sun(scene, (const double[3]){0, 1, 0}, 1);
@@ -188,6 +212,8 @@ static const candidate candidates[] = {
     {"toksvig", {NULL}},
     {"lean", {NULL}},
     {"lobes", {NULL}},
+    {"fournier", {"peaks=4", NULL}},
+    {"fournier", {NULL}},
     {"tan", {NULL}},
     {"tan", {"formulas=printed", NULL}},
     {"tan", {"start=kmeans", NULL}},
@@ -202,18 +228,39 @@ static const candidate candidates[] = {
     {"mixture", {"components=6", NULL}},
 };
 
-/// The upper left part of the file as floats.
-static lobe_image load_map(const fixture *f, const char *path) {
+/// The upper left part of a file, as numbers in [0, 1].
+static lobe_image load_part(const fixture *f, const char *path) {
     lobe_image file, map = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
     assert_int_equal(scenes_image_load(path, SCENE_IMAGE_DATA, &f->host, &file), LOBE_OK);
     assert_int_equal(file.format, LOBE_FORMAT_RGBA8_UNORM);
     for (uint32_t i = 0; i < 4 * EXTENT * EXTENT; i++) {
         const uint32_t x = i / 4 % EXTENT, y = i / 4 / EXTENT;
-        const uint8_t *texel =
-            (const uint8_t *)file.texels + 4 * ((size_t)y * file.width + x % file.width);
+        const uint8_t *texel = (const uint8_t *)file.texels +
+                               4 * ((size_t)(y % file.height) * file.width + x % file.width);
         ((float *)map.texels)[i] = (float)texel[i % 4] / 255;
     }
     lobe_image_free(&file);
+    return map;
+}
+
+/// Of a von Mises-Fisher lobe about as broad as GGX of glTF's roughness.
+static double concentration_of(double roughness) {
+    const double alpha = fmax(roughness * roughness, 0.05);
+    return 2 / (alpha * alpha);
+}
+
+/// `paths`: normals, or normals and a map of roughness with a comma between them.
+static lobe_image load_map(const fixture *f, const char *paths) {
+    char normals[1024];
+    snprintf(normals, sizeof normals, "%.*s", (int)strcspn(paths, ","), paths);
+    lobe_image map = load_part(f, normals);
+    const char *comma = strchr(paths, ',');
+    lobe_image roughness = load_part(f, comma ? comma + 1 : normals);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++)
+        ((float *)map.texels)[4 * i + 3] =
+            comma ? (float)concentration_of((double)((const float *)roughness.texels)[4 * i + 1])
+                  : (float)usual_concentration;
+    lobe_image_free(&roughness);
     return map;
 }
 
@@ -245,24 +292,28 @@ static lobe_image stones(void) {
         const double normal[3] = {slope * u, -slope * v, 1};
         const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + 1);
         for (int k = 0; k < 4; k++)
-            texel[k] = k < 3 ? (float)(0.5 + 0.5 * normal[k] / length) : 1;
+            texel[k] = k < 3 ? (float)(0.5 + 0.5 * normal[k] / length) : (float)usual_concentration;
     }
     return map;
 }
 
 /// Components that start at their parents' are alike in neighbours: corners are about as accurate
-/// as centres. Those that each texel finds alone are not, whatever the paper's prior.
+/// as centres. Those that each texel finds alone are not, whatever the paper's prior, unless they
+/// are evaluated one by one.
 static void neighbours_blend(void **state) {
     lobe_image map = stones();
     const map_error mixture = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
     const map_error moments = measure(*state, &map, 8, "moments", (const char *[6]){"bins=4"});
     const map_error alone = measure(*state, &map, 8, "tan", (const char *[6]){"start=kmeans"});
+    const map_error peaks = measure(*state, &map, 8, "fournier", (const char *[6]){"peaks=4"});
     lobe_image_free(&map);
-    print_message("mixture %.4f %.4f, moments %.4f %.4f, alone %.4f %.4f\n", mixture.centre,
-                  mixture.corner, moments.centre, moments.corner, alone.centre, alone.corner);
+    print_message("# mixture %.4f %.4f, moments %.4f %.4f, alone %.4f %.4f, one by one %.4f %.4f\n",
+                  mixture.centre, mixture.corner, moments.centre, moments.corner, alone.centre,
+                  alone.corner, peaks.centre, peaks.corner);
     assert_true(mixture.corner <= 1.15 * mixture.centre);
     assert_true(mixture.centre + mixture.corner <= 0.95 * (moments.centre + moments.corner));
     assert_true(alone.corner > 1.5 * alone.centre);
+    assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
 int main(int count, char **arguments) {

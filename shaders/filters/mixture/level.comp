@@ -13,7 +13,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = SPECIALISE_MIXTURE_PLANE) const uint PLANE = MIXTURE_PLANE_LAMBERT;
 
 const bool PROJECTED = PLANE == MIXTURE_PLANE_PROJECTED;
-const uint ROUNDS_OF_K_MEANS = 5;
 
 // Of another size than the level where no finer level needs the components.
 layout(set = 0, binding = 15) uniform writeonly image2DArray component_map;
@@ -26,9 +25,9 @@ struct level_box {
 
 // What the components have of the lobes under a texel.
 struct level_sums {
-    component_sums moments[MOMENT_MAXIMUM_BINS]; // d from the components' means
-    vec2 widths[MOMENT_MAXIMUM_BINS];            // m / sqrt(v), m v
-    vec4 colour[MOMENT_MAXIMUM_BINS];
+    component_sums moments[MIXTURE_MAXIMUM_COMPONENTS]; // d from the components' means
+    vec2 widths[MIXTURE_MAXIMUM_COMPONENTS];            // m / sqrt(v), m v
+    vec4 colour[MIXTURE_MAXIMUM_COMPONENTS];
     vec3 diffuse;
 };
 
@@ -56,9 +55,9 @@ vec2 drawn_to_neighbours(level_box box, int index, mixture_component own) {
 }
 
 void add_lobe(inout level_sums sums, ivec2 texel, int i, float weight, bool nearest,
-              mixture_units units, component_density densities[MOMENT_MAXIMUM_BINS]) {
+              mixture_units units, component_density densities[MIXTURE_MAXIMUM_COMPONENTS]) {
     mixture_sample lobe = read_sample(texel, i, units);
-    float shares[MOMENT_MAXIMUM_BINS];
+    float shares[MIXTURE_MAXIMUM_COMPONENTS];
     if (nearest)
         find_nearest(densities, lobe, shares);
     else
@@ -77,8 +76,8 @@ void add_lobe(inout level_sums sums, ivec2 texel, int i, float weight, bool near
 
 // Shared out by densities or, `nearest`, by distance.
 level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
-                     mixture_component components[MOMENT_MAXIMUM_BINS]) {
-    component_density densities[MOMENT_MAXIMUM_BINS];
+                     mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
+    component_density densities[MIXTURE_MAXIMUM_COMPONENTS];
     level_sums sums;
     sums.diffuse = vec3(0.0);
     for (int j = 0; j < BINS; ++j) {
@@ -101,7 +100,7 @@ level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
 }
 
 void improve(level_box box, level_sums sums, bool by_distance, mixture_units units,
-             inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
+             inout mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     float whole = 0.0;
     for (int j = 0; j < BINS; ++j)
         whole += sums.moments[j].first.x;
@@ -114,7 +113,7 @@ void improve(level_box box, level_sums sums, bool by_distance, mixture_units uni
 
 // Components at samples far apart.
 void start_apart(level_box box, mixture_units units,
-                 inout mixture_component components[MOMENT_MAXIMUM_BINS]) {
+                 inout mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     for (int count = 0; count < BINS; ++count) {
         float farthest = -1.0;
         vec3 place = vec3(0.0);
@@ -154,7 +153,7 @@ component_sums moved(component_sums sums, vec2 offset) {
 }
 
 void write_layers(uvec2 texel, level_sums sums, mixture_units units,
-                  mixture_component components[MOMENT_MAXIMUM_BINS]) {
+                  mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     for (int j = 0; j < BINS; ++j) {
         component_sums own = moved(sums.moments[j], components[j].mean.xy + units.origin);
         vec4 layer = vec4(own.first.xyz, own.second.x + own.second.y + 2.0 * sums.widths[j].y);
@@ -164,7 +163,7 @@ void write_layers(uvec2 texel, level_sums sums, mixture_units units,
 }
 
 void write_sums(uvec2 texel, level_sums sums,
-                mixture_component components[MOMENT_MAXIMUM_BINS]) {
+                mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     vec4 range = binning.bins[0].range; // of all components alike
     float unit = 1.0 / binning.largest.x;
     vec4 colour_unit = vec4(vec3(1.0 / binning.largest.y), 1.0);
@@ -184,19 +183,30 @@ void write_sums(uvec2 texel, level_sums sums,
                    vec4(sums.diffuse, 0.0) * colour_unit);
 }
 
+// Where finer levels start: one step further than what the sums were found with.
+void keep_components(level_box box, level_sums sums, mixture_units units,
+                     mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
+    improve(box, sums, false, units, components);
+    for (int j = 0; j < BINS; ++j) {
+        imageStore(component_map, ivec3(box.texel, 2 * j),
+                   vec4(components[j].part, components[j].mean));
+        imageStore(component_map, ivec3(box.texel, 2 * j + 1), components[j].covariance);
+    }
+}
+
 void main() {
     uvec2 texel = gl_GlobalInvocationID.xy, size = uvec2(imageSize(moment_map).xy);
     if (any(greaterThanEqual(texel, size)))
         return;
     level_box box = level_box(texel, size, box_low(texel, size), box_high(texel, size));
     mixture_units units = units_of_map();
-    mixture_component components[MOMENT_MAXIMUM_BINS];
+    mixture_component components[MIXTURE_MAXIMUM_COMPONENTS];
     for (int j = 0; j < BINS; ++j)
         components[j] = parent_component(parent_of(texel, size), j);
     uint rounds = 0;
     if (START == MIXTURE_START_K_MEANS && constants.steps > 0) {
         start_apart(box, units, components);
-        rounds = ROUNDS_OF_K_MEANS;
+        rounds = MIXTURE_ROUNDS_OF_K_MEANS;
     }
     level_sums sums;
     for (uint step = 0;; ++step) {
@@ -205,12 +215,8 @@ void main() {
             break;
         improve(box, sums, step < rounds, units, components);
     }
-    ivec2 kept = imageSize(component_map).xy;
-    for (int j = 0; j < BINS && all(equal(kept, ivec2(size))); ++j) {
-        imageStore(component_map, ivec3(texel, 2 * j),
-                   vec4(components[j].part, components[j].mean));
-        imageStore(component_map, ivec3(texel, 2 * j + 1), components[j].covariance);
-    }
+    if (imageSize(component_map).xy == ivec2(size))
+        keep_components(box, sums, units, components);
     if (PROJECTED)
         write_layers(texel, sums, units, components);
     else

@@ -1,0 +1,55 @@
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
+#include "passes/filters/mixture/projected_map.h"
+#include "passes/maps/filtered_maps.h"
+#include "shaders/interface/gaussian_mixture.h"
+
+/// After k-means; twice as many change errors by a thirtieth.
+enum { STEPS = 4 };
+
+static const filter_knob peaks_knob = {
+    .description = {.name = "peaks",
+                    .summary = "Phong peaks that are fitted to the normals under each texel",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = MIXTURE_MAXIMUM_COMPONENTS,
+                    .initial = 7,
+                    .sweep = "4"},
+};
+static const filter_knob *const knobs[] = {
+    &peaks_knob, &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
+};
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    (void)prepared;
+    const mixture_kind kind = {
+        .components = (uint32_t)passes_knob_value(context, &peaks_knob),
+        .steps = STEPS,
+        .plane = MIXTURE_PLANE_PROJECTED,
+        .start = MIXTURE_START_K_MEANS,
+        .shape = MIXTURE_SHAPE_ROUND,
+        .format = passes_filtered_map_format(context),
+    };
+    passes_projected_map_build(context, instance, &kind, appearance);
+}
+
+static const char *ignores(const lobe_material *material) {
+    if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
+        return "lobes get their mean colour";
+    if (material->distribution != LOBE_DISTRIBUTION_BLINN_PHONG)
+        return "base lobes become Phong peaks of equal width";
+    return NULL;
+}
+
+const lobe_filter passes_filter_fournier = {
+    .name = "fournier",
+    .summary = "Phong peaks fitted under each texel, those of all texels around evaluated",
+    .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces",
+    .shading = "fournier",
+    .knobs = knobs,
+    .fetches_for_lights = true,
+    .fetches_texels = true,
+    .build = build,
+    .ignores = ignores,
+};
