@@ -42,7 +42,8 @@ typedef struct filter_context {
     const lobe_filter *filter;
     const lobe_settings *settings; ///< of that filter
     filtered_images *images;
-    const lobe_host *host; ///< log and memory
+    const struct tile_marks *marks; ///< NULL: maps are made whole (passes/maps/seen_tiles.h)
+    const lobe_host *host;          ///< log and memory
 } filter_context;
 
 /// Whether a filter turns microfacets into Gaussian slopes (Beckmann's distribution), and how these

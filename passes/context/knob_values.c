@@ -112,7 +112,11 @@ static void bind_numbers(const filter_context *context, knob_route route, size_t
                                  .resource = lobe_graph_upload(context->graph, name, block, size)});
 }
 
-void passes_knobs_bind(const filter_context *context, lobe_pass *pass) {
+void passes_shared_knobs_bind(const filter_context *context, lobe_pass *pass) {
     bind_numbers(context, KNOB_SHARED_NUMBER, sizeof(struct shared_knobs), "knob_block", pass);
+}
+
+void passes_knobs_bind(const filter_context *context, lobe_pass *pass) {
+    passes_shared_knobs_bind(context, pass);
     bind_numbers(context, KNOB_FILTER_NUMBER, 0, "filter_knob_block", pass);
 }

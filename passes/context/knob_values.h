@@ -23,6 +23,8 @@ void passes_knob_specialise(const filter_context *context, const filter_knob *kn
 void passes_knobs_specialise(const filter_context *context, specialisation_list *list);
 /// Uploads the numbers that the filter's knobs feed and binds them to the shading pass.
 void passes_knobs_bind(const filter_context *context, lobe_pass *pass);
+/// Of these, only the numbers that all filters have.
+void passes_shared_knobs_bind(const filter_context *context, lobe_pass *pass);
 
 /// Knob `index` of a filter: its own, then the shared ones. NULL past the last.
 const filter_knob *passes_filter_knob(const lobe_filter *filter, size_t index);

@@ -1,6 +1,7 @@
 #include "passes/context/filter.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/maps/slope_moments.h"
 #include "shaders/interface/slope_moments.h"
 
@@ -42,6 +43,7 @@ static const filter_knob *const knobs[] = {
     &passes_knob_bias,
     &passes_knob_curvature,
     &passes_knob_storage,
+    &passes_knob_built,
     &passes_knob_normal_mapping,
     NULL,
 };

@@ -14,6 +14,15 @@ static const char *const map_names[MAP_COUNT] = {
     [MAP_OCCLUSION] = "occlusion_map",
 };
 
+void passes_material_maps_bind(const filter_context *context, const device_material *material,
+                               lobe_binding bindings[MAP_COUNT]) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        bindings[map] = (lobe_binding){
+            .name = map_names[map],
+            .resource = passes_device_map_import(context->graph, context->scene, material, map),
+            .sampler = passes_device_map_sampler(material, map)};
+}
+
 size_t passes_material_shading_bind(const filter_context *context, const environment_light *light,
                                     const device_material *material,
                                     const filtered_appearance *appearance,
@@ -22,11 +31,8 @@ size_t passes_material_shading_bind(const filter_context *context, const environ
     size_t count = 0;
     bindings[count++] = (lobe_binding){
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
-        bindings[count++] = (lobe_binding){
-            .name = map_names[map],
-            .resource = passes_device_map_import(graph, context->scene, material, map),
-            .sampler = passes_device_map_sampler(material, map)};
+    passes_material_maps_bind(context, material, bindings + count);
+    count += MAP_COUNT;
     bindings[count++] = passes_environment_light_albedo(light, context, material->material);
     if (context->filter->slopes)
         bindings[count++] =

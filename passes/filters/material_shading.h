@@ -8,6 +8,10 @@
 /// Largest number of bindings of a material.
 #define MATERIAL_SHADING_BINDINGS (3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS)
 
+/// All maps of a material, as they are; white where it has none.
+void passes_material_maps_bind(const filter_context *context, const device_material *material,
+                               lobe_binding bindings[MAP_COUNT]);
+
 /// Stores the material's constants, maps and tables, and what the filter built for it; returns
 /// their number.
 size_t passes_material_shading_bind(const filter_context *context, const environment_light *light,

@@ -1,10 +1,15 @@
 #include "passes/context/filter.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/parameter_averaging.h"
+#include "passes/maps/seen_tiles.h"
 
-static const filter_knob *const knobs[] = {&passes_knob_probes,  &passes_knob_anisotropy,
-                                           &passes_knob_bias,    &passes_knob_curvature,
-                                           &passes_knob_storage, NULL};
+static const filter_knob *const knobs[] = {&passes_knob_probes,
+                                           &passes_knob_anisotropy,
+                                           &passes_knob_bias,
+                                           &passes_knob_curvature,
+                                           &passes_knob_storage,
+                                           &passes_knob_built,
+                                           NULL};
 
 const lobe_filter passes_filter_mipmap = {
     .name = "mipmap",

@@ -94,7 +94,7 @@ static lobe_resource filtered_image(const filter_context *context, const device_
     char name[64];
     snprintf(name, sizeof name, "filtered image %d", source->use->image);
     reduced_map reduced = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
-                                                     source->width, source->height, 1);
+                                                     source->width, source->height, 1, true);
     passes_level_reduction_from(
         context->graph, &reduced,
         passes_device_map_import(context->graph, context->scene, material, map), source->width,

@@ -1,5 +1,7 @@
 #include "passes/maps/level_reduction.h"
 
+#include "shaders/interface/map_tiles.h"
+
 uint32_t passes_half_extent(uint32_t size) {
     return size > 1 ? size / 2 : 1;
 }
@@ -23,7 +25,8 @@ uint64_t passes_reduced_map_bytes(const reduced_map *map, lobe_format format) {
 }
 
 reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe_format format,
-                                       uint32_t width, uint32_t height, uint32_t layers) {
+                                       uint32_t width, uint32_t height, uint32_t layers,
+                                       bool whole) {
     reduced_map map = {
         .width = passes_half_extent(width), .height = passes_half_extent(height), .layers = layers};
     map.levels = passes_level_count(map.width, map.height);
@@ -34,7 +37,7 @@ reduced_map passes_reduced_map_declare(lobe_graph *graph, const char *name, lobe
                                                                      .layers = layers,
                                                                      .levels = map.levels,
                                                                      .retained = true,
-                                                                     .shared = true});
+                                                                     .shared = whole});
     return map;
 }
 
@@ -45,15 +48,36 @@ typedef struct source_level {
     uint32_t width, height;
 } source_level;
 
-static void write_level(lobe_pass *pass, reduced_map *map, const char *binding, uint32_t level) {
-    map->resource = lobe_pass_write(
-        pass, &(lobe_binding){binding, map->resource, .range = {level, 1, 0, map->layers}});
+void passes_reduced_map_write(reduced_map *map, lobe_pass *pass, const char *name, uint32_t level) {
+    const lobe_binding target = {name, map->resource, .range = {level, 1, 0, map->layers}};
+    map->resource = map->keeps ? lobe_pass_modify(pass, &target) : lobe_pass_write(pass, &target);
+}
+
+static uint32_t extent_at(uint32_t size, uint32_t level) {
+    return size >> level > 0 ? size >> level : 1;
+}
+
+void passes_reduced_map_dispatch(const reduced_map *map, lobe_pass *pass, uint32_t level,
+                                 uint32_t layers, lobe_dispatch *dispatch) {
+    if (map->tiles.version > 0) {
+        lobe_pass_read(pass, &(lobe_binding){.name = "tile_list_block", .resource = map->tiles});
+        dispatch->indirect = map->tiles;
+        dispatch->indirect_offset = level * MAP_TILE_RECORD * sizeof(uint32_t);
+    }
+    dispatch->threads[0] = extent_at(map->width, level);
+    dispatch->threads[1] = extent_at(map->height, level);
+    dispatch->threads[2] = layers;
+    lobe_pass_dispatch(pass, dispatch);
 }
 
 /// The pass that writes three levels at once needs sizes that are multiples of eight.
 static bool can_tile(const reduced_map *map, const source_level *source, uint32_t first) {
     return source->width % 8 == 0 && source->height % 8 == 0 && first + 3 <= map->levels;
 }
+
+static const char *const shaders[2][2] = {
+    {"maps/level_reduction.comp", "maps/level_reduction_seen_tiles.comp"},
+    {"maps/level_reduction_tiled.comp", "maps/level_reduction_tiled_seen_tiles.comp"}};
 
 /// Fills one or three levels from `first` on; returns their number.
 static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_level *source,
@@ -63,18 +87,17 @@ static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_le
     lobe_pass_read(pass, &(lobe_binding){"source", source->resource,
                                          .range = {source->level, 1, 0, map->layers}});
     if (tiled) {
-        write_level(pass, map, "target_1", first);
-        write_level(pass, map, "target_2", first + 1);
-        write_level(pass, map, "target_3", first + 2);
+        passes_reduced_map_write(map, pass, "target_1", first);
+        passes_reduced_map_write(map, pass, "target_2", first + 1);
+        passes_reduced_map_write(map, pass, "target_3", first + 2);
     } else {
-        write_level(pass, map, "target", first);
+        passes_reduced_map_write(map, pass, "target", first);
     }
-    lobe_pass_dispatch(
-        pass, &(lobe_dispatch){
-                  .shader = tiled ? "maps/level_reduction_tiled.comp" : "maps/level_reduction.comp",
-                  .threads = {passes_half_extent(source->width), passes_half_extent(source->height),
-                              map->layers},
-              });
+    const bool seen = map->tiles.version > 0;
+    lobe_dispatch dispatch = {.shader = shaders[tiled][seen],
+                              .constants = seen ? &first : NULL,
+                              .constants_size = seen ? sizeof first : 0};
+    passes_reduced_map_dispatch(map, pass, first, map->layers, &dispatch);
     return tiled ? 3 : 1;
 }
 

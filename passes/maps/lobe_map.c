@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/specialisation.h"
@@ -71,24 +72,20 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     const lobe_grid grid = passes_lobe_grid(material);
     char name[64];
     snprintf(name, sizeof name, "%s of material %u", kind->content, index);
-    reduced_map map =
-        passes_reduced_map_declare(context->graph, name, passes_filtered_map_format(context),
-                                   grid.width, grid.height, kind->layers);
+    reduced_map map = passes_seen_map_declare(
+        context, index, name, passes_filtered_map_format(context), kind->layers, true);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
     passes_base_maps_read(context, material, false, pass);
-    map.resource = lobe_pass_write(
-        pass, &(lobe_binding){kind->binding, map.resource, .range = {0, 1, 0, map.layers}});
+    passes_reduced_map_write(&map, pass, kind->binding, 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
-    const struct lobe_grid_constants extent = {grid.width, grid.height};
-    lobe_pass_dispatch(pass, &(lobe_dispatch){
-                                 .shader = kind->shader,
-                                 .threads = {map.width, map.height, 1},
-                                 .constants = &extent,
-                                 .constants_size = sizeof extent,
-                                 .specialisation = list.items,
-                                 .specialisation_count = list.count,
-                             });
+    const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+    lobe_dispatch dispatch = {.shader = context->marks ? kind->seen_shader : kind->shader,
+                              .constants = &extent,
+                              .constants_size = sizeof extent,
+                              .specialisation = list.items,
+                              .specialisation_count = list.count};
+    passes_reduced_map_dispatch(&map, pass, 0, 1, &dispatch);
     passes_level_reduction(context->graph, &map);
     return map;
 }

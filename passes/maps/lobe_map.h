@@ -32,11 +32,12 @@ void passes_lobe_map_bind(const filter_context *context, uint32_t material, cons
 /// A map of numbers, in the format of the knob "storage", whose level 0 one compute pass makes from
 /// the base maps. Its push constants are the grid's width and height.
 typedef struct lobe_map_kind {
-    const char *content; ///< what it holds; part of its name
-    const char *pass;    ///< name of the pass
-    const char *shader;  ///< of the pass
-    const char *binding; ///< of the map, in that shader and in shading
-    uint32_t layers;     ///< of the map
+    const char *content;     ///< what it holds; part of its name
+    const char *pass;        ///< name of the pass
+    const char *shader;      ///< of the pass
+    const char *seen_shader; ///< its variant SEEN_TILES, see passes/maps/seen_tiles.h
+    const char *binding;     ///< of the map, in that shader and in shading
+    uint32_t layers;         ///< of the map
 } lobe_map_kind;
 
 /// Adds the pass that makes the map, and the reduction. The material has a normal or a width map.

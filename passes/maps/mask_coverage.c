@@ -44,7 +44,7 @@ reduced_map passes_mask_coverage(const filter_context *context, uint32_t index) 
     char name[64];
     snprintf(name, sizeof name, "kept colours of material %u", index);
     reduced_map map = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
-                                                 constants.width, constants.height, 1);
+                                                 constants.width, constants.height, 1, true);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "mask_coverage");
     lobe_pass_read(
         pass, &(lobe_binding){.name = "base_colour_map",

@@ -4,6 +4,7 @@ const lobe_map_kind passes_averaged_parameters = {
     .content = "averaged parameters",
     .pass = "parameter_averaging",
     .shader = "maps/parameter_averaging.comp",
+    .seen_shader = "maps/parameter_averaging_seen_tiles.comp",
     .binding = "parameter_map",
     .layers = 1,
 };

@@ -6,6 +6,7 @@ const lobe_map_kind passes_slope_moments = {
     .content = "slope moments",
     .pass = "slope_moments",
     .shader = "maps/slope_moments.comp",
+    .seen_shader = "maps/slope_moments_seen_tiles.comp",
     .binding = "moment_map",
     .layers = SLOPE_LAYERS,
 };

@@ -29,8 +29,10 @@ static void forget_scene(lobe_renderer *renderer) {
     lobe_release(renderer->appearances);
     passes_draw_list_destroy(&renderer->draws);
     lobe_release(renderer->filtered_images);
+    lobe_release(renderer->first_marks);
     renderer->appearances = NULL;
     renderer->filtered_images = NULL;
+    renderer->first_marks = NULL;
     renderer->reported_filter = NULL;
     passes_environment_light_forget(&renderer->environment);
 }
@@ -62,8 +64,10 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     renderer->filtered_images =
         lobe_allocate(renderer->host.allocator, scene->image_count + scene->material_count + 1,
                       sizeof *renderer->filtered_images);
+    renderer->first_marks = lobe_allocate(renderer->host.allocator, scene->material_count + 1,
+                                          sizeof *renderer->first_marks);
     if (passes_draw_list_create(&renderer->draws, scene, renderer->host.allocator) &&
-        renderer->appearances && renderer->filtered_images)
+        renderer->appearances && renderer->filtered_images && renderer->first_marks)
         return LOBE_OK;
     forget_scene(renderer);
     return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",

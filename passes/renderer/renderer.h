@@ -5,6 +5,7 @@
 
 #include "passes/environment/light.h"
 #include "passes/filters/slots.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/renderer/draw_list.h"
 
 struct lobe_renderer {
@@ -14,6 +15,8 @@ struct lobe_renderer {
     device_scene *scene;              ///< NULL: none is set
     filtered_appearance *appearances; ///< one per instance of the scene
     draw_list draws;
+    uint32_t *first_marks;              ///< one per material, see passes/maps/seen_tiles.h
+    uint32_t marked_frames;             ///< in which tiles were marked
     lobe_resource *filtered_images;     ///< one per image of the scene, then one per material
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
@@ -30,6 +33,7 @@ typedef struct rendering {
     environment_work environment;
     lobe_settings settings;
     filtered_images images;
+    tile_marks tile_marks;
     uint32_t width, height; ///< pixels
 } rendering;
 

@@ -107,22 +107,14 @@ shading_light passes_shading_light_prepare(const filter_context *context,
                            .environment = passes_environment_light_build(context, work)};
 }
 
-static lobe_resource upload_frame(const shading *s, light_part lights,
-                                  const shading_targets *targets) {
-    const filter_context *context = s->context;
-    const shading_sample *sample = s->sample;
+struct frame_constants passes_frame_constants(const filter_context *context,
+                                              const shading_sample *sample, uint32_t width,
+                                              uint32_t height) {
     const lobe_scene *scene = context->scene->scene;
-    struct frame_constants frame = {
-        .directional_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_DIRECTIONAL),
-        .point_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_POINT),
-        .spot_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_SPOT),
-        .footprint = sample->footprint,
-        .dither = sample->dither,
-        .first_light = lights.first,
-    };
+    struct frame_constants frame = {.footprint = sample->footprint, .dither = sample->dither};
     mat4 matrix;
-    passes_camera_projection(context->view.camera, targets->width, targets->height,
-                             sample->position, scene->minimum, scene->maximum, matrix);
+    passes_camera_projection(context->view.camera, width, height, sample->position, scene->minimum,
+                             scene->maximum, matrix);
     memcpy(frame.world_to_clip, matrix, sizeof matrix);
     mat3 rotation;
     passes_camera_rotation(context->view.camera, rotation);
@@ -134,7 +126,18 @@ static lobe_resource upload_frame(const shading *s, light_part lights,
     memcpy(frame.eye, vector, sizeof vector);
     passes_camera_axis(context->view.camera, vector);
     memcpy(frame.axis, vector, sizeof vector);
-    return lobe_graph_upload(context->graph, "frame", &frame, sizeof frame);
+    return frame;
+}
+
+static lobe_resource upload_frame(const shading *s, light_part lights,
+                                  const shading_targets *targets) {
+    struct frame_constants frame =
+        passes_frame_constants(s->context, s->sample, targets->width, targets->height);
+    frame.directional_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_DIRECTIONAL);
+    frame.point_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_POINT);
+    frame.spot_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_SPOT);
+    frame.first_light = lights.first;
+    return lobe_graph_upload(s->context->graph, "frame", &frame, sizeof frame);
 }
 
 static bool draws_background(const filter_context *context, const environment_light *light) {
@@ -257,7 +260,7 @@ static void draw_mask(const drawing *d) {
     const uint32_t constants = occluded;
     lobe_draw draw = {
         .vertex_shader = "shading/background.vert",
-        .fragment_shader = "shading/sample_mask.frag",
+        .fragment_shader = "shading/samples/sample_mask.frag",
         .index_count = 3,
         .depth_write = true,
         .constants = &constants,

@@ -41,6 +41,11 @@ typedef struct shading_light {
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 
+/// The constants of a picture of `width` x `height` pixels, without lights.
+struct frame_constants passes_frame_constants(const filter_context *context,
+                                              const shading_sample *sample, uint32_t width,
+                                              uint32_t height);
+
 /// Adds the passes that draw all instances with the filter's shader: one, unless there are many
 /// lights (passes/renderer/light_parts.h).
 /// `selection`: NULL: all pixels.

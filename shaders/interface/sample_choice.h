@@ -15,7 +15,7 @@ struct key_sum {
 INTERFACE_SIZE(key_sum, 16)
 INTERFACE_OFFSET(key_sum, pixels, 4)
 
-// Push constants of shading/sample_choice.comp.
+// Push constants of shading/samples/sample_choice.comp.
 struct sample_choice_constants {
     uint most;         // samples of a pixel that needs more than one
     uint everywhere;   // bool: all pixels do

@@ -44,6 +44,7 @@
 #define SPECIALISE_FILTERED_MAPS  SPECIALISE(35) // uint, bit MAP_...: there is a filtered map
 #define SPECIALISE_MAGNIFIED_MAPS SPECIALISE(36) // uint, bit MAP_...: pixels may use its level 0
 #define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
+#define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
 // The first of the filters' own, which are in their headers; no two of any filters are the same.
 #define SPECIALISE_FILTER SPECIALISE(40)
 

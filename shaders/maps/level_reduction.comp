@@ -1,18 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
-// One MIP level of an array of linear maps from the level above it, at any size.
+// One MIP level of an array of linear maps from the level above it, at any size; with SEEN_TILES,
+// of its listed tiles alone.
 
 #include "lib/map/box_reduction.glsl"
+#include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(push_constant) uniform constants_block { uint level; };
 layout(set = 0, binding = 0) uniform sampler2DArray source;
 layout(set = 0, binding = 1) uniform writeonly image2DArray target;
 
 void main() {
     ivec3 position = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(position, imageSize(target))))
+    if (!find_target_texel(level, imageSize(target).xy, position.xy))
         return;
     ivec2 size = textureSize(source, 0).xy;
     vec3 column_weights = box_weights(size.x, position.x);

@@ -1,11 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
 // Three MIP levels at once through shared memory, where the source's width and height are
-// multiples of eight: every source texel is read once, every target texel written once.
+// multiples of eight: every source texel is read once, every target texel written once. With
+// SEEN_TILES, what is made from the listed tiles of the first of them.
+
+#include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(push_constant) uniform constants_block { uint level; }; // the first that is made
 layout(set = 0, binding = 0) uniform sampler2DArray source;
 layout(set = 0, binding = 1) uniform writeonly image2DArray target_1;
 layout(set = 0, binding = 2) uniform writeonly image2DArray target_2;
@@ -15,7 +20,10 @@ shared vec4 tile[8][8];
 
 void main() {
     ivec2 local = ivec2(gl_LocalInvocationID.xy);
-    ivec2 group = ivec2(gl_WorkGroupID.xy);
+    ivec2 group;
+    if (!find_target_square(level, group))
+        return;
+    group /= 8;
     int layer = int(gl_WorkGroupID.z);
 
     // Level 1: an 8x8 block per group, four source texels per invocation.

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
 // The finest level of the map of `mipmap`: normals and concentrations averaged like colours.
 // Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
@@ -7,6 +8,7 @@
 #include "maps/base_maps.glsl"
 #include "interface/lobe_grid.h"
 #include "lib/map/box_reduction.glsl"
+#include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -15,8 +17,8 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray parameter_map;
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void main() {
-    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(position, imageSize(parameter_map).xy)))
+    ivec2 position;
+    if (!find_target_texel(constants.level, imageSize(parameter_map).xy, position))
         return;
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
 // The finest level of a map of slope moments, from the base maps: Olano, Baker 2010, LEAN Mapping,
 // section 3; Dupuy et al. 2013, section 4.1. All are means of powers, which stay correct under any
@@ -10,6 +11,7 @@
 #include "interface/lobe_grid.h"
 #include "interface/slope_moments.h"
 #include "lib/map/box_reduction.glsl"
+#include "maps/target_texel.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/microfacet/slope_distribution.glsl"
 
@@ -46,8 +48,8 @@ void add_point(inout moment_sums sums, vec3 normal, float factor, float weight) 
 }
 
 void main() {
-    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(position, imageSize(moment_map).xy)))
+    ivec2 position;
+    if (!find_target_texel(constants.level, imageSize(moment_map).xy, position))
         return;
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);

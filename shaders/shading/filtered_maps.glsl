@@ -4,14 +4,12 @@
 // Reading maps over a pixel's footprint. A filtered map holds levels 1 and up of its base map (its
 // own level 0 has half the base map's size); level 0 is the base map itself.
 
-#include "lib/map/footprint.glsl"
+#include "shading/map_area.glsl"
 #include "shading/unfiltered_maps.glsl"
 
-layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
 layout(constant_id = SPECIALISE_ANISOTROPY) const uint ANISOTROPY = 1; // of a probe, at most
 layout(constant_id = SPECIALISE_FILTERED_LOBES) const bool FILTERED_LOBES = false;
 layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
-layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
 
 layout(LOBE_DESCRIPTOR(17)) uniform sampler2D base_colour_filtered;
@@ -19,76 +17,6 @@ layout(LOBE_DESCRIPTOR(18)) uniform sampler2D width_filtered;
 layout(LOBE_DESCRIPTOR(19)) uniform sampler2D specular_filtered;
 layout(LOBE_DESCRIPTOR(20)) uniform sampler2D emissive_filtered;
 layout(LOBE_DESCRIPTOR(21)) uniform sampler2D occlusion_filtered;
-
-// How much longer than the extent of its probes a footprint may be, in widths.
-const float SLACK = 0.25;
-
-// Where and over which area a map is read.
-struct map_area {
-    vec2 centre; // texture coordinates
-    vec2 stride; // from probe to probe, along the major axis
-    vec2 along;  // axes of a probe's ellipse, for an anisotropic sampler
-    vec2 across;
-    float level; // of the base map, at least 0; that of a round probe
-    uint probes;
-};
-
-uint probes_of(map_area area) {
-    return PROBES > 1u ? area.probes : 1u;
-}
-
-// As many probes as the footprint's ratio of length to width.
-uint probes_needed(footprint pixel) {
-    float length = pixel.major_axis / max(max(pixel.minor_axis, 1e-6 * pixel.major_axis), 1e-30);
-    return uint(clamp(ceil(length - SLACK), 1.0, float(PROBES)));
-}
-
-// Whether a pixel of this draw may see level 0 of a map.
-bool may_see_level_0(int map) {
-    return (MAGNIFIED_MAPS & (1u << map)) != 0u;
-}
-
-// `size`: texels of the base map.
-map_area area_of(int map, vec2 size, surface_point surface) {
-    footprint pixel =
-        footprint_of(map_coordinates(map, surface.coordinates_dx, 0.0) * size,
-                     map_coordinates(map, surface.coordinates_dy, 0.0) * size);
-    map_area area;
-    area.centre = map_coordinates(map, surface.coordinates, 1.0);
-    area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
-    float probes = float(probes_of(area));
-    area.stride = pixel.direction * (pixel.major_axis / probes) / size;
-    // The bias is a factor of the width that a sampler filters. The length must not fall below the
-    // pixel's: its ends would not be seen.
-    float factor = exp2(knobs.level_bias);
-    area.along = max(factor, 1.0) * area.stride;
-    area.across = factor * vec2(-pixel.direction.y, pixel.direction.x) * pixel.minor_axis / size;
-    area.level = max(level_of(pixel, probes) + knobs.level_bias, may_see_level_0(map) ? 0.0 : 1.0);
-    return area;
-}
-
-// The larger of the maps that lobes come from, in texels.
-vec2 lobe_map_size() {
-    vec2 size = vec2(1.0);
-    if (has_map(MAP_NORMAL))
-        size = max(size, vec2(textureSize(normal_map, 0)));
-    if (has_map(MAP_WIDTH))
-        size = max(size, vec2(textureSize(width_map, 0)));
-    return size;
-}
-
-// The lobes' footprint uses the coordinates of the normal map, or of the width map without one.
-int lobe_map() {
-    return has_map(MAP_NORMAL) ? MAP_NORMAL : MAP_WIDTH;
-}
-
-map_area lobe_area(surface_point surface) {
-    return area_of(lobe_map(), lobe_map_size(), surface);
-}
-
-vec2 probe_position(map_area area, uint probe) {
-    return area.centre + area.stride * (float(probe) - 0.5 * float(probes_of(area) - 1u));
-}
 
 // One probe of a filtered map; the second, of one of its layers. An anisotropic sampler takes the
 // level of the ellipse's width, and spreads its own samples along the length. Gradients of texture

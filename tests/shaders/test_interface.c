@@ -18,6 +18,7 @@
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/light.h"
 #include "shaders/interface/lobe_grid.h"
+#include "shaders/interface/map_tiles.h"
 #include "shaders/interface/mask.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/mixture.h"
@@ -49,6 +50,23 @@ static known_member known[] = {
     MEMBER(background_constants, down, 2),
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
+    MEMBER(lobe_grid_constants, level, 2),
+    MEMBER(tile_level, first_mark, 0),
+    MEMBER(tile_level, columns, 1),
+    MEMBER(tile_level, width, 2),
+    MEMBER(tile_level, height, 3),
+    MEMBER(tile_list_constants, first_mark, 0),
+    MEMBER(tile_list_constants, width, 1),
+    MEMBER(tile_list_constants, height, 2),
+    MEMBER(tile_list_constants, levels, 3),
+    MEMBER(tile_list_constants, layers, 4),
+    MEMBER(tile_list_constants, content, 5),
+    MEMBER(tile_list_constants, forgets, 6),
+    MEMBER(tile_list_constants, reduced, 7),
+    MEMBER(tile_marking_constants, count, 0),
+    MEMBER(tile_marking_constants, wrap_u, 1),
+    MEMBER(tile_marking_constants, wrap_v, 2),
+    MEMBER(tile_marking_constants, levels, 4),
     MEMBER(mask_constants, width, 0),
     MEMBER(mask_constants, height, 1),
     MEMBER(mask_constants, interpolated, 2),

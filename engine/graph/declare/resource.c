@@ -229,6 +229,15 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
     return declare(graph, &resource, description->retained);
 }
 
+bool lobe_graph_has_content(const lobe_graph *graph, lobe_resource resource) {
+    const engine_graph_resource *found = find_resource(graph, resource);
+    const engine_graph_retained *kept = found ? found->retained : NULL;
+    for (uint32_t i = 0; kept && i < kept->subresource_count; i++)
+        if (kept->stamps[i] == ENGINE_STAMP_NONE)
+            return false;
+    return kept != NULL;
+}
+
 // ---------------------------------------------------------------------------------------------
 // What comes from the host
 

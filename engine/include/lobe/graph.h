@@ -108,6 +108,10 @@ LOBE_API lobe_resource lobe_graph_image(lobe_graph *graph,
 LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
                                          const lobe_buffer_description *description);
 
+/// Whether passes of this frame may read all of a retained image or buffer before any has written
+/// it: all of it has content of earlier frames.
+LOBE_API bool lobe_graph_has_content(const lobe_graph *graph, lobe_resource resource);
+
 /// Creates a texture or buffer of a graph, for content that changes between frames. Only frames of
 /// this graph may use it, and only the graph's thread. What it is given, now and by
 /// lobe_texture_update, lobe_texture_update_part and lobe_buffer_update, is copied during the call

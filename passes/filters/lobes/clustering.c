@@ -8,6 +8,7 @@
 #include "passes/context/camera.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/maps/surface_atlas.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/clustering_atlas.h"
@@ -74,28 +75,29 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
     else
         snprintf(name, sizeof name, "mixture of instance %zu", instance);
-    mixture.map = passes_reduced_map_declare(context->graph, name, mixture.format, grid.width,
-                                             grid.height, layers + (request->mean ? 1 : 0));
+    layers += request->mean ? 1 : 0;
+    mixture.map =
+        space == LOBE_SPACE_TANGENT
+            ? passes_seen_map_declare(context, drawn->material, name, mixture.format, layers, true)
+            : passes_reduced_map_declare(context->graph, name, mixture.format, grid.width,
+                                         grid.height, layers, true);
 
     surface_atlas atlas = {0};
     if (space != LOBE_SPACE_TANGENT)
         atlas = passes_surface_atlas_draw(context, instance, grid.width, grid.height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
     passes_base_maps_read(context, material, false, pass);
-    mixture.map.resource =
-        lobe_pass_write(pass, &(lobe_binding){"mixture_map", mixture.map.resource,
-                                              .range = {0, 1, 0, mixture.map.layers}});
-
+    passes_reduced_map_write(&mixture.map, pass, "mixture_map", 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, request->subdivision);
     passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
-    struct lobe_grid_constants tangent_constants = {grid.width, grid.height};
+    struct lobe_grid_constants tangent_constants = {.width = grid.width, .height = grid.height};
     struct atlas_constants atlas_constants = {.width = grid.width, .height = grid.height};
     lobe_dispatch dispatch = {
-        .shader = "filters/lobes/clustering.comp",
-        .threads = {mixture.map.width, mixture.map.height, 1},
+        .shader = mixture.map.tiles.version > 0 ? "filters/lobes/clustering_seen_tiles.comp"
+                                                : "filters/lobes/clustering.comp",
         .constants = &tangent_constants,
         .constants_size = sizeof tangent_constants,
         .specialisation = list.items,
@@ -111,6 +113,6 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
         dispatch.constants = &atlas_constants;
         dispatch.constants_size = sizeof atlas_constants;
     }
-    lobe_pass_dispatch(pass, &dispatch);
+    passes_reduced_map_dispatch(&mixture.map, pass, 0, 1, &dispatch);
     return mixture;
 }

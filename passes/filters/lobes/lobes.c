@@ -6,6 +6,7 @@
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/transform.h"
@@ -89,6 +90,7 @@ static const filter_knob *const knobs[] = {
     &passes_knob_bias,
     &passes_knob_curvature,
     &passes_knob_storage,
+    &passes_knob_built,
     NULL,
 };
 

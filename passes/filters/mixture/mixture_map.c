@@ -196,8 +196,9 @@ moment_map passes_mixture_map(const filter_context *context, uint32_t index,
     char name[64];
     snprintf(name, sizeof name, "mixtures of material %u", index);
     const uint32_t layers = layer_count(kind);
-    build.target.map = passes_reduced_map_declare(
-        context->graph, name, kind->format, build.samples.width, build.samples.height, layers);
+    build.target.map =
+        passes_reduced_map_declare(context->graph, name, kind->format, build.samples.width,
+                                   build.samples.height, layers, true);
     snprintf(name, sizeof name, "units of material %u", index);
     add_root(&build, name);
     for (uint32_t level = build.target.map.levels; level-- > 0;)

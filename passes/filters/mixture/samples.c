@@ -45,7 +45,7 @@ mixture_samples passes_mixture_samples(const filter_context *context, uint32_t i
     passes_knob_specialise(context, &passes_knob_base, &list);
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, own_colours);
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, plane);
-    const struct lobe_grid_constants constants = {grid.width, grid.height};
+    const struct lobe_grid_constants constants = {.width = grid.width, .height = grid.height};
     const uint32_t columns = (grid.width + MIXTURE_TILE - 1) / MIXTURE_TILE;
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){

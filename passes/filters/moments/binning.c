@@ -5,6 +5,7 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
 
@@ -18,34 +19,44 @@ static void specialise_binning(const filter_context *context, const device_mater
     passes_specialise(list, SPECIALISE_BIN_COLOUR, colour);
 }
 
-moment_map passes_moment_binning(const filter_context *context, uint32_t index,
-                                 const moment_partition *partition, lobe_resource bins,
-                                 lobe_format format) {
-    const bool colour = partition->own_colours;
+/// Adds the pass that makes a level from the base maps. `samples`: along each axis of a texel; 0:
+/// of level 0, all texels that it covers.
+static void add_level(const filter_context *context, uint32_t index,
+                      const moment_partition *partition, moment_map *moments, uint32_t level,
+                      uint32_t samples) {
+    const bool colour = partition->own_colours, seen = moments->map.tiles.version > 0;
     const device_material *material = &context->scene->materials[index];
-    char name[64];
-    snprintf(name, sizeof name, "moments of material %u", index);
-    uint32_t layers = colour ? 3 * partition->bins + 1 : 2 * partition->bins;
-    moment_map result = {.format = format, .bins = bins};
-    result.map = passes_reduced_map_declare(context->graph, name, format, partition->width,
-                                            partition->height, layers);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_binning");
     passes_base_maps_read(context, material, colour, pass);
     passes_colour_maps_read(context, material, colour, pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
-    result.map.resource = lobe_pass_write(
-        pass, &(lobe_binding){"moment_map", result.map.resource, .range = {0, 1, 0, layers}});
+    lobe_pass_read(pass, &(lobe_binding){.name = "binning_block", .resource = moments->bins});
+    passes_reduced_map_write(&moments->map, pass, "moment_map", level);
     specialisation_list list = {.graph = context->graph};
     specialise_binning(context, material, partition, colour, &list);
-    const struct lobe_grid_constants constants = {partition->width, partition->height};
-    lobe_pass_dispatch(pass, &(lobe_dispatch){
-                                 .shader = "filters/moments/binning.comp",
-                                 .threads = {result.map.width, result.map.height, 1},
-                                 .constants = &constants,
-                                 .constants_size = sizeof constants,
-                                 .specialisation = list.items,
-                                 .specialisation_count = list.count,
-                             });
-    passes_level_reduction(context->graph, &result.map);
+    passes_specialise(&list, SPECIALISE_TEXEL_SAMPLES, samples);
+    const struct lobe_grid_constants constants = {partition->width, partition->height, level};
+    lobe_dispatch dispatch = {.shader = seen ? "filters/moments/binning_seen_tiles.comp"
+                                             : "filters/moments/binning.comp",
+                              .constants = &constants,
+                              .constants_size = sizeof constants,
+                              .specialisation = list.items,
+                              .specialisation_count = list.count};
+    passes_reduced_map_dispatch(&moments->map, pass, level, 1, &dispatch);
+}
+
+moment_map passes_moment_binning(const filter_context *context, uint32_t index,
+                                 const moment_partition *partition, lobe_resource bins,
+                                 lobe_format format) {
+    char name[64];
+    snprintf(name, sizeof name, "moments of material %u", index);
+    const uint32_t layers = partition->own_colours ? 3 * partition->bins + 1 : 2 * partition->bins;
+    const uint32_t samples = passes_texel_samples(context);
+    moment_map result = {.format = format, .bins = bins};
+    result.map = passes_seen_map_declare(context, index, name, format, layers, samples == 0);
+    add_level(context, index, partition, &result, 0, 0);
+    for (uint32_t level = 1; samples > 0 && level < result.map.levels; level++)
+        add_level(context, index, partition, &result, level, samples);
+    if (samples == 0)
+        passes_level_reduction(context->graph, &result.map);
     return result;
 }

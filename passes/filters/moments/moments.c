@@ -9,6 +9,7 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/moment_map.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"
@@ -58,6 +59,8 @@ static const filter_knob *const knobs[] = {
     &passes_knob_bias,
     &passes_knob_curvature,
     &passes_knob_bin_storage,
+    &passes_knob_built,
+    &passes_knob_texel_samples,
     &passes_knob_normal_mapping,
     NULL,
 };

@@ -55,7 +55,7 @@ static void choose(const filter_context *context, lobe_resource radiance, bool b
         lobe_pass_write(pass, &(lobe_binding){.name = "counts", .resource = choice->counts});
     choice->list =
         lobe_pass_modify(pass, &(lobe_binding){.name = "list_block", .resource = choice->list});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/sample_choice.comp",
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/samples/sample_choice.comp",
                                               .threads = {view->width, view->height, 1},
                                               .constants = &constants,
                                               .constants_size = sizeof constants});
@@ -90,7 +90,7 @@ static void write_arguments(const filter_context *context, const draw_list *list
         pass, &(lobe_binding){.name = "count_block", .resource = upload_counts(context, list)});
     choice->arguments = lobe_pass_write(
         pass, &(lobe_binding){.name = "argument_block", .resource = choice->arguments});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/sample_arguments.comp",
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/samples/sample_arguments.comp",
                                               .threads = {1 + draws, 1, 1},
                                               .constants = &draws,
                                               .constants_size = sizeof draws});

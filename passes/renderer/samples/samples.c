@@ -57,7 +57,7 @@ static lobe_resource add_sample(const filter_context *context, const sample_choi
     lobe_pass_read(pass, &(lobe_binding){.name = "list_block", .resource = choice->list});
     lobe_pass_read(pass, &(lobe_binding){.name = "radiance", .resource = radiance});
     sum = lobe_pass_modify(pass, &(lobe_binding){.name = "sum", .resource = sum});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/sample_addition.comp",
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/samples/sample_addition.comp",
                                               .constants = &index,
                                               .constants_size = sizeof index,
                                               .indirect = choice->arguments});
@@ -107,7 +107,7 @@ static void resolve(const filter_context *context, lobe_resource counts, lobe_re
                                             .load = keep ? LOBE_LOAD_KEEP : LOBE_LOAD_DISCARD});
     lobe_pass_draw(pass, &(lobe_draw){
                              .vertex_shader = "shading/background.vert",
-                             .fragment_shader = "shading/sample_resolution.frag",
+                             .fragment_shader = "shading/samples/sample_resolution.frag",
                              .index_count = 3,
                              .blend = keep ? LOBE_BLEND_ALPHA : LOBE_BLEND_OFF,
                              .specialisation = &view,

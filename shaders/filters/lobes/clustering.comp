@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
 // The finest level of a map of lobe mixtures in tangent space, directly from the base maps: the
 // instant BRDF map of Xu et al. 2017 has one lobe per texel, so it needs no memory of its own. The
@@ -7,14 +8,15 @@
 
 #include "interface/lobe_grid.h"
 #include "filters/lobes/clustering.glsl"
+#include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void main() {
-    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(position, imageSize(mixture_map).xy)))
+    ivec2 position;
+    if (!find_target_texel(constants.level, imageSize(mixture_map).xy, position))
         return;
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);

@@ -1,21 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SEEN_TILES
 
 // The finest level of a map of lobe moments: every base lobe of the texels under a target texel
 // adds its mass, place, second moments of the place, sharpness and variance in the Lambert plane to
 // the bins that it belongs to. All of these are sums, so that filtering the map linearly filters
 // the lobes. The texels' own lobes are level 0; the map starts where texels are averaged.
+//
+// With SEEN_TILES, only the tiles that are listed, of any level: its texels are then made from as
+// many points of the base maps as the knob `texel_samples` says.
 
 #include "maps/plane_lobes.glsl"
 #include "interface/lobe_grid.h"
 #include "lib/lobe/bin_membership.glsl"
 #include "lib/map/box_reduction.glsl"
+#include "lib/number/hash.glsl"
+#include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_PARTITION) const uint PARTITION = PARTITION_FITTED;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
+
+// Along each axis of a texel; 0: all texels that it covers, which are those of a finest level.
+layout(constant_id = SPECIALISE_TEXEL_SAMPLES) const uint TEXEL_SAMPLES = 0;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
 layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_constants binning; };
@@ -91,19 +100,10 @@ void add_point(inout bin_sums sums, vec2 point, float weight) {
         add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
 }
 
-void main() {
-    ivec2 position = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(position, imageSize(moment_map).xy)))
-        return;
+void add_all_texels(inout bin_sums sums, ivec2 position) {
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);
     vec3 row_weights = box_weights(size.y, position.y);
-    bin_sums sums;
-    sums.diffuse = vec3(0.0);
-    for (int i = 0; i < BINS; ++i) {
-        sums.place[i] = sums.spread[i] = vec4(0.0);
-        sums.colour[i] = vec4(0.0);
-    }
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             float weight = row_weights[y] * column_weights[x] / float(POINTS);
@@ -111,6 +111,44 @@ void main() {
                 add_point(sums, map_point(2 * position + ivec2(x, y), i, size), weight);
         }
     }
+}
+
+#ifdef SEEN_TILES
+// One point in each square of a grid, at random: a regular grid would miss what repeats with it.
+void add_samples(inout bin_sums sums, ivec2 position, ivec2 extent) {
+    uint seed = hash(uint(position.x) + hash(uint(position.y) + hash(constants.level)));
+    for (uint y = 0u; y < TEXEL_SAMPLES; ++y) {
+        for (uint x = 0u; x < TEXEL_SAMPLES; ++x) {
+            uint number = seed + 2u * (y * TEXEL_SAMPLES + x);
+            vec2 place = vec2(x, y) + vec2(hashed_number(number), hashed_number(number + 1u));
+            add_point(sums, (vec2(position) + place / float(TEXEL_SAMPLES)) / vec2(extent),
+                      1.0 / float(TEXEL_SAMPLES * TEXEL_SAMPLES));
+        }
+    }
+}
+#endif
+
+void add_points(inout bin_sums sums, ivec2 position, ivec2 extent) {
+#ifdef SEEN_TILES
+    if (TEXEL_SAMPLES > 0u) {
+        add_samples(sums, position, extent);
+        return;
+    }
+#endif
+    add_all_texels(sums, position);
+}
+
+void main() {
+    ivec2 position, extent = imageSize(moment_map).xy;
+    if (!find_target_texel(constants.level, extent, position))
+        return;
+    bin_sums sums;
+    sums.diffuse = vec3(0.0);
+    for (int i = 0; i < BINS; ++i) {
+        sums.place[i] = sums.spread[i] = vec4(0.0);
+        sums.colour[i] = vec4(0.0);
+    }
+    add_points(sums, position, extent);
     int layers = BIN_COLOUR ? 3 : 2;
     for (int i = 0; i < BINS; ++i) {
         imageStore(moment_map, ivec3(position, layers * i), sums.place[i]);

@@ -145,7 +145,7 @@ static size_t reduce_texture(fixture *f, uint32_t width, uint32_t height, lobe_f
     reference_layers exact = random_layers(size, format);
     lobe_texture *texture = upload_layer(f->device, &exact, 0, format);
     lobe_graph_begin(f->graph);
-    reduced_map map = passes_reduced_map_declare(f->graph, "half", format, width, height, 1);
+    reduced_map map = passes_reduced_map_declare(f->graph, "half", format, width, height, 1, true);
     passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture), width,
                                 height);
     lobe_graph_read_back(f->graph, map.resource, (lobe_range){0});
@@ -204,7 +204,7 @@ static void the_mean_is_kept(void **state) {
         lobe_texture *texture = upload_layer(f->device, &layers, 0, LOBE_FORMAT_RGBA32_FLOAT);
         lobe_graph_begin(f->graph);
         reduced_map map = passes_reduced_map_declare(f->graph, "half", LOBE_FORMAT_RGBA32_FLOAT,
-                                                     sizes[i].width, sizes[i].height, 1);
+                                                     sizes[i].width, sizes[i].height, 1, true);
         passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture),
                                     sizes[i].width, sizes[i].height);
         lobe_graph_read_back(f->graph, map.resource, (lobe_range){map.levels - 1, 1, 0, 1});
@@ -226,8 +226,8 @@ static void a_still_map_is_not_reduced_again(void **state) {
     float first[4] = {0};
     for (int frame = 0; frame < 2; frame++) {
         lobe_graph_begin(f->graph);
-        reduced_map map =
-            passes_reduced_map_declare(f->graph, "still", LOBE_FORMAT_RGBA32_FLOAT, 96, 40, 1);
+        reduced_map map = passes_reduced_map_declare(f->graph, "still", LOBE_FORMAT_RGBA32_FLOAT,
+                                                     96, 40, 1, true);
         passes_level_reduction_from(f->graph, &map, lobe_graph_import_texture(f->graph, texture),
                                     96, 40);
         lobe_graph_read_back(f->graph, map.resource, (lobe_range){map.levels - 1, 1, 0, 1});

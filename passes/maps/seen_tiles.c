@@ -1,0 +1,156 @@
+#include "passes/maps/seen_tiles.h"
+
+#include <stdio.h>
+
+#include "passes/context/knob_values.h"
+#include "passes/context/sample_count.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/map_tiles.h"
+
+static const char *const extents[] = {"whole", "seen", NULL};
+static const char *const sample_numbers[] = {"all", "4", "16", "64", NULL};
+
+const filter_knob passes_knob_built = {
+    .description = {.name = "built",
+                    .summary = "what is made of the material's map: the whole; or, with samples=1, "
+                               "only tiles that pixels read, for large maps that change often",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = extents},
+    .needs = "fragmentStoresAndAtomics",
+};
+const filter_knob passes_knob_texel_samples = {
+    .description = {.name = "texel_samples",
+                    .summary = "with built=seen: how many points of the base maps a texel of a "
+                               "level above the first is made from; all: it is their exact mean",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 3,
+                    .choices = sample_numbers},
+};
+
+bool passes_wants_seen_tiles(const filter_context *context) {
+    const sample_count samples = passes_sample_count(context);
+    return passes_knob_choice(context, &passes_knob_built) > 0 && samples.most == 1 &&
+           passes_knob_choice(context, &passes_knob_anisotropy) == 1;
+}
+
+uint32_t passes_texel_samples(const filter_context *context) {
+    const uint32_t choice = passes_knob_choice(context, &passes_knob_texel_samples);
+    return context->marks && choice > 0 ? 1u << choice : 0;
+}
+
+static uint32_t extent_at(uint32_t size, uint32_t level) {
+    return size >> level > 0 ? size >> level : 1;
+}
+
+static uint32_t tiles_of(uint32_t extent) {
+    return (extent + MAP_TILE - 1) / MAP_TILE;
+}
+
+uint32_t passes_map_tile_levels(uint32_t width, uint32_t height, uint32_t first_mark,
+                                struct tile_level levels[MAP_TILE_LEVELS]) {
+    width = passes_half_extent(width);
+    height = passes_half_extent(height);
+    const uint32_t count = passes_level_count(width, height);
+    for (uint32_t i = 0; i < count; i++) {
+        levels[i] = (struct tile_level){.first_mark = first_mark,
+                                        .columns = tiles_of(extent_at(width, i)),
+                                        .width = extent_at(width, i),
+                                        .height = extent_at(height, i)};
+        first_mark += levels[i].columns * tiles_of(levels[i].height);
+    }
+    return count;
+}
+
+uint32_t passes_map_tile_count(uint32_t width, uint32_t height) {
+    struct tile_level levels[MAP_TILE_LEVELS];
+    const uint32_t count = passes_map_tile_levels(width, height, 0, levels);
+    return levels[count - 1].first_mark + 1;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Content
+
+static uint32_t mix(uint32_t digest, const void *bytes, size_t size) {
+    const uint8_t *byte = bytes;
+    for (size_t i = 0; i < size; i++)
+        digest = (digest ^ byte[i]) * 16777619u; // FNV-1a
+    return digest;
+}
+
+static bool is_given(const device_scene *scene, const device_material *material) {
+    bool given = false;
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        given |=
+            material->maps[map].use && scene->scene->images[material->maps[map].image].on_device;
+    return given;
+}
+
+/// A number, above 0, of what tiles are made from.
+static uint32_t content_of(const filter_context *context, const device_material *material) {
+    const tile_marks *marks = context->marks;
+    uint32_t digest = mix(2166136261u, &material->version, sizeof material->version);
+    digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
+    digest = mix(digest, context->settings, sizeof *context->settings);
+    if (marks->rebuild || is_given(context->scene, material))
+        digest = mix(digest, &marks->frame, sizeof marks->frame);
+    return digest > 0 ? digest : 1;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The list
+
+/// A retained buffer, or one of this frame.
+static lobe_resource declare_numbers(lobe_graph *graph, const char *name, uint32_t count,
+                                     bool retained) {
+    return lobe_graph_buffer(graph, &(lobe_buffer_description){.name = name,
+                                                               .size = count * sizeof(uint32_t),
+                                                               .retained = retained});
+}
+
+static void list_tiles(const filter_context *context, uint32_t index, const char *name,
+                       bool reduced, reduced_map *map) {
+    lobe_graph *graph = context->graph;
+    const device_material *material = &context->scene->materials[index];
+    const uint32_t count =
+        passes_map_tile_count(passes_lobe_grid(material).width, passes_lobe_grid(material).height);
+    char states_name[96], list_name[96];
+    snprintf(states_name, sizeof states_name, "tiles of %s", name);
+    snprintf(list_name, sizeof list_name, "tile list of %s", name);
+    lobe_resource states = declare_numbers(graph, states_name, count, true);
+    lobe_resource list =
+        declare_numbers(graph, list_name, MAP_TILE_LEVELS * MAP_TILE_RECORD + 2 * count, false);
+    map->keeps =
+        lobe_graph_has_content(graph, states) && lobe_graph_has_content(graph, map->resource);
+    const struct tile_list_constants constants = {
+        .first_mark = context->marks->first_marks[index],
+        .width = map->width,
+        .height = map->height,
+        .levels = map->levels,
+        .layers = map->layers,
+        .content = content_of(context, material),
+        .forgets = !map->keeps,
+        .reduced = reduced,
+    };
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
+    lobe_pass_read(pass, &(lobe_binding){.name = "mark_block", .resource = context->marks->marks});
+    const lobe_binding known = {.name = "state_block", .resource = states};
+    (void)(map->keeps ? lobe_pass_modify(pass, &known) : lobe_pass_write(pass, &known));
+    map->tiles =
+        lobe_pass_write(pass, &(lobe_binding){.name = "tile_list_block", .resource = list});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "maps/tile_list.comp",
+                                              .threads = {1, 1, 1},
+                                              .constants = &constants,
+                                              .constants_size = sizeof constants});
+}
+
+reduced_map passes_seen_map_declare(const filter_context *context, uint32_t index, const char *name,
+                                    lobe_format format, uint32_t layers, bool reduced) {
+    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[index]);
+    reduced_map map = passes_reduced_map_declare(context->graph, name, format, grid.width,
+                                                 grid.height, layers, !context->marks);
+    if (context->marks)
+        list_tiles(context, index, name, reduced, &map);
+    return map;
+}

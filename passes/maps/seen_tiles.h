@@ -1,0 +1,47 @@
+#ifndef PASSES_MAPS_SEEN_TILES_H
+#define PASSES_MAPS_SEEN_TILES_H
+
+#include "passes/context/filter.h"
+#include "passes/maps/level_reduction.h"
+#include "shaders/interface/map_tiles.h"
+
+/// Maps of which only the tiles that a frame's pixels read are made
+/// (shaders/interface/map_tiles.h). A pass marks these tiles before the maps are built
+/// (passes/renderer/tile_marking.h). A tile that was made in an earlier frame, from the same
+/// content, is not made again.
+
+/// Of which tiles a frame's pixels read texels.
+typedef struct tile_marks {
+    lobe_resource marks;         ///< a number for each tile of all maps; above 0: read
+    const uint32_t *first_marks; ///< of each material of the scene
+    /// Of this frame: what the host gives on the device may differ from frame to frame.
+    uint32_t frame;
+    bool rebuild; ///< tiles of earlier frames count as out of date
+} tile_marks;
+
+/// Knobs of filters that can make their maps so.
+extern const filter_knob passes_knob_built, passes_knob_texel_samples;
+
+/// Whether the knobs ask for it, and the frame allows it: one sample for each pixel, no anisotropic
+/// sampler, whose texels are the device's choice.
+bool passes_wants_seen_tiles(const filter_context *context);
+
+/// The knob `texel_samples`, along each axis of a texel; 0: all texels, also where maps are made
+/// whole.
+uint32_t passes_texel_samples(const filter_context *context);
+
+/// Tiles of all levels of a map that is made from `width` x `height` texels.
+uint32_t passes_map_tile_count(uint32_t width, uint32_t height);
+/// Its levels, whose first mark is `first_mark`; returns their number.
+uint32_t passes_map_tile_levels(uint32_t width, uint32_t height, uint32_t first_mark,
+                                struct tile_level levels[MAP_TILE_LEVELS]);
+
+/// As passes_reduced_map_declare, for a map of a material's lobes, from its lobe_grid. If the frame
+/// has tile_marks, adds a pass that lists the tiles to make.
+/// `reduced`: tiles are made from those of the finer level, which are then listed, too. Otherwise
+/// each level is made from the base maps.
+reduced_map passes_seen_map_declare(const filter_context *context, uint32_t material,
+                                    const char *name, lobe_format format, uint32_t layers,
+                                    bool reduced);
+
+#endif

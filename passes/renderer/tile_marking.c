@@ -1,0 +1,139 @@
+#include "passes/renderer/tile_marking.h"
+
+#include "passes/context/knob_values.h"
+#include "passes/filters/material_shading.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/renderer/shading.h"
+#include "passes/upload/device_mesh.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/frame.h"
+#include "shaders/interface/map_tiles.h"
+
+/// Tells each material where its marks are; returns the number of all.
+static uint32_t place_marks(rendering *r) {
+    const device_scene *scene = r->context.scene;
+    uint32_t count = 0;
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        const lobe_grid grid = passes_lobe_grid(&scene->materials[i]);
+        r->renderer->first_marks[i] = count;
+        if (scene->materials[i].first_instance > 0 && passes_lobe_grid_varies(&grid))
+            count += passes_map_tile_count(grid.width, grid.height);
+    }
+    return count;
+}
+
+static lobe_resource clear_marks(lobe_graph *graph, uint32_t count) {
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
+    const lobe_buffer_description marks = {.name = "tile marks", .size = count * sizeof(uint32_t)};
+    return lobe_pass_fill(pass, lobe_graph_buffer(graph, &marks), (lobe_range){0}, (float[4]){0});
+}
+
+// ---------------------------------------------------------------------------------------------
+// Draws
+
+static void list_draws(rendering *r) {
+    const device_scene *scene = r->context.scene;
+    draw_list *draws = &r->renderer->draws;
+    passes_draw_list_begin(draws, scene);
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        const lobe_grid grid = passes_lobe_grid(&scene->materials[i]);
+        uint32_t next = passes_lobe_grid_varies(&grid) ? scene->materials[i].first_instance : 0;
+        for (; next > 0; next = scene->instances[next - 1].next_of_material)
+            if (!scene->scene->instances[next - 1].hidden)
+                passes_draw_list_add(draws, scene, next - 1, NULL, true);
+    }
+    passes_draw_list_end(draws, &r->context);
+}
+
+static lobe_resource upload_map(const rendering *r, uint32_t index) {
+    static const uint wraps[] = {[LOBE_WRAP_REPEAT] = TILE_WRAP_REPEAT,
+                                 [LOBE_WRAP_MIRROR] = TILE_WRAP_MIRROR,
+                                 [LOBE_WRAP_CLAMP] = TILE_WRAP_CLAMP};
+    const device_material *material = &r->context.scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
+    const lobe_sampler sampler = passes_filtered_map_sampler(&r->context, material, grid.map);
+    struct tile_marking_constants constants = {.wrap_u = wraps[sampler.wrap_u],
+                                               .wrap_v = wraps[sampler.wrap_v]};
+    constants.count = passes_map_tile_levels(grid.width, grid.height,
+                                             r->renderer->first_marks[index], constants.levels);
+    return lobe_graph_upload(r->context.graph, "tiles", &constants, sizeof constants);
+}
+
+static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pass *pass) {
+    const filter_context *context = &r->context;
+    const device_scene *scene = context->scene;
+    const device_instance *drawn = &scene->instances[batch->instance];
+    const device_material *material = &scene->materials[drawn->material];
+    lobe_graph *graph = context->graph;
+    const struct draw_constants constants = {.first_instance = batch->first};
+    lobe_binding bindings[4 + MAP_COUNT] = {
+        {.name = "instance_block", .resource = batch->transforms},
+        {.name = "vertex_block", .resource = passes_device_mesh_import(graph, scene, drawn->mesh)},
+        {.name = "material_block",
+         .resource = lobe_graph_import_buffer(graph, material->map_constants)},
+        {.name = "tile_block", .resource = upload_map(r, drawn->material)},
+    };
+    passes_material_maps_bind(context, material, bindings + 4);
+    specialisation_list list = {.graph = graph};
+    passes_material_specialise(material, &list);
+    passes_knobs_specialise(context, &list);
+    passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
+    const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
+    lobe_pass_draw(pass,
+                   &(lobe_draw){
+                       .vertex_shader = "shading/shading.vert",
+                       .fragment_shader = "maps/tile_marking.frag",
+                       .indices = lobe_graph_import_buffer(graph, scene->indices[drawn->mesh]),
+                       .index_count = (uint32_t)scene->scene->meshes[drawn->mesh].index_count,
+                       .instance_count = batch->count,
+                       .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
+                       .depth_test = true,
+                       .depth_write = !material->material->alpha_mask,
+                       .constants = &constants,
+                       .constants_size = sizeof constants,
+                       .specialisation = list.items,
+                       .specialisation_count = list.count,
+                       .bindings = bindings,
+                       .binding_count = 4 + MAP_COUNT,
+                   });
+}
+
+static lobe_resource draw_marks(rendering *r, lobe_resource marks) {
+    static const shading_sample centre = {.position = {0.5f, 0.5f}, .footprint = 1};
+    lobe_graph *graph = r->context.graph;
+    const struct frame_constants frame =
+        passes_frame_constants(&r->context, &centre, r->width, r->height);
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "tile_marking");
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "frame_block",
+                              .resource = lobe_graph_upload(graph, "frame", &frame, sizeof frame)});
+    passes_shared_knobs_bind(&r->context, pass);
+    marks = lobe_pass_modify(pass, &(lobe_binding){.name = "mark_block", .resource = marks});
+    const lobe_resource depth =
+        lobe_graph_image(graph, &(lobe_image_description){.name = "depth of tiles",
+                                                          .format = LOBE_FORMAT_D32_FLOAT,
+                                                          .width = r->width,
+                                                          .height = r->height});
+    (void)lobe_pass_depth(pass, &(lobe_attachment){.resource = depth});
+    for (size_t i = 0; i < r->renderer->draws.batch_count; i++)
+        draw_batch(r, &r->renderer->draws.batches[i], pass);
+    return marks;
+}
+
+void passes_tile_marking(rendering *r) {
+    r->context.marks = NULL;
+    if (!passes_wants_seen_tiles(&r->context))
+        return;
+    const uint32_t count = place_marks(r);
+    if (count == 0)
+        return;
+    lobe_resource marks = clear_marks(r->context.graph, count);
+    list_draws(r);
+    if (r->renderer->draws.batch_count > 0)
+        marks = draw_marks(r, marks);
+    r->tile_marks = (tile_marks){.marks = marks,
+                                 .first_marks = r->renderer->first_marks,
+                                 .frame = ++r->renderer->marked_frames,
+                                 .rebuild = r->parameters->rebuild};
+    r->context.marks = &r->tile_marks;
+}
