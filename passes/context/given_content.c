@@ -65,7 +65,7 @@ static void check_image(const filter_context *context, uint32_t index) {
 // Vertices
 
 static bool is_mesh_drawn(const device_scene *scene, uint32_t mesh) {
-    return scene->indices[mesh] != NULL;
+    return scene->measures[mesh].has_instances;
 }
 
 static void check_vertices(const filter_context *context, uint32_t index) {

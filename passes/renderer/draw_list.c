@@ -7,14 +7,28 @@
 /// As many transforms as one buffer of a frame may hold (lobe_graph_upload).
 enum { MOST_TRANSFORMS = (4 << 20) / sizeof(struct instance_constants) };
 
-bool passes_draw_list_create(draw_list *list, const lobe_scene *scene,
-                             const lobe_allocator *allocator) {
-    const size_t count = scene->instance_count;
-    list->batches = lobe_allocate(allocator, count, sizeof *list->batches);
-    list->batch_of = lobe_allocate(allocator, count, sizeof *list->batch_of);
-    list->of_mesh = lobe_allocate(allocator, scene->mesh_count, sizeof *list->of_mesh);
-    list->transforms = lobe_allocate(allocator, count, sizeof *list->transforms);
-    return list->batches && list->batch_of && list->of_mesh && list->transforms;
+bool passes_draw_list_create(draw_list *list, size_t meshes, const lobe_allocator *allocator) {
+    *list = (draw_list){.of_mesh = lobe_allocate(allocator, meshes, sizeof *list->of_mesh)};
+    return list->of_mesh != NULL;
+}
+
+bool passes_draw_list_reserve(draw_list *list, size_t room, const lobe_allocator *allocator) {
+    if (room <= list->room)
+        return true;
+    instance_batch *batches =
+        lobe_reallocate(allocator, list->batches, room, sizeof *list->batches);
+    if (batches)
+        list->batches = batches;
+    uint32_t *batch_of = lobe_reallocate(allocator, list->batch_of, room, sizeof *list->batch_of);
+    if (batch_of)
+        list->batch_of = batch_of;
+    struct instance_constants *transforms =
+        lobe_reallocate(allocator, list->transforms, room, sizeof *list->transforms);
+    if (transforms)
+        list->transforms = transforms;
+    const bool enough = batches && batch_of && transforms;
+    list->room = enough ? room : list->room;
+    return enough;
 }
 
 void passes_draw_list_destroy(draw_list *list) {

@@ -27,12 +27,15 @@ typedef struct draw_list {
     uint32_t *batch_of;                    ///< of each instance that is drawn
     uint32_t *of_mesh;                     ///< as `next_of_mesh`: of each mesh
     struct instance_constants *transforms; ///< of these instances, batch by batch
+    size_t room;                           ///< for so many instances
 } draw_list;
 
-/// Memory for the scene's instances. False if there is not enough; then the list is to be destroyed
-/// all the same.
-bool passes_draw_list_create(draw_list *list, const lobe_scene *scene,
-                             const lobe_allocator *allocator);
+/// Memory for a number of meshes, without any instances. False if there is not enough; then the
+/// list is to be destroyed all the same.
+bool passes_draw_list_create(draw_list *list, size_t meshes, const lobe_allocator *allocator);
+/// Memory for this number of instances; false if there is not enough: that of before is still
+/// there. To be called between frames.
+bool passes_draw_list_reserve(draw_list *list, size_t room, const lobe_allocator *allocator);
 void passes_draw_list_destroy(draw_list *list);
 
 /// Empties the list.

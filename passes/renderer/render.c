@@ -38,6 +38,12 @@ static lobe_result check(const rendering *r) {
                               "render: %ux%u pixels exceed the device's limit of %ux%u", r->width,
                               r->height, limit, limit);
     const lobe_scene *scene = r->renderer->scene->scene;
+    if (scene->instance_count != r->renderer->scene->instance_count)
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "render: %s has %zu instances, but the renderer was told of %zu: "
+                              "call lobe_renderer_update_scene",
+                              scene->name, scene->instance_count,
+                              r->renderer->scene->instance_count);
     const lobe_result result = passes_check_frame(scene, host);
     return result ? result
                   : passes_camera_check(parameters->camera ? parameters->camera : &scene->camera,

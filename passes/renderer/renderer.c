@@ -46,6 +46,21 @@ void lobe_renderer_destroy(lobe_renderer **renderer) {
     *renderer = NULL;
 }
 
+/// What frames need for each instance. Twice as much as before, so that many that come one by one
+/// are not copied each time.
+static bool reserve_instances(lobe_renderer *renderer, size_t count) {
+    const size_t twice = 2 * renderer->draws.room, room = count > twice ? count : twice;
+    const lobe_allocator *allocator = renderer->host.allocator;
+    if (count <= renderer->draws.room)
+        return true;
+    filtered_appearance *appearances =
+        lobe_reallocate(allocator, renderer->appearances, room, sizeof *appearances);
+    if (!appearances)
+        return false;
+    renderer->appearances = appearances;
+    return passes_draw_list_reserve(&renderer->draws, room, allocator);
+}
+
 lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *scene) {
     if (!renderer)
         return LOBE_ERROR_INVALID_ARGUMENT;
@@ -59,15 +74,14 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
                                         &renderer->scene);
     if (result != LOBE_OK)
         return result;
-    renderer->appearances = lobe_allocate(renderer->host.allocator, scene->instance_count,
-                                          sizeof *renderer->appearances);
     renderer->filtered_images =
         lobe_allocate(renderer->host.allocator, scene->image_count + scene->material_count + 1,
                       sizeof *renderer->filtered_images);
     renderer->first_marks = lobe_allocate(renderer->host.allocator, scene->material_count + 1,
                                           sizeof *renderer->first_marks);
-    if (passes_draw_list_create(&renderer->draws, scene, renderer->host.allocator) &&
-        renderer->appearances && renderer->filtered_images && renderer->first_marks)
+    if (passes_draw_list_create(&renderer->draws, scene->mesh_count, renderer->host.allocator) &&
+        reserve_instances(renderer, scene->instance_count) && renderer->filtered_images &&
+        renderer->first_marks)
         return LOBE_OK;
     forget_scene(renderer);
     return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
@@ -81,6 +95,9 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     if (!renderer->scene)
         return lobe_host_fail(&renderer->host, LOBE_ERROR_INVALID_ARGUMENT,
                               "update: no scene is set");
+    if (!reserve_instances(renderer, renderer->scene->scene->instance_count))
+        return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              renderer->scene->scene->name);
     lobe_result result = passes_device_scene_update(renderer->scene, changes, &renderer->host);
     // Also after an error: it may have come when some materials were already changed.
     passes_filter_slots_update(renderer->slots, renderer->scene);

@@ -102,13 +102,31 @@ lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t inde
     return status;
 }
 
+bool passes_device_scene_reserve_instances(device_scene *scene, size_t count) {
+    if (count <= scene->instance_room)
+        return true;
+    const size_t twice = 2 * scene->instance_room, room = count > twice ? count : twice;
+    device_instance *instances =
+        lobe_reallocate(scene->allocator, scene->instances, room, sizeof *instances);
+    if (!instances)
+        return false;
+    memset(instances + scene->instance_room, 0, (room - scene->instance_room) * sizeof *instances);
+    scene->instances = instances;
+    scene->instance_room = room;
+    return true;
+}
+
 void passes_device_scene_link_instances(device_scene *scene) {
+    scene->instance_count = scene->scene->instance_count;
     for (size_t i = 0; i < scene->scene->material_count; i++)
         scene->materials[i].first_instance = 0;
-    for (size_t i = scene->scene->instance_count; i-- > 0;) {
+    for (size_t i = 0; i < scene->scene->mesh_count; i++)
+        scene->measures[i].has_instances = false;
+    for (size_t i = scene->instance_count; i-- > 0;) {
         device_instance *instance = &scene->instances[i];
         uint32_t *first = &scene->materials[instance->material].first_instance;
         instance->next_of_material = *first;
         *first = (uint32_t)i + 1;
+        scene->measures[instance->mesh].has_instances = true;
     }
 }

@@ -70,7 +70,8 @@ typedef struct mesh_measures {
     float least_density[2];
     float least_alpha, largest_alpha; ///< of the vertices' colours
     size_t vertex_count, index_count;
-    uint32_t version; ///< increases with each upload, from 1 on
+    uint32_t version;   ///< increases with each upload, from 1 on
+    bool has_instances; ///< hidden ones, too
 } mesh_measures;
 
 /// The device's copy of a scene: only what instances use. What is uploaded reaches the device with
@@ -91,6 +92,8 @@ typedef struct device_scene {
     lobe_buffer **indices;   ///< one for each mesh; NULL: not used
     mesh_measures *measures; ///< one for each mesh
     device_instance *instances;
+    size_t instance_count; ///< when they were last uploaded
+    size_t instance_room;  ///< how many the array holds
     /// What was concluded from texels stays when these change, as long as it holds for them too.
     bool keeps_conclusions;
     bool torn; ///< an update failed half-way: the copy can only be destroyed

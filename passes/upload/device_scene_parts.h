@@ -18,6 +18,9 @@ lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index)
 /// Creates the texture of the scene's environment, if it has one.
 lobe_result passes_device_scene_upload_environment(device_scene *scene);
 
+/// Makes room for a number of instances, without a change of those that there are. false: out of
+/// memory.
+bool passes_device_scene_reserve_instances(device_scene *scene, size_t count);
 /// LOBE_ERROR_MALFORMED if the mesh or the material does not exist.
 lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t index,
                                                const lobe_host *host);
@@ -25,7 +28,8 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
 /// what follows from its transform, mesh and maps.
 lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t index,
                                                 const lobe_host *host);
-/// Lets each material find the instances that have it, after instances were uploaded.
+/// Takes over the scene's number of instances, and lets each material and mesh find those that have
+/// it, after instances were uploaded.
 void passes_device_scene_link_instances(device_scene *scene);
 
 #endif

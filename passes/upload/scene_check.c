@@ -150,6 +150,17 @@ lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const
     return result ? result : check_vertices(&owner, mesh);
 }
 
+/// Instances are numbered from 1 on, in 32 bits.
+lobe_result passes_scene_check_instance_array(const lobe_scene *scene, const lobe_host *host) {
+    if (scene->instance_count >= UINT32_MAX)
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: %zu instances", scene->name,
+                              scene->instance_count);
+    if (scene->instance_count == 0 || scene->instances)
+        return LOBE_OK;
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %zu instances, but no array of them",
+                          scene->name, scene->instance_count);
+}
+
 lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host) {
     const struct {
         const char *name;
@@ -159,7 +170,6 @@ lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *
         {"images", scene->images, scene->image_count},
         {"materials", scene->materials, scene->material_count},
         {"meshes", scene->meshes, scene->mesh_count},
-        {"instances", scene->instances, scene->instance_count},
     };
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (arrays[i].count > 0 && !arrays[i].array)
@@ -167,7 +177,7 @@ lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *
                                   scene->name, arrays[i].count, arrays[i].name);
     }
     if (scene->instance_count > 0)
-        return LOBE_OK;
+        return passes_scene_check_instance_array(scene, host);
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: there is nothing to draw", scene->name);
 }
 

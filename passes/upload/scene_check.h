@@ -8,6 +8,8 @@
 
 /// There is something to draw, and an array wherever there is a count.
 lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host);
+/// There is an array of instances if they are counted, and they can be numbered (LOBE_ERROR_LIMIT).
+lobe_result passes_scene_check_instance_array(const lobe_scene *scene, const lobe_host *host);
 /// There are texels, of a format that can be sampled, and those of the part (NULL: all) are finite.
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
                                      const lobe_rectangle *part, const lobe_host *host);

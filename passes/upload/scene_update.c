@@ -13,6 +13,7 @@ typedef struct scene_update {
     const lobe_host *host;
     bool *materials; ///< to reupload
     bool *instances; ///< to remeasure
+    size_t known;    ///< instances before the update
 } scene_update;
 
 // ---------------------------------------------------------------------------------------------
@@ -35,8 +36,10 @@ static lobe_result check_indices(const scene_update *update, const char *what,
 static lobe_result check_all_indices(const scene_update *update) {
     const lobe_scene *scene = update->scene->scene;
     const lobe_scene_changes *changes = update->changes;
-    lobe_result result =
-        check_indices(update, "image", changes->images, changes->image_count, scene->image_count);
+    lobe_result result = passes_scene_check_instance_array(scene, update->host);
+    if (result == LOBE_OK)
+        result = check_indices(update, "image", changes->images, changes->image_count,
+                               scene->image_count);
     if (result == LOBE_OK)
         result = check_indices(update, "material", changes->materials, changes->material_count,
                                scene->material_count);
@@ -62,7 +65,7 @@ static lobe_result check_material(const scene_update *update, uint32_t index) {
 }
 
 /// Checks the instance, and what it needs that the device does not have yet.
-static lobe_result check_instance(const scene_update *update, uint32_t index) {
+static lobe_result check_instance(const scene_update *update, size_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = passes_device_scene_check_instance(scene, index, update->host);
     if (result != LOBE_OK)
@@ -118,6 +121,15 @@ static lobe_result check_image(const scene_update *update, size_t n) {
     return passes_scene_check_image(update->scene->scene, index, keeps ? part : NULL, update->host);
 }
 
+/// Those that the scene has more than before.
+static lobe_result check_added_instances(const scene_update *update) {
+    const lobe_scene *scene = update->scene->scene;
+    lobe_result result = LOBE_OK;
+    for (size_t i = update->known; result == LOBE_OK && i < scene->instance_count; i++)
+        result = check_instance(update, i);
+    return result;
+}
+
 static lobe_result check_content(const scene_update *update) {
     const device_scene *scene = update->scene;
     const lobe_scene_changes *changes = update->changes;
@@ -132,6 +144,8 @@ static lobe_result check_content(const scene_update *update) {
             result = passes_scene_check_mesh(scene->scene, changes->meshes[i], update->host);
     for (size_t i = 0; result == LOBE_OK && i < changes->instance_count; i++)
         result = check_instance(update, changes->instances[i]);
+    if (result == LOBE_OK)
+        result = check_added_instances(update);
     if (result == LOBE_OK && changes->environment)
         result = passes_scene_check_environment(scene->scene, update->host);
     return result;
@@ -162,11 +176,14 @@ static void mark_instances(scene_update *update) {
     const lobe_scene *scene = update->scene->scene;
     for (size_t i = 0; i < changes->instance_count; i++)
         update->instances[changes->instances[i]] = true;
-    for (size_t n = 0; n < scene->instance_count; n++) {
-        update->instances[n] |= update->materials[scene->instances[n].material];
+    for (size_t n = 0; n < update->known && n < scene->instance_count; n++) {
+        const device_instance *instance = &update->scene->instances[n];
+        update->instances[n] |= update->materials[instance->material];
         for (size_t i = 0; i < changes->mesh_count; i++)
-            update->instances[n] |= scene->instances[n].mesh == changes->meshes[i];
+            update->instances[n] |= instance->mesh == changes->meshes[i];
     }
+    for (size_t n = update->known; n < scene->instance_count; n++)
+        update->instances[n] = true;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -269,19 +286,27 @@ static lobe_result apply(const scene_update *update) {
     return result;
 }
 
+static bool allocate(scene_update *update) {
+    const lobe_scene *scene = update->scene->scene;
+    const lobe_allocator *allocator = lobe_host_allocator(update->host);
+    update->materials =
+        lobe_allocate(allocator, scene->material_count + 1, sizeof *update->materials);
+    update->instances =
+        lobe_allocate(allocator, scene->instance_count + 1, sizeof *update->instances);
+    return update->materials && update->instances &&
+           passes_device_scene_reserve_instances(update->scene, scene->instance_count);
+}
+
 lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_changes *changes,
                                        const lobe_host *host) {
-    scene_update update = {.scene = scene, .changes = changes, .host = host};
+    scene_update update = {
+        .scene = scene, .changes = changes, .host = host, .known = scene->instance_count};
     lobe_result result = check_all_indices(&update);
     if (result == LOBE_OK)
         result = check_content(&update);
     if (result != LOBE_OK)
         return result;
-    update.materials = lobe_allocate(lobe_host_allocator(host), scene->scene->material_count + 1,
-                                     sizeof *update.materials);
-    update.instances = lobe_allocate(lobe_host_allocator(host), scene->scene->instance_count + 1,
-                                     sizeof *update.instances);
-    if (update.materials && update.instances) {
+    if (allocate(&update)) {
         mark_materials(&update);
         mark_instances(&update);
         result = apply(&update);

@@ -39,11 +39,9 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
-    result->instances =
-        lobe_allocate(result->allocator, scene->instance_count + 1, sizeof *result->instances);
     return result->images && result->metals && result->given && result->given_vertices &&
            result->materials && result->vertices && result->indices && result->measures &&
-           result->instances;
+           passes_device_scene_reserve_instances(result, scene->instance_count);
 }
 
 static lobe_result create(lobe_device *device, lobe_graph *graph, const lobe_scene *scene,

@@ -48,7 +48,10 @@ typedef struct lobe_scene_changes {
     size_t material_count;
     const uint32_t *meshes; ///< vertices and indices; also how many there are
     size_t mesh_count;
-    const uint32_t *instances; ///< transform, mesh or material
+    /// Mesh or material, or another instance at that place. If the scene's array of instances has
+    /// more elements than at the last update, those at its end are new, and need not be listed; if
+    /// it has fewer, those are gone.
+    const uint32_t *instances;
     size_t instance_count;
     /// The environment's image, its layout, or whether there is one. Its rotation and intensity are
     /// read in every frame.
@@ -56,7 +59,15 @@ typedef struct lobe_scene_changes {
 } lobe_scene_changes;
 
 /// Takes over changes that the host made to the current scene. Uploads only what is listed; the
-/// next frame rebuilds only the maps that depend on it. The scene's arrays must keep their lengths.
+/// next frame rebuilds only the maps that depend on it.
+///
+/// Instances are added at the end of the scene's array, which may move, and removed from its end
+/// (others by moving the last one to their place, which is then listed); all of them may go. Meshes
+/// and materials on the device, and maps of materials that the last frame drew, are used as they
+/// are. A mesh or material that had no instance before is uploaded, and stays on the device until
+/// another scene is set. The scene's other arrays must keep their lengths. Frames are refused while
+/// the number of instances differs from that of the last update that succeeded.
+///
 /// What the device needs is copied during the call, and reaches it at the start of the next frame,
 /// in that frame's submission: nothing is submitted or waited for, whatever frames are in flight.
 /// Only what new images and meshes have beyond 16 MiB, what comes before the first frame, and what
@@ -64,8 +75,10 @@ typedef struct lobe_scene_changes {
 /// Where extents, formats and counts stay the same, no Vulkan object is created, once there is
 /// memory for as much as frames copy; only of what other renderers use too, this one gets its own.
 /// Constants of materials that are equal to those of the device are not written.
+///
 /// Lights (and their number), the scene's camera, background and bounds, the transforms of
 /// instances and whether they are hidden are read in every frame and need not be listed.
+///
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
 /// error, such as LOBE_ERROR_OUT_OF_DEVICE_MEMORY, the scene can still be drawn, with some of the

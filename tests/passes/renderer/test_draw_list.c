@@ -80,7 +80,8 @@ static lobe_scene *crowd(bool alone) {
 static void list_draws(pass_run *run, draw_list *list, const filtered_appearance *maps,
                        bool shared) {
     const device_scene *scene = run->scene;
-    assert_true(passes_draw_list_create(list, scene->scene, NULL));
+    assert_true(passes_draw_list_create(list, scene->scene->mesh_count, NULL) &&
+                passes_draw_list_reserve(list, scene->scene->instance_count, NULL));
     passes_draw_list_begin(list, scene);
     for (uint32_t m = 0; m < scene->scene->material_count; m++)
         for (uint32_t next = scene->materials[m].first_instance; next > 0;

@@ -196,7 +196,8 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
                               .host = &f->host};
     filtered_appearance appearance = {0};
     draw_list draws = {0};
-    assert_true(passes_draw_list_create(&draws, scene, NULL));
+    assert_true(passes_draw_list_create(&draws, scene->mesh_count, NULL) &&
+                passes_draw_list_reserve(&draws, scene->instance_count, NULL));
     lobe_graph_begin(f->graph);
     passes_draw_list_begin(&draws, uploaded);
     passes_draw_list_add(&draws, uploaded, 0, &appearance, true);

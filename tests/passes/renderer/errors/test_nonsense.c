@@ -439,6 +439,13 @@ static void renderers(void **state) {
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "3 changes of kind 'mesh'",
             lobe_renderer_update_scene(f->renderer, &(lobe_scene_changes){.mesh_count = 3}));
+    const size_t count = scene->instance_count;
+    scene->instance_count = SIZE_MAX / 2;
+    REFUSED(f, LOBE_ERROR_OUT_OF_MEMORY, "out of memory",
+            lobe_renderer_update_scene(f->renderer, &(lobe_scene_changes){0}));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "instances, but the renderer was told",
+            lobe_renderer_render(f->renderer, &(lobe_render_parameters){0}, &frame));
+    scene->instance_count = count;
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
     REFUSED(f, LOBE_ERROR_MALFORMED, "nothing to draw",
