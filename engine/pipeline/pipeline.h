@@ -43,7 +43,7 @@ typedef struct engine_raster_parameters {
     const lobe_specialisation *specialisation;
     size_t specialisation_count;
     lobe_cull cull; ///< counter-clockwise as seen in the picture is the front
-    bool depth_test, depth_write;
+    bool depth_test, depth_write, depth_equal; ///< see lobe_draw
     lobe_blend blend;
     lobe_format colour[ENGINE_MAXIMUM_COLOUR_ATTACHMENTS]; ///< NONE: no attachment there
     lobe_format depth;                                     ///< NONE: no depth attachment

@@ -83,10 +83,15 @@ static lobe_result fill_specialisation(lobe_device *device, const lobe_specialis
     return LOBE_OK;
 }
 
+static uint32_t depth_comparison(const engine_raster_parameters *parameters) {
+    return parameters->depth_test ? 1 + parameters->depth_equal : 0;
+}
+
 static void fill_state(const engine_raster_parameters *parameters, pipeline_key *key) {
     const uint32_t state[] = {
-        parameters->cull,  parameters->depth_test, parameters->depth_write,
-        parameters->blend, parameters->depth,      parameters->samples ? parameters->samples : 1,
+        parameters->cull,        depth_comparison(parameters),
+        parameters->depth_write, parameters->blend,
+        parameters->depth,       parameters->samples ? parameters->samples : 1,
     };
     memcpy(key->state, state, sizeof state);
     for (size_t i = 0; i < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS; i++)

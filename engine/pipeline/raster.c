@@ -38,13 +38,19 @@ rasterisation_of(const engine_raster_parameters *parameters) {
     };
 }
 
+static VkCompareOp comparison_of(const engine_raster_parameters *parameters) {
+    if (!parameters->depth_test)
+        return VK_COMPARE_OP_ALWAYS;
+    return parameters->depth_equal ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER;
+}
+
 /// Vulkan writes depth only if the depth test is on.
 static VkPipelineDepthStencilStateCreateInfo depth_of(const engine_raster_parameters *parameters) {
     return (VkPipelineDepthStencilStateCreateInfo){
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = parameters->depth_test || parameters->depth_write,
         .depthWriteEnable = parameters->depth_write,
-        .depthCompareOp = parameters->depth_test ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_ALWAYS,
+        .depthCompareOp = comparison_of(parameters),
     };
 }
 

@@ -41,6 +41,7 @@ static lobe_result check_numbers(const number_owner *owner, const lobe_camera *c
     result =
         result ? result : passes_check_numbers(owner, "up", camera->up, 3, -INFINITY, INFINITY);
     result = result ? result : passes_check_numbers(owner, "shift", camera->shift, 2, -1e6, 1e6);
+    result = result ? result : passes_check_numbers(owner, "jitter", camera->jitter, 2, -1e6, 1e6);
     // The greatest float below pi.
     result =
         result ? result : passes_check_number(owner, "vertical_field_of_view", angle, 0, 3.1415925);
@@ -144,8 +145,9 @@ static void orthographic(const lobe_camera *camera, float aspect, float far_plan
 void passes_camera_shift(const lobe_camera *camera, uint32_t width, uint32_t height,
                          const float sample[2], float shift[2]) {
     // Rasterisation samples at the pixel's centre: the picture moves instead.
-    shift[0] = (1 - 2 * sample[0] - 2 * camera->shift[0] * (float)height) / (float)width;
-    shift[1] = (1 - 2 * sample[1]) / (float)height - 2 * camera->shift[1];
+    const float x = sample[0] + camera->jitter[0], y = sample[1] + camera->jitter[1];
+    shift[0] = (1 - 2 * x - 2 * camera->shift[0] * (float)height) / (float)width;
+    shift[1] = (1 - 2 * y) / (float)height - 2 * camera->shift[1];
 }
 
 void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_t height,
@@ -184,4 +186,20 @@ void passes_camera_slope_scale(const lobe_camera *camera, uint32_t height, const
             ? 0
             : camera->orthographic_height /
                   ((float)height * depth_range(camera, far_plane_of(camera, minimum, maximum)));
+}
+
+void passes_camera_directions(const lobe_camera *camera, uint32_t width, uint32_t height,
+                              const float sample[2], vec3 centre, vec3 right, vec3 down) {
+    const float half =
+        camera->vertical_field_of_view > 0 ? tanf(0.5f * camera->vertical_field_of_view) : 0;
+    const float across = half * (float)width / (float)height;
+    mat3 rotation;
+    float shift[2];
+    passes_camera_rotation(camera, rotation);
+    passes_camera_shift(camera, width, height, sample, shift);
+    for (int i = 0; i < 3; i++) {
+        right[i] = across * rotation[i][0];
+        down[i] = -half * rotation[i][1];
+        centre[i] = -rotation[i][2] - (shift[0] * right[i] + shift[1] * down[i]);
+    }
 }

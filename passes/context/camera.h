@@ -22,10 +22,15 @@ void passes_camera_projection(const lobe_camera *camera, uint32_t width, uint32_
                               const float sample[2], const float minimum[3], const float maximum[3],
                               mat4 world_to_clip);
 
-/// By how much a picture moves in clip space for the camera's shift, and so that the samples are at
-/// the centres of its pixels.
+/// By how much a picture moves in clip space for the camera's shift and jitter, and so that the
+/// samples are at the centres of its pixels.
 void passes_camera_shift(const lobe_camera *camera, uint32_t width, uint32_t height,
                          const float sample[2], float shift[2]);
+
+/// The direction of a pixel's sample is centre + x right + y down, with x and y in [-1, 1] across
+/// the picture, in the world, not normalised. An orthographic camera looks in one direction only.
+void passes_camera_directions(const lobe_camera *camera, uint32_t width, uint32_t height,
+                              const float sample[2], vec3 centre, vec3 right, vec3 down);
 
 /// How depths become slopes. The depth buffer's values are linear across the picture on any plane.
 /// Where they are not, their second difference between neighbouring pixels, divided by the depth

@@ -68,22 +68,34 @@ static bool is_mesh_drawn(const device_scene *scene, uint32_t mesh) {
     return scene->measures[mesh].has_instances;
 }
 
+/// `when`: " for the previous frame", or nothing.
+static void check_given_vertices(const filter_context *context, uint32_t index, lobe_resource given,
+                                 const char *when) {
+    const lobe_scene *scene = context->scene->scene;
+    const lobe_mesh *mesh = &scene->meshes[index];
+    const size_t expected = mesh->vertex_count * sizeof *mesh->vertices,
+                 found = lobe_graph_buffer_size(context->graph, given);
+    if (!mesh->on_device)
+        fail(context, "mesh", mesh->name,
+             "is not on the device, but the host gave vertices that are");
+    else if (found < expected)
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: mesh '%s' has %zu bytes of vertices, but the host gave %zu%s",
+                        scene->name, mesh->name, expected, found, when);
+}
+
 static void check_vertices(const filter_context *context, uint32_t index) {
     const device_scene *scene = context->scene;
     const lobe_mesh *mesh = &scene->scene->meshes[index];
-    const lobe_resource given = scene->given_vertices[index];
-    const size_t expected = mesh->vertex_count * sizeof *mesh->vertices,
-                 found = lobe_graph_buffer_size(context->graph, given);
+    const lobe_resource given = scene->given_vertices[index],
+                        previous = scene->given_previous_vertices[index];
     if (given.version == 0 && mesh->on_device && is_mesh_drawn(scene, index))
         fail(context, "mesh", mesh->name,
              "is on the device, but the host gave no vertices in this frame");
-    else if (given.version > 0 && !mesh->on_device)
-        fail(context, "mesh", mesh->name,
-             "is not on the device, but the host gave vertices that are");
-    else if (given.version > 0 && found < expected)
-        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
-                        "%s: mesh '%s' has %zu bytes of vertices, but the host gave %zu",
-                        scene->scene->name, mesh->name, expected, found);
+    if (given.version > 0)
+        check_given_vertices(context, index, given, "");
+    if (previous.version > 0)
+        check_given_vertices(context, index, previous, " for the previous frame");
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -106,8 +118,11 @@ void passes_given_images_take(const filter_context *context, lobe_content_giver 
 void passes_given_content_take(const filter_context *context, lobe_content_giver give,
                                void *giver) {
     const device_scene *scene = context->scene;
-    const lobe_given_content content = {scene->given, scene->given_vertices};
-    memset(scene->given_vertices, 0, scene->scene->mesh_count * sizeof *scene->given_vertices);
+    const size_t meshes = scene->scene->mesh_count;
+    const lobe_given_content content = {scene->given, scene->given_vertices,
+                                        scene->given_previous_vertices};
+    memset(scene->given_vertices, 0, meshes * sizeof *scene->given_vertices);
+    memset(scene->given_previous_vertices, 0, meshes * sizeof *scene->given_previous_vertices);
     take_images(context, &content, give, giver);
     for (uint32_t i = 0; i < scene->scene->mesh_count; i++)
         check_vertices(context, i);

@@ -25,8 +25,9 @@ static pixel_measure measure_pixels(const filter_context *context) {
     const float tangent = tanf(0.5f * camera->vertical_field_of_view);
     // Towards the farthest corner of the picture, at angle t to the axis, the area shrinks by cos
     // t.
-    const float right = (float)context->view.width / height + 2 * fabsf(camera->shift[0]),
-                down = 1 + 2 * fabsf(camera->shift[1]);
+    const float right = (float)context->view.width / height +
+                        2 * (fabsf(camera->shift[0]) + fabsf(camera->jitter[0]) / height),
+                down = 1 + 2 * (fabsf(camera->shift[1]) + fabsf(camera->jitter[1]) / height);
     const float cosine = 1 / sqrtf(1 + tangent * tangent * (down * down + right * right));
     measure.per_depth = 2 * tangent / height * sqrtf(cosine);
     return measure;

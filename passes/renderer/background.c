@@ -1,26 +1,7 @@
 #include "passes/renderer/background.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "passes/context/camera.h"
 #include "shaders/interface/background.h"
-
-/// The direction of a pixel is centre + x right + y down, with x and y in [-1, 1], in the world. An
-/// orthographic camera sees the environment in one direction only.
-static void picture_axes(const filter_context *context, vec3 centre, vec3 right, vec3 down) {
-    mat3 rotation;
-    passes_camera_rotation(context->view.camera, rotation);
-    float height = context->view.camera->vertical_field_of_view > 0
-                       ? tanf(0.5f * context->view.camera->vertical_field_of_view)
-                       : 0;
-    float width = height * (float)context->view.width / (float)context->view.height;
-    for (int i = 0; i < 3; i++) {
-        right[i] = width * rotation[i][0];
-        down[i] = -height * rotation[i][1];
-        centre[i] = -rotation[i][2];
-    }
-}
 
 /// Rotates a vector of the world into the environment's space; writes three numbers.
 static void environment_from_world(const lobe_environment *environment, const float vector[3],
@@ -32,22 +13,12 @@ static void environment_from_world(const lobe_environment *environment, const fl
     }
 }
 
-/// Moves the picture for the camera's shift and the sample.
-static void move_to_sample(const filter_context *context, const float sample[2], const vec3 right,
-                           const vec3 down, vec3 centre) {
-    float shift[2];
-    passes_camera_shift(context->view.camera, context->view.width, context->view.height, sample,
-                        shift);
-    for (int i = 0; i < 3; i++)
-        centre[i] -= shift[0] * right[i] + shift[1] * down[i];
-}
-
 void passes_background(lobe_pass *pass, const filter_context *context, lobe_resource cube,
                        const shading_sample *sample, bool aov, const lobe_draw *form) {
     const lobe_environment *environment = context->scene->scene->environment;
     vec3 centre, right, down;
-    picture_axes(context, centre, right, down);
-    move_to_sample(context, sample->position, right, down, centre);
+    passes_camera_directions(context->view.camera, context->view.width, context->view.height,
+                             sample->position, centre, right, down);
     struct background_constants constants = {0};
     environment_from_world(environment, centre, constants.centre);
     environment_from_world(environment, right, constants.right);

@@ -5,11 +5,13 @@
 #include "passes/context/pass_times.h"
 
 frame_delivery passes_delivery_of(const lobe_render_parameters *parameters) {
+    const lobe_render_target *target = parameters->host.target;
     return (frame_delivery){
-        .target = parameters->host.target,
+        .target = target,
         .submission = parameters->host.submission,
         .reads_back = !parameters->discard && !parameters->host.submission,
         .aov = parameters->aov,
+        .motion = parameters->motion.deliver || (target && target->motion),
     };
 }
 
@@ -37,8 +39,11 @@ lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
     imported->radiance = lobe_graph_import_image(graph, target->radiance);
     if (target->depth)
         imported->depth = lobe_graph_import_image(graph, target->depth);
+    if (target->motion)
+        imported->motion = lobe_graph_import_image(graph, target->motion);
     imported->keep_radiance = target->keep;
     imported->keep_depth = target->keep && target->depth;
+    imported->keep_motion = target->keep && target->motion;
     const lobe_image_description radiance = lobe_graph_describe_image(graph, imported->radiance);
     imported->width = radiance.width;
     imported->height = radiance.height;
@@ -55,8 +60,11 @@ void passes_delivery_replace(const shading_targets *imported, shading_targets *t
         targets->radiance = imported->radiance;
     if (imported->depth.version)
         targets->depth = imported->depth;
+    if (imported->motion.version)
+        targets->motion = imported->motion;
     targets->keep_radiance = imported->keep_radiance;
     targets->keep_depth = imported->keep_depth;
+    targets->keep_motion = imported->keep_motion;
 }
 
 void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,

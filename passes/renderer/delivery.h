@@ -10,6 +10,7 @@ struct frame_delivery {
     const lobe_vulkan_submission *submission; ///< the host's; NULL: submit and wait
     bool reads_back;                          ///< images go to host memory, except the target's
     bool aov;                                 ///< with arbitrary output variables
+    bool motion;                              ///< with motion, wherever it goes
 };
 
 /// The delivery that the caller of lobe_renderer_render asks for.

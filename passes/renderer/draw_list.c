@@ -90,43 +90,77 @@ static void fill(const float transform[16], struct instance_constants *constants
             constants->rows[row][column] = transform[4 * column + row];
 }
 
-/// In the order of their batches.
-static void fill_transforms(draw_list *list, const lobe_scene *scene) {
+static void find_starts(draw_list *list) {
     uint32_t start = 0;
     for (uint32_t i = 0; i < list->batch_count; i++) {
         list->batches[i].start = start;
         start += list->batches[i].count;
-        list->batches[i].count = 0;
     }
+}
+
+/// In the order of their batches. `transforms`: one for each instance; NULL: the scene's.
+static void fill_transforms(draw_list *list, const lobe_scene *scene,
+                            const float (*transforms)[16]) {
+    for (uint32_t i = 0; i < list->batch_count; i++)
+        list->batches[i].count = 0;
     for (size_t i = 0; i < scene->instance_count; i++) {
         if (scene->instances[i].hidden)
             continue;
         instance_batch *batch = &list->batches[list->batch_of[i]];
-        fill(scene->instances[i].transform, &list->transforms[batch->start + batch->count++]);
+        fill(transforms ? transforms[i] : scene->instances[i].transform,
+             &list->transforms[batch->start + batch->count++]);
     }
 }
 
-/// The transforms of batches [first, end) in one buffer.
-static void upload(draw_list *list, const filter_context *context, uint32_t first, uint32_t end) {
+/// Some of the transforms in one buffer: those of batches [first, end).
+static lobe_resource upload(const draw_list *list, const filter_context *context, const char *name,
+                            uint32_t first, uint32_t end) {
     const instance_batch *last = &list->batches[end - 1];
     const uint32_t start = list->batches[first].start;
-    const lobe_resource transforms =
-        lobe_graph_upload(context->graph, "transforms", &list->transforms[start],
-                          (last->start + last->count - start) * sizeof *list->transforms);
-    for (uint32_t i = first; i < end; i++) {
-        list->batches[i].transforms = transforms;
-        list->batches[i].first = list->batches[i].start - start;
-    }
+    return lobe_graph_upload(context->graph, name, &list->transforms[start],
+                             (last->start + last->count - start) * sizeof *list->transforms);
+}
+
+/// Where the batches end whose transforms fit into a buffer with those of `first`.
+static uint32_t end_of_buffer(const draw_list *list, uint32_t first) {
+    const uint32_t start = list->batches[first].start;
+    uint32_t end = first + 1;
+    while (end < list->batch_count &&
+           list->batches[end].start + list->batches[end].count - start <= MOST_TRANSFORMS)
+        ++end;
+    return end;
 }
 
 void passes_draw_list_end(draw_list *list, const filter_context *context) {
-    fill_transforms(list, context->scene->scene);
+    find_starts(list);
+    fill_transforms(list, context->scene->scene, NULL);
     for (uint32_t first = 0, end; first < list->batch_count; first = end) {
-        const uint32_t start = list->batches[first].start;
-        end = first + 1;
-        while (end < list->batch_count &&
-               list->batches[end].start + list->batches[end].count - start <= MOST_TRANSFORMS)
-            ++end;
-        upload(list, context, first, end);
+        end = end_of_buffer(list, first);
+        const lobe_resource transforms = upload(list, context, "transforms", first, end);
+        for (uint32_t i = first; i < end; i++) {
+            list->batches[i].transforms = transforms;
+            list->batches[i].first = list->batches[i].start - list->batches[first].start;
+        }
     }
+}
+
+void passes_draw_list_upload_previous(draw_list *list, const filter_context *context,
+                                      const float (*transforms)[16]) {
+    fill_transforms(list, context->scene->scene, transforms);
+    for (uint32_t first = 0, end; first < list->batch_count; first = end) {
+        end = end_of_buffer(list, first);
+        const lobe_resource previous = upload(list, context, "previous transforms", first, end);
+        for (uint32_t i = first; i < end; i++)
+            list->batches[i].previous_transforms = previous;
+    }
+}
+
+uint32_t passes_batch_index_count(const device_scene *scene, const instance_batch *batch) {
+    return (uint32_t)scene->scene->meshes[scene->instances[batch->instance].mesh].index_count;
+}
+
+lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch) {
+    const device_material *material = &scene->materials[scene->instances[batch->instance].material];
+    const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
+    return material->material->double_sided ? LOBE_CULL_NONE : outside;
 }

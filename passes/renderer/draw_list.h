@@ -13,10 +13,11 @@ typedef struct instance_batch {
     uint32_t count;
     bool mirrored; ///< the transforms mirror
     const filtered_appearance *appearance;
-    lobe_resource transforms; ///< buffer of struct instance_constants
-    uint32_t first;           ///< index of the first instance's
-    uint32_t start;           ///< the same among the transforms of the whole list
-    uint32_t next_of_mesh;    ///< 1 + index of another batch of the mesh; 0: none
+    lobe_resource transforms;          ///< buffer of struct instance_constants
+    lobe_resource previous_transforms; ///< the same of the previous frame; none without motion
+    uint32_t first;                    ///< index of the first instance's
+    uint32_t start;                    ///< the same among the transforms of the whole list
+    uint32_t next_of_mesh;             ///< 1 + index of another batch of the mesh; 0: none
 } instance_batch;
 
 /// Material by material, then in the order of their first instances.
@@ -46,5 +47,11 @@ void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t ins
                           const filtered_appearance *appearance, bool shared);
 /// Uploads the transforms for this frame, after the last instance.
 void passes_draw_list_end(draw_list *list, const filter_context *context);
+/// Then those of the previous frame: one for each instance of the scene.
+void passes_draw_list_upload_previous(draw_list *list, const filter_context *context,
+                                      const float (*transforms)[16]);
+
+uint32_t passes_batch_index_count(const device_scene *scene, const instance_batch *batch);
+lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch);
 
 #endif

@@ -112,7 +112,7 @@ static lobe_result render_mean(rendering *r, const frame_delivery *delivery,
             return lobe_host_fail(r->context.host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                                   r->context.scene->scene->name);
     }
-    if (delivery->aov) {
+    if (delivery->aov || delivery->motion) {
         result = passes_frame_render(r, delivery, frame);
         lobe_image_free(&frame->radiance);
     }
@@ -165,7 +165,8 @@ lobe_result passes_reference_render(rendering *r, const frame_delivery *delivery
     // The samples are read back as for a picture in host memory; the host's submission draws their
     // mean.
     const frame_delivery samples = {.reads_back = !r->parameters->discard,
-                                    .aov = delivery->aov && !delivery->submission};
+                                    .aov = delivery->aov && !delivery->submission,
+                                    .motion = delivery->motion && !delivery->submission};
     lobe_result result = measure_target(r, delivery);
     if (result == LOBE_OK)
         result = render_mean(r, &samples, delivery->target->keep, frame);

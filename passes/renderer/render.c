@@ -1,6 +1,7 @@
 #include "passes/context/camera.h"
 #include "passes/filters/settings.h"
 #include "passes/renderer/delivery.h"
+#include "passes/renderer/motion/motion.h"
 #include "passes/renderer/shading.h"
 #include "passes/upload/frame_check.h"
 
@@ -9,7 +10,7 @@
 
 /// Whether the host requests something that is impossible in several submissions.
 static bool needs_one_submission(const lobe_render_host *host) {
-    return host->add_passes || (host->target && host->target->depth) ||
+    return host->add_passes || (host->target && (host->target->depth || host->target->motion)) ||
            (host->submission && !host->target);
 }
 
@@ -28,7 +29,7 @@ static lobe_result check(const rendering *r) {
         return lobe_host_fail(
             host, LOBE_ERROR_UNSUPPORTED,
             "render: the reference takes many submissions, and only the last draws "
-            "into the target's radiance: it supports neither a target's depth nor "
+            "into the target's radiance: it supports neither a target's depth or motion nor "
             "the host's passes, nor a submission without a target");
     if (parameters->reference.samples > LOBE_MAXIMUM_SAMPLES)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
@@ -44,10 +45,11 @@ static lobe_result check(const rendering *r) {
                               "call lobe_renderer_update_scene",
                               scene->name, scene->instance_count,
                               r->renderer->scene->instance_count);
-    const lobe_result result = passes_check_frame(scene, host);
-    return result ? result
-                  : passes_camera_check(parameters->camera ? parameters->camera : &scene->camera,
-                                        host);
+    lobe_result result = passes_check_frame(scene, host);
+    if (result == LOBE_OK)
+        result =
+            passes_camera_check(parameters->camera ? parameters->camera : &scene->camera, host);
+    return result ? result : passes_motion_check(&parameters->motion, scene, host);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -34,6 +34,7 @@ static void forget_scene(lobe_renderer *renderer) {
     renderer->filtered_images = NULL;
     renderer->first_marks = NULL;
     renderer->reported_filter = NULL;
+    passes_motion_history_forget(&renderer->motion);
     passes_environment_light_forget(&renderer->environment);
 }
 
@@ -105,6 +106,8 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
         renderer->reported_filter = NULL;
     if (result == LOBE_OK && changes->environment)
         passes_environment_light_invalidate(&renderer->environment);
+    if (result == LOBE_OK)
+        passes_motion_history_update(&renderer->motion, renderer->scene->scene, changes);
     if (renderer->scene->torn)
         forget_scene(renderer);
     return result;
@@ -129,6 +132,7 @@ void lobe_frame_free(lobe_frame *frame) {
     lobe_image_free(&frame->radiance);
     lobe_image_free(&frame->normal_depth);
     lobe_image_free(&frame->lobes_level);
+    lobe_image_free(&frame->motion);
     lobe_release(frame->passes);
     *frame = (lobe_frame){0};
 }

@@ -7,6 +7,7 @@
 #include "passes/filters/slots.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/renderer/draw_list.h"
+#include "passes/renderer/motion/motion_history.h"
 
 struct lobe_renderer {
     lobe_device *device;
@@ -21,6 +22,7 @@ struct lobe_renderer {
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
+    motion_history motion;
     lobe_content_giver give_content; ///< NULL: nobody does
     void *giver;                     ///< passed to it
 };

@@ -173,17 +173,12 @@ size_t passes_shading_draw_count(const draw_list *draws) {
     return FIRST_INSTANCE_DRAW + draws->batch_count;
 }
 
-static uint32_t index_count(const filter_context *context, const instance_batch *batch) {
-    const device_instance *instance = &context->scene->instances[batch->instance];
-    return (uint32_t)context->scene->scene->meshes[instance->mesh].index_count;
-}
-
 shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
                                               size_t draw) {
     if (draw < FIRST_INSTANCE_DRAW)
         return (shading_draw_count){3, 1};
     const instance_batch *batch = &draws->batches[draw - FIRST_INSTANCE_DRAW];
-    return (shading_draw_count){index_count(context, batch), batch->count};
+    return (shading_draw_count){passes_batch_index_count(context->scene, batch), batch->count};
 }
 
 /// The constants of a draw: for its material, its mesh, the lights and the settings.
@@ -229,14 +224,13 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     specialise_draw(d, batch, &list);
     char fragment_shader[SHADING_NAME_SIZE];
     passes_material_shading_name(context, d->light, material, d->aov, fragment_shader);
-    lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
         .fragment_shader = fragment_shader,
         .indices = lobe_graph_import_buffer(context->graph, context->scene->indices[drawn->mesh]),
-        .index_count = index_count(context, batch),
+        .index_count = passes_batch_index_count(context->scene, batch),
         .instance_count = batch->count,
-        .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
+        .cull = passes_batch_cull(context->scene, batch),
         .depth_test = true,
         .depth_write = true,
         .constants = &constants,

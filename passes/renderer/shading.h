@@ -13,8 +13,9 @@ typedef struct shading_targets {
     lobe_resource depth;        ///< D32_FLOAT
     lobe_resource normal_depth; ///< RGBA32_FLOAT; none without AOVs
     lobe_resource lobes_level;  ///< RG32_FLOAT; none without AOVs
-    /// Draw over the contents of radiance and depth instead of clearing them.
-    bool keep_radiance, keep_depth;
+    lobe_resource motion;       ///< RG32_FLOAT; none without motion
+    /// Draw over the contents of radiance, depth and motion instead of clearing them.
+    bool keep_radiance, keep_depth, keep_motion;
     /// Leave radiance black where nothing is hit: the picture is later blended over another.
     bool without_background;
     /// The radiance's alpha is the depth of what is hit (as in `depth`; above 0) instead of 1.

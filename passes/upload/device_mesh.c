@@ -108,3 +108,10 @@ lobe_resource passes_device_mesh_import(lobe_graph *graph, const device_scene *s
         return scene->given_vertices[mesh];
     return lobe_graph_import_buffer(graph, scene->vertices[mesh]);
 }
+
+lobe_resource passes_device_mesh_import_previous(lobe_graph *graph, const device_scene *scene,
+                                                 uint32_t mesh) {
+    if (scene->given_previous_vertices[mesh].version > 0)
+        return scene->given_previous_vertices[mesh];
+    return passes_device_mesh_import(graph, scene, mesh);
+}

@@ -7,5 +7,8 @@
 /// the scene's.
 lobe_resource passes_device_mesh_import(lobe_graph *graph, const device_scene *scene,
                                         uint32_t mesh);
+/// The same of the previous frame, where the host gives them; else as in this frame.
+lobe_resource passes_device_mesh_import_previous(lobe_graph *graph, const device_scene *scene,
+                                                 uint32_t mesh);
 
 #endif

@@ -85,8 +85,9 @@ typedef struct device_scene {
     image_metal *metals;             ///< one for each image
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;
-    lobe_resource *given_vertices; ///< the same, one for each mesh
-    lobe_texture *environment;     ///< its image; NULL: none
+    lobe_resource *given_vertices;          ///< the same, one for each mesh
+    lobe_resource *given_previous_vertices; ///< the same, of the previous frame
+    lobe_texture *environment;              ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices;  ///< one for each mesh; NULL: not used, or given by the host
     lobe_buffer **indices;   ///< one for each mesh; NULL: not used

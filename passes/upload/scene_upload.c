@@ -31,6 +31,8 @@ static bool allocate_tables(device_scene *result) {
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
     result->given_vertices =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->given_vertices);
+    result->given_previous_vertices = lobe_allocate(result->allocator, scene->mesh_count + 1,
+                                                    sizeof *result->given_previous_vertices);
     result->materials =
         lobe_allocate(result->allocator, scene->material_count + 1, sizeof *result->materials);
     result->vertices =
@@ -40,7 +42,8 @@ static bool allocate_tables(device_scene *result) {
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
     return result->images && result->metals && result->given && result->given_vertices &&
-           result->materials && result->vertices && result->indices && result->measures &&
+           result->given_previous_vertices && result->materials && result->vertices &&
+           result->indices && result->measures &&
            passes_device_scene_reserve_instances(result, scene->instance_count);
 }
 
@@ -115,6 +118,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->metals);
     lobe_release(s->given);
     lobe_release(s->given_vertices);
+    lobe_release(s->given_previous_vertices);
     lobe_release(s->materials);
     lobe_release(s->vertices);
     lobe_release(s->indices);

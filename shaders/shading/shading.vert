@@ -20,6 +20,8 @@ layout(location = 2) out vec4 world_tangent;
 layout(location = 3) out vec4 coordinates;
 layout(location = 4) out vec4 colour;
 
+invariant gl_Position; // motion/motion.vert computes the same depths
+
 instance_constants instance;
 
 #include "shading/instance_transform.glsl"

@@ -24,6 +24,7 @@
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/moment_refit.h"
+#include "shaders/interface/motion.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "tests/engine/support/cmocka_all.h"
@@ -48,6 +49,13 @@ static known_member known[] = {
     MEMBER(background_constants, centre, 0),
     MEMBER(background_constants, right, 1),
     MEMBER(background_constants, down, 2),
+    MEMBER(motion_background_constants, centre, 0),
+    MEMBER(motion_background_constants, right, 1),
+    MEMBER(motion_background_constants, down, 2),
+    MEMBER(motion_constants, world_to_clip, 0),
+    MEMBER(motion_constants, current, 1),
+    MEMBER(motion_constants, previous, 2),
+    MEMBER(motion_constants, half_extent, 3),
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
     MEMBER(lobe_grid_constants, level, 2),

@@ -87,7 +87,7 @@ static bool describe(const capture *capture, attribute_list *list) {
 // ---------------------------------------------------------------------------------------------
 // OpenEXR
 
-enum { MAXIMUM_LAYERS = 5 };
+enum { MAXIMUM_LAYERS = 6 };
 
 static size_t describe_layers(const capture *capture, lobe_exr_layer layers[MAXIMUM_LAYERS]) {
     const lobe_frame *frame = capture->frame;
@@ -113,6 +113,11 @@ static size_t describe_layers(const capture *capture, lobe_exr_layer layers[MAXI
                                            .image = &frame->lobes_level,
                                            .depth = LOBE_EXR_FLOAT};
     }
+    if (frame->motion.texels)
+        layers[count++] = (lobe_exr_layer){.name = "motion",
+                                           .channels = {"X", "Y"},
+                                           .image = &frame->motion,
+                                           .depth = LOBE_EXR_FLOAT};
     return count;
 }
 

@@ -27,7 +27,7 @@ typedef struct capture {
 } capture;
 
 /// Writes linear radiance as OpenEXR: layers for the frame's other outputs (normal, depth, lobes,
-/// level), everything else as attributes of the header.
+/// level, motion), everything else as attributes of the header.
 lobe_result capture_write_exr(const char *path, const capture *capture, const lobe_host *host);
 
 /// Writes a picture for viewing: tone-mapped, or as a heat map if the knob "view" shows something

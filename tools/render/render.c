@@ -34,9 +34,10 @@ typedef struct render_request {
     double time; ///< seconds
     const char *graph;
     uint32_t depth;
-    bool layers; ///< the layers of arbitrary output variables
+    bool layers;   ///< the layers of arbitrary output variables
+    double motion; ///< where on its path the camera was in the frame before
     double exposure;
-    bool has_filter, has_carrier, has_samples, has_depth, has_exposure, has_time;
+    bool has_filter, has_carrier, has_samples, has_depth, has_motion, has_exposure, has_time;
     scene_options opening;
     view_options view;
     lobe_light *lights;
@@ -51,6 +52,7 @@ typedef struct render_request {
 typedef struct render_state {
     lobe_host host;
     lobe_scene *scene;
+    lobe_camera previous;  ///< where the camera was in the frame before, for motion
     sweep_results figures; ///< the figures that pick filter and knobs
     lobe_device *device;
     animation *animation; ///< NULL: the scene stands still
@@ -143,6 +145,8 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_ho
         lobe_host_log(host, LOBE_LOG_WARNING, "--depth is for .exr outputs; ignored");
     if (!writes(request, false) && request->layers)
         lobe_host_log(host, LOBE_LOG_WARNING, "--aov is for .exr outputs; ignored");
+    if (!writes(request, false) && request->has_motion)
+        lobe_host_log(host, LOBE_LOG_WARNING, "--motion is for .exr outputs; ignored");
     if (!writes(request, true) && request->has_exposure)
         lobe_host_log(host, LOBE_LOG_WARNING, "--exposure is for .png outputs; ignored");
     if (request->has_samples && !(request->filter && lobe_filter_supersamples(request->filter)))
@@ -277,6 +281,8 @@ static lobe_result render_frame(const render_request *request, render_state *sta
             .reference.samples = request->samples,
             .environment.cache = state->cache,
             .aov = request->layers && writes(request, false),
+            .motion = {.deliver = request->has_motion && writes(request, false),
+                       .previous_camera = &state->previous},
             .host = {.progress = report_samples,
                      .environment_progress = prepares ? report_environment : NULL,
                      .user = state},
@@ -388,6 +394,15 @@ static lobe_result check_files(const render_request *request, const lobe_host *h
     return result;
 }
 
+/// Before the camera moves to where it is now.
+static void place_previous_camera(const render_request *request, render_state *state) {
+    lobe_scene scene = *state->scene;
+    view_options view = request->view;
+    view.path = request->motion;
+    (void)view_options_apply(&view, NULL, &scene);
+    state->previous = scene.camera;
+}
+
 static lobe_result render(render_request *request, render_state *state) {
     lobe_result result = check_files(request, &state->host);
     if (result == LOBE_OK)
@@ -396,6 +411,7 @@ static lobe_result render(render_request *request, render_state *state) {
         result = open_scene(request, state);
     if (result != LOBE_OK)
         return result;
+    place_previous_camera(request, state);
     if (!view_options_apply(&request->view, request->lights, state->scene)) {
         lobe_host_log(&state->host, LOBE_LOG_ERROR, "camera: eye and target are the same point");
         return LOBE_ERROR_INVALID_ARGUMENT;
@@ -547,6 +563,16 @@ static int run(int argc, char **argv) {
          .kind = OPTION_FLAG,
          .summary = "add layers to the .exr: normal, depth, lobes (their count), level; in float",
          .target = &request.layers},
+        {.name = "motion",
+         .kind = OPTION_NUMBER,
+         .argument = "PART",
+         .summary =
+             "add a layer to the .exr: by how many pixels, to the right and down, each point "
+             "is away from where it was when the camera was at that place of its path",
+         .target = &request.motion,
+         .minimum = 0,
+         .maximum = 1,
+         .given = &request.has_motion},
         {.name = "exposure",
          .kind = OPTION_NUMBER,
          .argument = "STOPS",

@@ -186,6 +186,7 @@ engine_raster_parameters engine_graph_raster_parameters(const lobe_pass *pass,
         .cull = draw->cull,
         .depth_test = draw->depth_test,
         .depth_write = draw->depth_write,
+        .depth_equal = draw->depth_equal,
         .blend = draw->blend,
         .samples = pass->samples,
     };

@@ -38,6 +38,7 @@ static engine_stamp sign_draw(engine_stamp stamp, const lobe_draw *draw) {
                                 draw->cull,
                                 draw->depth_test,
                                 draw->depth_write,
+                                draw->depth_equal,
                                 draw->blend};
     stamp = engine_stamp_bytes(stamp, numbers, sizeof numbers);
     stamp = engine_stamp_bytes(stamp, draw->constants, draw->constants_size);

@@ -279,6 +279,10 @@ typedef struct lobe_draw {
     uint32_t first_index, index_count, instance_count; ///< 0 instances means 1
     lobe_cull cull;                                    ///< counter-clockwise is the front
     bool depth_test, depth_write;
+    /// With `depth_test`: draws where the depth is the same as before, instead of nearer. A vertex
+    /// shader computes the depths of another one if both declare `invariant gl_Position` and take
+    /// the same steps to it.
+    bool depth_equal;
     lobe_blend blend;
     const void *constants; ///< push constants of all stages, copied
     size_t constants_size;

@@ -91,6 +91,10 @@ LOBE_API lobe_result lobe_renderer_update_scene(lobe_renderer *renderer,
 typedef struct lobe_given_content {
     lobe_resource *images;   ///< one for each image of the scene
     lobe_resource *vertices; ///< one for each mesh
+    /// One for each mesh: the vertices of the previous frame, in the same order, for motion (see
+    /// lobe_render_motion). None: those of this frame, so that only transforms and the camera move
+    /// them. Ignored where no motion is asked for.
+    lobe_resource *previous_vertices;
 } lobe_given_content;
 
 /// Gives the texels of those images of the scene, and the vertices of those meshes, that are
@@ -121,8 +125,12 @@ typedef struct lobe_render_target {
     /// D32_FLOAT, reversed: 1 at the near plane, 0 at infinity. NULL: an image of lobe's own; the
     /// reference requires that.
     const lobe_vulkan_image *depth;
-    /// Draw over the contents of both images: the host's background stays, and what the host drew
-    /// into `depth` hides what lies behind it. Otherwise both are cleared. The reference, and
+    /// Receives motion, converted to its format of two or more channels (R16G16_SFLOAT), and makes
+    /// lobe compute it: see lobe_render_motion. NULL: none; the reference requires that.
+    const lobe_vulkan_image *motion;
+    /// Draw over the contents of the images: the host's background and its motion stay, and what
+    /// the host drew into `depth` hides what lies behind it. Otherwise all are cleared, `motion` to
+    /// that of what is infinitely far away. The reference, and
     /// several samples of a pixel (knob `samples`), are blended over `radiance` by their coverage,
     /// so the device must be able to blend that format; several samples also need `depth` to have
     /// VK_IMAGE_USAGE_TRANSFER_SRC_BIT.
@@ -136,12 +144,13 @@ typedef struct lobe_render_resources {
     lobe_resource depth;    ///< D32_FLOAT, reversed
     /// As in lobe_frame; none without `aov`.
     lobe_resource normal_depth, lobes_level;
+    lobe_resource motion; ///< RG32_FLOAT, or the target's; none without motion
 } lobe_render_resources;
 
 /// Where in a frame passes of the host are added.
 typedef enum lobe_render_stage {
-    /// Nothing is drawn yet. If the host's passes write radiance or depth here, lobe draws over
-    /// that image instead of clearing it.
+    /// Nothing is drawn yet. If the host's passes write radiance, depth or motion here, lobe draws
+    /// over that image instead of clearing it.
     LOBE_RENDER_BEFORE_SHADING,
     /// The picture is drawn. `radiance` may be replaced by another image of the same extent and
     /// format, which is then delivered instead.
@@ -204,6 +213,24 @@ typedef struct lobe_render_host {
     uint32_t frames_in_flight;
 } lobe_render_host;
 
+/// Motion vectors, as temporal antialiasing, upscalers and denoisers expect them: in pixels of this
+/// picture, to the right and down; added to the position of a pixel, the position at which the
+/// previous frame showed the same point of the surface. Jitter of both cameras is left out; their
+/// shifts are not. Of each pixel, the surface at its centre (plus jitter) counts, as in `depth`. It
+/// is moved by the cameras and by the transforms of its instance; of vertices that change
+/// themselves, only those that the host gives on the device with `previous_vertices` move. What was
+/// behind the previous camera's eye gets (32768, 32768); other motion is clamped to +-32768.
+///
+/// What is not given here is taken from the last frame of this renderer that had motion, whatever
+/// its extent. Where that has nothing, what is drawn stood still: in the first frame after
+/// lobe_renderer_set_scene, everything; later, instances that were not there or hidden, and those
+/// listed in lobe_scene_changes, which therefore should not list those that only moved.
+typedef struct lobe_render_motion {
+    bool deliver; ///< deliver it in the frame; a target's `motion` is computed without that, too
+    const lobe_camera *previous_camera;     ///< NULL: as said above
+    const float (*previous_transforms)[16]; ///< one for each instance, affine; NULL: as said above
+} lobe_render_motion;
+
 /// All members may be zero.
 typedef struct lobe_render_parameters {
     const lobe_filter *filter;     ///< NULL: "moments"
@@ -217,6 +244,7 @@ typedef struct lobe_render_parameters {
     bool discard; ///< deliver no images; for timing
     lobe_render_reference reference;
     lobe_render_environment environment;
+    lobe_render_motion motion;
     lobe_render_host host;
 } lobe_render_parameters;
 
@@ -238,6 +266,9 @@ typedef struct lobe_frame {
     /// RG32_FLOAT: lobes evaluated, and MIP level of the filtered maps (0: the maps themselves).
     /// Empty without `aov`.
     lobe_image lobes_level;
+    /// RG32_FLOAT: see lobe_render_motion. Empty unless it is to be delivered and there is no
+    /// target for it.
+    lobe_image motion;
     double milliseconds;      ///< device time of all submissions that were waited for
     double host_milliseconds; ///< CPU time to compile and record them: see lobe_graph_report
     uint32_t submissions;     ///< how many frames of the graph it took
@@ -258,10 +289,10 @@ LOBE_API void lobe_frame_free(lobe_frame *frame);
 /// range, an extent that differs from the target's), LOBE_ERROR_MALFORMED (a light, a transform or
 /// another part of the scene that is read in every frame, as for lobe_renderer_set_scene),
 /// LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with the host's passes,
-/// with a target's depth, or with a submission but no target; a knob that needs a feature which the
-/// device lacks; env=exact in a filter that has maps with normal_mapping=microfacet, or in one that
-/// fetches them for each light with probes above 1),
-/// LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+/// with a target's depth or motion, or with a submission but no target; a knob that needs a feature
+/// which the device lacks; env=exact in a filter that has maps with normal_mapping=microfacet, or
+/// in one that fetches them for each light with probes above 1), LOBE_ERROR_LIMIT (size),
+/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
                                           const lobe_render_parameters *parameters,
                                           lobe_frame *frame);

@@ -191,9 +191,13 @@ typedef struct lobe_camera {
     float orthographic_height;    ///< metres across, above 0 where the field of view is 0
     float near_plane;             ///< metres, above 0; the far plane is at infinity
     /// How far the picture's centre lies off the view's axis: to the right and down, in heights of
-    /// the picture. (0, 0): on the axis. For tiles of a larger picture, for the two eyes of a
-    /// headset, and, in parts of a pixel, for the jitter of a host's temporal antialiasing.
+    /// the picture. (0, 0): on the axis. For tiles of a larger picture and for the two eyes of a
+    /// headset.
     float shift[2];
+    /// For temporal antialiasing: where pixels are sampled, to the right of their centres and below
+    /// them, in pixels. Moves the picture like a shift of jitter / height, but is no motion (see
+    /// lobe_render_motion).
+    float jitter[2];
 } lobe_camera;
 
 typedef struct lobe_scene {

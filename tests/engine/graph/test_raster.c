@@ -136,6 +136,31 @@ static void a_depth_pass_comes_first(void **state) {
     assert_true(texel(fixture, colour, 4, 12, 2)[0] == 1);
 }
 
+/// Neither what is nearer nor what is farther.
+static void equal_depths_are_drawn_over(void **state) {
+    static const float depths[] = {0.75f, 0.5f, 0.25f};
+    graph_fixture *fixture = *state;
+    for (int i = 0; i < 3; i++) {
+        lobe_graph_begin(fixture->graph);
+        lobe_resource colour = picture(fixture, "colour", 0);
+        lobe_resource depth =
+            graph_fixture_image(fixture, "depth", LOBE_FORMAT_D32_FLOAT, SIZE, SIZE);
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_RASTER, "equal");
+        colour = lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = colour});
+        depth = lobe_pass_depth(pass, &(lobe_attachment){.resource = depth});
+        draw(fixture, pass, "graph_triangle.frag", half_picture,
+             &(triangle_constants){{1, 0, 0, 1}, 0.5f},
+             (lobe_draw){.depth_test = true, .depth_write = true});
+        draw(fixture, pass, "graph_triangle.frag", whole_picture,
+             &(triangle_constants){{0, 1, 0, 1}, depths[i]},
+             (lobe_draw){.depth_test = true, .depth_equal = true});
+        lobe_graph_read_back(fixture->graph, colour, (lobe_range){0});
+        graph_fixture_execute(fixture);
+        assert_true(texel(fixture, colour, 4, 2, 12)[1] == (depths[i] == 0.5f));
+        assert_true(texel(fixture, colour, 4, 12, 2)[1] == 0);
+    }
+}
+
 static void samples_are_resolved_to_their_mean(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -287,6 +312,7 @@ int main(void) {
         TEST(counter_clockwise_is_the_front),
         TEST(the_greater_depth_wins),
         TEST(a_depth_pass_comes_first),
+        TEST(equal_depths_are_drawn_over),
         TEST(samples_are_resolved_to_their_mean),
         TEST(samples_can_be_read_by_a_shader),
         TEST(a_second_output_goes_to_the_second_attachment),

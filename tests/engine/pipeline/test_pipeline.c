@@ -197,7 +197,7 @@ static void stages_are_merged(void **state) {
 
 static void each_state_makes_its_own_pipeline(void **state) {
     (void)state;
-    enum { VARIANTS = 8 };
+    enum { VARIANTS = 9 };
     engine_raster_parameters variants[VARIANTS];
     const engine_pipeline *pipelines[VARIANTS];
     for (int i = 0; i < VARIANTS; i++)
@@ -210,6 +210,7 @@ static void each_state_makes_its_own_pipeline(void **state) {
     variants[6].colour[0] = LOBE_FORMAT_RGBA16_FLOAT;
     variants[7].depth = LOBE_FORMAT_NONE;
     variants[7].depth_test = variants[7].depth_write = false;
+    variants[8].depth_equal = true;
     for (int i = 0; i < VARIANTS; i++) {
         pipelines[i] = raster(&variants[i]);
         assert_ptr_equal(raster(&variants[i]), pipelines[i]);

@@ -91,6 +91,25 @@ static void shifts_are_in_heights_of_the_picture(void **state) {
     }
 }
 
+/// Sampled to the right of its centre, a pixel shows what is there.
+static void jitter_is_in_pixels(void **state) {
+    (void)state;
+    random_sequence sequence = scenes_random_start(183);
+    for (int i = 0; i < 60; i++) {
+        lobe_camera camera = camera_with(fields_of_view[i % 3]);
+        double still[3], moved[3];
+        float point[3];
+        random_point(&sequence, point);
+        project(&camera, centre, point, still);
+        for (int axis = 0; axis < 2; axis++)
+            camera.jitter[axis] = (float)scenes_random_between(&sequence, -1, 1);
+        project(&camera, centre, point, moved);
+        for (int axis = 0; axis < 2; axis++)
+            assert_true(fabs(moved[axis] - (still[axis] - (double)camera.jitter[axis])) < 1e-4);
+        assert_true(fabs(moved[2] - still[2]) < 1e-6);
+    }
+}
+
 /// Reversed depth: 1 at the near plane, less behind it, never below 0 within the bounds.
 static void depth_falls_with_distance(void **state) {
     (void)state;
@@ -199,6 +218,7 @@ int main(void) {
         cmocka_unit_test(the_target_is_in_the_middle),
         cmocka_unit_test(samples_move_the_picture_the_right_way),
         cmocka_unit_test(shifts_are_in_heights_of_the_picture),
+        cmocka_unit_test(jitter_is_in_pixels),
         cmocka_unit_test(depth_falls_with_distance),
         cmocka_unit_test(orthographic_depth_has_no_scale),
         cmocka_unit_test(axes_are_orthonormal),

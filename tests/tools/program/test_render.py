@@ -85,6 +85,17 @@ def test_layers():
     check(all(channels[name] == "float" for name in layers), str(channels))
 
 
+def test_motion():
+    folder = fresh_folder("motion")
+    succeeds("render", "tablecloth", *SMALL, "--path", "0.7", "--motion", "0.65", "-o",
+             folder / "a.exr")
+    channels = exr_header(folder / "a.exr")["channels"]
+    check(sorted(channels) == sorted(["R", "G", "B", "A", "motion.X", "motion.Y"]), str(channels))
+    check(channels["motion.X"] == "float", str(channels))
+    succeeds("render", "tablecloth", *SMALL, "--path", "0.7", "-o", folder / "b.exr")
+    check(compare(folder / "a.exr", folder / "b.exr")["rmse"] == 0, "motion changes the picture")
+
+
 def test_frames_keep_their_maps():
     folder = fresh_folder("frames")
     succeeds("render", "tablecloth", *SMALL, "-o", folder / "one.exr")
@@ -192,7 +203,8 @@ def test_exposure():
 
 def test_options_that_do_nothing_are_told():
     folder = fresh_folder("ignored")
-    for options, output in ((["--aov"], "a.png"), (["--depth", "float"], "a.png"),
+    for options, output in ((["--aov"], "a.png"), (["--motion", "0"], "a.png"),
+                            (["--depth", "float"], "a.png"),
                             (["--exposure", "1"], "a.exr"), (["--samples", "4"], "a.exr")):
         result = succeeds("render", SCENE, *DIRECT, *options, "-o", folder / output)
         check(result.stderr.count("\n") == 1 and f"warning: {options[0]}" in result.stderr,
