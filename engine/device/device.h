@@ -39,8 +39,8 @@ struct lobe_device {
     VkCommandPool commands;         ///< pool for single-use command buffers
     struct engine_memory *memory;   ///< see engine/resource/memory.h
     struct engine_shared_table *shared; ///< see engine/resource/shared.h
-    /// Protects shaders, pipelines and samplers; recursive, because making a pipeline looks up
-    /// shaders.
+    /// Protects shaders, pipelines and samplers; recursive, because finding a pipeline looks up
+    /// shaders. Not held while the driver makes a pipeline.
     pthread_mutex_t found_mutex;
     struct engine_shaders *shaders;     ///< see engine/shader/shaders.h
     struct engine_pipelines *pipelines; ///< see engine/pipeline/pipelines.h

@@ -357,7 +357,7 @@ char *lobe_graph_dump_graphviz(const lobe_graph *graph) {
     engine_text_builder builder = {.bytes.allocator = graph->device->host.allocator};
     engine_text_builder *out = &builder;
     engine_text_add(out, "digraph lobe {\n  rankdir=LR;\n  node [fontname=\"sans-serif\"];\n");
-    if (graph->frame.phase != ENGINE_GRAPH_DECLARING)
+    if (graph->frame.phase != ENGINE_GRAPH_DECLARING && graph->frame.phase != ENGINE_GRAPH_PREPARED)
         graphviz_graph(out, graph);
     engine_text_add(out, "}\n");
     return engine_text_finish(out);

@@ -126,6 +126,7 @@ struct lobe_pass {
 typedef enum engine_graph_phase {
     ENGINE_GRAPH_DECLARING,
     ENGINE_GRAPH_COMPILED,
+    ENGINE_GRAPH_PREPARED, ///< it has pipelines, and will not be executed
     ENGINE_GRAPH_SUBMITTED,
     ENGINE_GRAPH_EXECUTED,
 } engine_graph_phase;

@@ -117,26 +117,63 @@ static lobe_result give_up(lobe_graph *graph, lobe_result result) {
     return engine_graph_propagate(graph, result);
 }
 
+static lobe_result take_steps(lobe_graph *graph, lobe_result (*const *steps)(lobe_graph *graph),
+                              size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        lobe_result result = steps[i](graph);
+        if (result != LOBE_OK)
+            return give_up(graph, result);
+    }
+    return LOBE_OK;
+}
+
 lobe_result lobe_graph_compile(lobe_graph *graph) {
     if (!graph)
         return LOBE_ERROR_INVALID_ARGUMENT;
     if (graph->frame.phase != ENGINE_GRAPH_DECLARING || graph->frame.result != LOBE_OK)
         return graph->frame.result;
     const double start = engine_host_milliseconds();
-    for (size_t i = 0; i < sizeof compile_steps / sizeof *compile_steps; i++) {
-        lobe_result result = compile_steps[i](graph);
-        if (result != LOBE_OK)
-            return give_up(graph, result);
-    }
+    const lobe_result result =
+        take_steps(graph, compile_steps, sizeof compile_steps / sizeof *compile_steps);
+    if (result != LOBE_OK)
+        return result;
     graph->frame.report.host_milliseconds = engine_host_milliseconds() - start;
     graph->frame.phase = ENGINE_GRAPH_COMPILED;
     return LOBE_OK;
 }
 
-static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
-    if (graph->frame.phase == ENGINE_GRAPH_SUBMITTED || graph->frame.phase == ENGINE_GRAPH_EXECUTED)
+/// What must be known of a frame before its pipelines are.
+static lobe_result (*const preparation_steps[])(lobe_graph *graph) = {
+    engine_graph_check_rasters,      engine_graph_resolve_bindings, engine_graph_check_host_images,
+    engine_graph_check_host_buffers, engine_graph_sign_passes,      analyse,
+};
+
+lobe_result lobe_graph_prepare(lobe_graph *graph, bool (*progress)(void *user, double part),
+                               void *user) {
+    if (!graph)
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    if (graph->frame.result != LOBE_OK)
+        return graph->frame.result;
+    if (graph->frame.phase != ENGINE_GRAPH_DECLARING)
         return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
-                               "render graph: a frame cannot be executed twice; begin a new one");
+                               "render graph: a frame that was compiled cannot be prepared");
+    lobe_result result =
+        take_steps(graph, preparation_steps, sizeof preparation_steps / sizeof *preparation_steps);
+    if (result != LOBE_OK)
+        return result;
+    graph->frame.phase = ENGINE_GRAPH_PREPARED;
+    result = engine_graph_prepare_pipelines(graph, progress, user);
+    engine_pipelines_end_use(graph->device, &graph->frame.flight->pipelines);
+    return engine_graph_propagate(graph, result);
+}
+
+static lobe_result run(lobe_graph *graph, const lobe_vulkan_submission *submission) {
+    if (graph->frame.phase > ENGINE_GRAPH_COMPILED)
+        return lobe_graph_fail(
+            graph, LOBE_ERROR_GRAPH,
+            graph->frame.phase == ENGINE_GRAPH_PREPARED
+                ? "render graph: a frame cannot be executed once it was prepared; begin a new one"
+                : "render graph: a frame cannot be executed twice; begin a new one");
     lobe_result result = lobe_graph_compile(graph);
     if (result != LOBE_OK)
         return result;

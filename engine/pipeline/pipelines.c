@@ -25,7 +25,8 @@ typedef struct pipeline_key {
 
 typedef struct cached_pipeline {
     struct cached_pipeline *next;
-    uint64_t used; ///< last lookup, by the clock of the uses
+    uint64_t used;      ///< last lookup, by the clock of the uses
+    bool in_the_making; ///< by a thread that does not hold the mutex meanwhile
     pipeline_key key;
     engine_pipeline pipeline;
 } cached_pipeline;
@@ -36,6 +37,7 @@ struct engine_pipelines {
     engine_pipeline_uses uses;
     cached_pipeline *pipelines; ///< most recently used first
     uint32_t count;
+    pthread_cond_t made;         ///< one is no longer in the making
     lobe_specialisation *wanted; ///< buffer for the key of the current search
     uint32_t wanted_capacity;
 };
@@ -112,16 +114,22 @@ static void put_first(engine_pipelines *pipelines, cached_pipeline *cached) {
     pipelines->pipelines = cached;
 }
 
-static const engine_pipeline *find(engine_pipelines *pipelines, const pipeline_key *key) {
-    for (cached_pipeline **link = &pipelines->pipelines; *link; link = &(*link)->next) {
-        cached_pipeline *known = *link;
-        if (!same_key(&known->key, key))
-            continue;
-        *link = known->next;
-        put_first(pipelines, known);
-        return &known->pipeline;
-    }
-    return NULL;
+static void take_out(engine_pipelines *pipelines, const cached_pipeline *cached) {
+    cached_pipeline **link = &pipelines->pipelines;
+    while (*link != cached)
+        link = &(*link)->next;
+    *link = cached->next;
+}
+
+static cached_pipeline *find(engine_pipelines *pipelines, const pipeline_key *key) {
+    cached_pipeline *known = pipelines->pipelines;
+    while (known && !same_key(&known->key, key))
+        known = known->next;
+    if (!known)
+        return NULL;
+    take_out(pipelines, known);
+    put_first(pipelines, known);
+    return known;
 }
 
 static lobe_result find_shader(lobe_device *device, const char *name, VkShaderStageFlagBits stage,
@@ -249,10 +257,33 @@ static void evict(lobe_device *device) {
         link = &(*link)->next;
     while (*link) {
         cached_pipeline *gone = *link;
+        if (gone->in_the_making) {
+            link = &gone->next;
+            continue;
+        }
         *link = gone->next;
         destroy_pipeline(device, gone);
         pipelines->count--;
     }
+}
+
+/// Drivers take up to seconds to make a pipeline: meanwhile, other threads find theirs.
+static lobe_result make(lobe_device *device, const engine_raster_parameters *raster,
+                        cached_pipeline *cached) {
+    engine_pipelines *pipelines = device->pipelines;
+    pthread_mutex_unlock(&device->found_mutex);
+    const lobe_result result = create_vulkan(device, raster, cached);
+    pthread_mutex_lock(&device->found_mutex);
+    take_out(pipelines, cached);
+    cached->in_the_making = false;
+    if (result == LOBE_OK) {
+        put_first(pipelines, cached);
+    } else {
+        pipelines->count--;
+        destroy_pipeline(device, cached);
+    }
+    pthread_cond_broadcast(&pipelines->made);
+    return result;
 }
 
 /// Creates the pipeline for a key.
@@ -271,22 +302,27 @@ static lobe_result add(lobe_device *device, const engine_raster_parameters *rast
     cached->pipeline.bind_point =
         raster ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
     cached->pipeline.output_locations = key->shaders[1] ? key->shaders[1]->output_locations : 0;
-    const lobe_result result = create_vulkan(device, raster, cached);
-    if (result != LOBE_OK) {
-        destroy_pipeline(device, cached);
-        return result;
-    }
+    cached->in_the_making = true;
     evict(device);
     put_first(device->pipelines, cached);
     device->pipelines->count++;
-    *pipeline = &cached->pipeline;
-    return LOBE_OK;
+    const lobe_result result = make(device, raster, cached);
+    *pipeline = result == LOBE_OK ? &cached->pipeline : NULL;
+    return result;
 }
 
+/// `*waited`: another thread was making the pipeline. The search is to be repeated then: that
+/// thread may have failed, and the buffer of the key has changed.
 static lobe_result find_or_add(lobe_device *device, const engine_raster_parameters *raster,
-                               const pipeline_key *key, const engine_pipeline **pipeline) {
-    *pipeline = find(device->pipelines, key);
-    return *pipeline ? LOBE_OK : add(device, raster, key, pipeline);
+                               const pipeline_key *key, const engine_pipeline **pipeline,
+                               bool *waited) {
+    const cached_pipeline *known = find(device->pipelines, key);
+    *waited = known && known->in_the_making;
+    if (*waited)
+        pthread_cond_wait(&device->pipelines->made, &device->found_mutex);
+    else if (known)
+        *pipeline = &known->pipeline;
+    return known ? LOBE_OK : add(device, raster, key, pipeline);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -299,6 +335,7 @@ lobe_result engine_pipelines_create(lobe_device *device, const char *cache_file,
         return lobe_host_fail(&device->host, LOBE_ERROR_OUT_OF_MEMORY,
                               "out of memory for pipelines");
     engine_pipeline_uses_create(&(*pipelines)->uses);
+    pthread_cond_init(&(*pipelines)->made, NULL);
     return engine_pipeline_cache_create(device, cache_file, &(*pipelines)->cache);
 }
 
@@ -312,6 +349,7 @@ void engine_pipelines_destroy(lobe_device *device, engine_pipelines **pipelines)
     engine_sampler_cache_destroy(device, &(*pipelines)->samplers);
     engine_pipeline_cache_destroy(device, &(*pipelines)->cache);
     engine_pipeline_uses_destroy(&(*pipelines)->uses);
+    pthread_cond_destroy(&(*pipelines)->made);
     lobe_release((*pipelines)->wanted);
     lobe_release(*pipelines);
     *pipelines = NULL;
@@ -331,29 +369,35 @@ void engine_pipelines_end_use_after(lobe_device *device, engine_pipeline_use *us
 }
 
 static lobe_result find_compute(lobe_device *device, const engine_compute_parameters *parameters,
-                                const engine_pipeline **pipeline) {
+                                const engine_pipeline **pipeline, bool *waited) {
     pipeline_key key = {0};
+    *waited = false;
     *pipeline = NULL;
     lobe_result result =
         find_shader(device, parameters->shader, VK_SHADER_STAGE_COMPUTE_BIT, &key.shaders[0]);
     if (result == LOBE_OK)
         result = fill_specialisation(device, parameters->specialisation,
                                      parameters->specialisation_count, &key);
-    return result == LOBE_OK ? find_or_add(device, NULL, &key, pipeline) : result;
+    return result == LOBE_OK ? find_or_add(device, NULL, &key, pipeline, waited) : result;
 }
 
 lobe_result engine_pipeline_compute(lobe_device *device,
                                     const engine_compute_parameters *parameters,
                                     const engine_pipeline **pipeline) {
     pthread_mutex_lock(&device->found_mutex);
-    const lobe_result result = find_compute(device, parameters, pipeline);
+    lobe_result result;
+    bool waited;
+    do {
+        result = find_compute(device, parameters, pipeline, &waited);
+    } while (waited);
     pthread_mutex_unlock(&device->found_mutex);
     return result;
 }
 
 static lobe_result find_raster(lobe_device *device, const engine_raster_parameters *parameters,
-                               const engine_pipeline **pipeline) {
+                               const engine_pipeline **pipeline, bool *waited) {
     pipeline_key key = {0};
+    *waited = false;
     *pipeline = NULL;
     lobe_result result =
         find_shader(device, parameters->vertex_shader, VK_SHADER_STAGE_VERTEX_BIT, &key.shaders[0]);
@@ -364,13 +408,17 @@ static lobe_result find_raster(lobe_device *device, const engine_raster_paramete
     if (result == LOBE_OK)
         result = fill_specialisation(device, parameters->specialisation,
                                      parameters->specialisation_count, &key);
-    return result == LOBE_OK ? find_or_add(device, parameters, &key, pipeline) : result;
+    return result == LOBE_OK ? find_or_add(device, parameters, &key, pipeline, waited) : result;
 }
 
 lobe_result engine_pipeline_raster(lobe_device *device, const engine_raster_parameters *parameters,
                                    const engine_pipeline **pipeline) {
     pthread_mutex_lock(&device->found_mutex);
-    const lobe_result result = find_raster(device, parameters, pipeline);
+    lobe_result result;
+    bool waited;
+    do {
+        result = find_raster(device, parameters, pipeline, &waited);
+    } while (waited);
     pthread_mutex_unlock(&device->found_mutex);
     return result;
 }

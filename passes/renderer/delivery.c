@@ -77,6 +77,9 @@ void passes_delivery_mark_output(const rendering *r, const frame_delivery *deliv
 
 lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
+    const lobe_render_host *host = &r->parameters->host;
+    if (delivery->prepares)
+        return lobe_graph_prepare(graph, host->progress, host->user);
     lobe_result result = delivery->submission ? lobe_graph_submit(graph, delivery->submission)
                                               : lobe_graph_execute(graph);
     if (result != LOBE_OK)

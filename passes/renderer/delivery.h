@@ -11,6 +11,7 @@ struct frame_delivery {
     bool reads_back;                          ///< images go to host memory, except the target's
     bool aov;                                 ///< with arbitrary output variables
     bool motion;                              ///< with motion, wherever it goes
+    bool prepares;                            ///< nothing is submitted: only pipelines are made
 };
 
 /// The delivery that the caller of lobe_renderer_render asks for.
@@ -29,8 +30,9 @@ void passes_delivery_replace(const shading_targets *imported, shading_targets *t
 void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,
                                  lobe_resource resource);
 
-/// Executes the graph, or submits it as the host requests, and adds its times: the device's only if
-/// it waited for the frame. In that case it also saves maps of the environment that were read back.
+/// Prepares the graph, executes it, or submits it as the host requests, and adds its times: the
+/// device's only if it waited for the frame. In that case it also saves maps of the environment
+/// that were read back.
 lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lobe_frame *frame);
 
 /// Copies an image that was read back. LOBE_ERROR_INVALID_ARGUMENT: the host's passes replaced it

@@ -135,7 +135,7 @@ lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lo
     draw(r, delivery, &imported, &targets);
     mark_outputs(r, delivery, &targets);
     result = passes_delivery_run(r, delivery, frame);
-    if (result == LOBE_OK && delivery->motion)
+    if (result == LOBE_OK && delivery->motion && !delivery->prepares)
         passes_motion_history_keep(history, scene, r->context.view.camera);
     return result == LOBE_OK && delivery->reads_back ? take_images(r, delivery, &targets, frame)
                                                      : result;

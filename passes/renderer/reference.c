@@ -158,8 +158,29 @@ static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_
     return passes_delivery_run(r, delivery, frame);
 }
 
+/// Makes the pipelines of one sample, of what is drawn beside the samples, and of the mean in the
+/// host's image.
+static lobe_result prepare(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
+    sample_sum one = {.samples = 1,
+                      .without_background = delivery->target && delivery->target->keep};
+    const frame_delivery beside = {
+        .aov = delivery->aov, .motion = delivery->motion, .prepares = true};
+    lobe_result result = delivery->target ? measure_target(r, delivery) : LOBE_OK;
+    if (result == LOBE_OK && (beside.aov || beside.motion))
+        result = passes_frame_render(r, &beside, frame);
+    if (result == LOBE_OK)
+        result = render_samples(r, &beside, &one, 0, 1, frame);
+    if (result != LOBE_OK || !delivery->target)
+        return result;
+    result = lobe_image_allocate(&frame->radiance, LOBE_FORMAT_RGBA32_FLOAT, r->width, r->height,
+                                 r->context.host);
+    return result ? result : draw_mean(r, delivery, frame);
+}
+
 lobe_result passes_reference_render(rendering *r, const frame_delivery *delivery,
                                     lobe_frame *frame) {
+    if (delivery->prepares)
+        return prepare(r, delivery, frame);
     if (!delivery->target)
         return render_mean(r, delivery, false, frame);
     // The samples are read back as for a picture in host memory; the host's submission draws their

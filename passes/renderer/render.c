@@ -191,3 +191,71 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     }
     return result;
 }
+
+// ---------------------------------------------------------------------------------------------
+// Pipelines alone
+
+/// The host's callback, which is not asked again once it has said stop.
+typedef struct preparation {
+    const lobe_render_host *host;
+    bool stopped;
+} preparation;
+
+static bool report_preparation(void *user, double part) {
+    preparation *p = user;
+    p->stopped = p->stopped || (p->host->progress && !p->host->progress(p->host->user, part));
+    return !p->stopped;
+}
+
+/// Callbacks that add passes get the host's own pointer.
+static void add_prepared_passes(void *user, lobe_graph *graph, lobe_render_stage stage,
+                                lobe_render_resources *resources) {
+    const lobe_render_host *host = ((preparation *)user)->host;
+    host->add_passes(host->user, graph, stage, resources);
+}
+
+/// As if the environment had no maps yet.
+static lobe_result prepare_frame(rendering *r, environment_state *environment, lobe_frame *frame) {
+    const frame_delivery delivery = {.target = r->parameters->host.target,
+                                     .aov = r->parameters->aov,
+                                     .motion = passes_delivery_of(r->parameters).motion,
+                                     .prepares = true};
+    lobe_result result = prepare(r);
+    if (result != LOBE_OK)
+        return result;
+    r->environment.state = environment;
+    r->environment.saves = false;
+    result = passes_environment_light_load(&r->context, &r->environment, r->renderer->device);
+    if (result != LOBE_OK)
+        return result;
+    result = r->context.filter->supersamples ? passes_reference_render(r, &delivery, frame)
+                                             : passes_frame_render(r, &delivery, frame);
+    // Nothing of the frame is left that could refer to the environment's maps.
+    lobe_graph_begin(r->renderer->graph);
+    return result;
+}
+
+lobe_result lobe_renderer_prepare(lobe_renderer *renderer,
+                                  const lobe_render_parameters *parameters) {
+    if (!renderer || !parameters)
+        return lobe_host_fail(renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_renderer_prepare: renderer and parameters must not be NULL");
+    preparation state = {.host = &parameters->host};
+    lobe_render_parameters prepared = *parameters;
+    prepared.host.progress = report_preparation;
+    prepared.host.add_passes = parameters->host.add_passes ? add_prepared_passes : NULL;
+    prepared.host.user = &state;
+    prepared.environment.parts = 0;
+    rendering r = {
+        .renderer = renderer,
+        .parameters = &prepared,
+        .width = parameters->width ? parameters->width : 1280,
+        .height = parameters->height ? parameters->height : 720,
+    };
+    environment_state environment = {0};
+    lobe_frame frame = {0};
+    const lobe_result result = prepare_frame(&r, &environment, &frame);
+    lobe_frame_free(&frame);
+    passes_environment_light_forget(&environment);
+    return result;
+}

@@ -373,7 +373,21 @@ static lobe_result find_pipeline(lobe_pass *pass, engine_graph_command *command)
     return engine_pipeline_raster(device, &parameters, &command->pipeline);
 }
 
-lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
+static uint32_t count_commands(const lobe_graph *graph) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < graph->frame.dependencies.running_count; i++) {
+        const lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[i]];
+        for (const engine_graph_command *command = pass->first_command; command;
+             command = command->next)
+            ++count;
+    }
+    return count;
+}
+
+lobe_result engine_graph_prepare_pipelines(lobe_graph *graph,
+                                           bool (*progress)(void *user, double part), void *user) {
+    const uint32_t count = progress ? count_commands(graph) : 0;
+    uint32_t done = 0;
     engine_pipelines_begin_use(graph->device, &graph->frame.flight->pipelines);
     for (uint32_t i = 0; i < graph->frame.dependencies.running_count; i++) {
         lobe_pass *pass = graph->frame.passes[graph->frame.dependencies.running[i]];
@@ -382,7 +396,13 @@ lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
             lobe_result result = find_pipeline(pass, command);
             if (result != LOBE_OK)
                 return engine_graph_propagate(graph, result);
+            if (progress && !progress(user, ++done / (double)count))
+                return LOBE_OK;
         }
     }
     return LOBE_OK;
+}
+
+lobe_result engine_graph_find_pipelines(lobe_graph *graph) {
+    return engine_graph_prepare_pipelines(graph, NULL, NULL);
 }

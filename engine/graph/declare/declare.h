@@ -69,6 +69,9 @@ lobe_result engine_graph_sign_passes(lobe_graph *graph);
 
 /// Gets the pipelines of the passes that run (binding.c).
 lobe_result engine_graph_find_pipelines(lobe_graph *graph);
+/// The same, with the callback of lobe_graph_prepare.
+lobe_result engine_graph_prepare_pipelines(lobe_graph *graph,
+                                           bool (*progress)(void *user, double part), void *user);
 
 /// What a command binds to a name: its own binding before the pass's; NULL if neither has one
 /// (binding.c).

@@ -354,6 +354,14 @@ LOBE_API void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lo
 /// LOBE_ERROR_SHADER, LOBE_ERROR_LIMIT, LOBE_ERROR_OUT_OF_DEVICE_MEMORY.
 LOBE_API lobe_result lobe_graph_compile(lobe_graph *graph);
 
+/// Creates the pipelines of the passes that would run, and nothing else: no memory, no commands.
+/// Later frames of any graph of the device find them. The frame cannot be executed then; begin
+/// another. Other graphs, in other threads, go on meanwhile: at most those wait that need a
+/// pipeline which is in the making. `progress`: called with the part done, in [0, 1], after each
+/// pipeline; returning false stops, with LOBE_OK; NULL: none. Errors: as lobe_graph_compile.
+LOBE_API lobe_result lobe_graph_prepare(lobe_graph *graph,
+                                        bool (*progress)(void *user, double part), void *user);
+
 /// Compiles if necessary, records, submits, and waits for the device to finish.
 LOBE_API lobe_result lobe_graph_execute(lobe_graph *graph);
 

@@ -297,6 +297,25 @@ LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
                                           const lobe_render_parameters *parameters,
                                           lobe_frame *frame);
 
+/// Creates the pipelines that frames with these parameters need and the device does not have, as if
+/// no map were built yet, and nothing else: no map, no picture, no device memory beyond the
+/// scene's. Compiling takes a driver up to seconds; frames then create none. The images of a target
+/// are not touched; their formats decide which pipelines are needed. What only changes of the scene
+/// need (other texels, other materials) is not included, except where images are given on the
+/// device.
+///
+/// To prepare something new while another renderer of the device draws, in a thread of the host's:
+/// create a renderer there, set a scene with at least one instance of each new material, and the
+/// lights and environment that it will be drawn with, and prepare that. Frames do not wait
+/// meanwhile, unless they need a pipeline that is in the making. Keep that renderer until the new
+/// things have been drawn, and they find their texels and meshes on the device, too.
+///
+/// `parameters->host.progress` is called with the part done after each pipeline (of the reference,
+/// several times from 0 to 1); returning false stops, with LOBE_OK. Returning is the sign that all
+/// is done. Errors: as lobe_renderer_render.
+LOBE_API lobe_result lobe_renderer_prepare(lobe_renderer *renderer,
+                                           const lobe_render_parameters *parameters);
+
 /// The graph of the last frame (of a reference: its last submission), for dumps and reports.
 LOBE_API lobe_graph *lobe_renderer_graph(lobe_renderer *renderer);
 

@@ -118,6 +118,9 @@ OBJECT(ShaderModule)
               const Vk##kind##PipelineCreateInfo *create, const VkAllocationCallbacks *callbacks,  \
               VkPipeline *made),                                                                   \
              true) {                                                                               \
+        const VkResult refusal = faults.making ? faults.making() : VK_SUCCESS;                     \
+        if (refusal != VK_SUCCESS)                                                                 \
+            return refusal;                                                                        \
         if (fails(&stand_in_vkCreate##kind##Pipelines))                                            \
             return faults.fault;                                                                   \
         VkResult result =                                                                          \

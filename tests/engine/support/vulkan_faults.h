@@ -17,6 +17,10 @@ typedef struct vulkan_faults {
     bool paused;           ///< nothing fails, and no call counts
     bool names;            ///< calls that name objects, of which there are many, can fail too
     bool timeline_unknown; ///< vkGetSemaphoreCounterValue fails
+    /// Called before a pipeline is made, by the thread that makes it; the result, unless it is
+    /// VK_SUCCESS, is returned instead of a pipeline. NULL: none. Not to be changed while pipelines
+    /// are made.
+    VkResult (*making)(void);
     // Counted in whatever thread.
     _Atomic int alive; ///< objects created and not destroyed
     _Atomic int pipelines_alive;

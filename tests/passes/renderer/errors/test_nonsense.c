@@ -222,6 +222,7 @@ static void graphs_that_are_none(void **state) {
     lobe_graph_output(NULL, none);
     lobe_graph_read_back(NULL, none, all);
     REFUSED_SILENTLY(lobe_graph_compile(NULL));
+    REFUSED_SILENTLY(lobe_graph_prepare(NULL, NULL, NULL));
     REFUSED_SILENTLY(lobe_graph_execute(NULL));
     REFUSED_SILENTLY(lobe_graph_submit(NULL, NULL));
     REFUSED_SILENTLY(lobe_graph_wait(NULL));
@@ -428,6 +429,11 @@ static void renderers(void **state) {
     REFUSED_SILENTLY(lobe_renderer_update_scene(NULL, NULL));
     lobe_renderer_set_content_giver(NULL, NULL, NULL);
     REFUSED_SILENTLY(lobe_renderer_render(NULL, NULL, &frame));
+    REFUSED_SILENTLY(lobe_renderer_prepare(NULL, NULL));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_prepare",
+            lobe_renderer_prepare(f->renderer, NULL));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set",
+            lobe_renderer_prepare(f->renderer, &(lobe_render_parameters){0}));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_render",
             lobe_renderer_render(f->renderer, NULL, &frame));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_update_scene",
