@@ -76,6 +76,14 @@ static lobe_format format_of(SpvImageFormat format) {
         return LOBE_FORMAT_R8_UNORM;
     case SpvImageFormatRg8:
         return LOBE_FORMAT_RG8_UNORM;
+    case SpvImageFormatRg8Snorm:
+        return LOBE_FORMAT_RG8_SNORM;
+    case SpvImageFormatRgba8Snorm:
+        return LOBE_FORMAT_RGBA8_SNORM;
+    case SpvImageFormatRg16:
+        return LOBE_FORMAT_RG16_UNORM;
+    case SpvImageFormatRg16Snorm:
+        return LOBE_FORMAT_RG16_SNORM;
     case SpvImageFormatRgba8:
         return LOBE_FORMAT_RGBA8_UNORM;
     case SpvImageFormatRgba16:

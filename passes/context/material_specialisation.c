@@ -12,6 +12,11 @@ static_assert(LOBE_DISTRIBUTION_BLINN_PHONG == DISTRIBUTION_BLINN_PHONG,
               "one list of distributions");
 static_assert(LOBE_DISTRIBUTION_VMF == DISTRIBUTION_VMF, "one list of distributions");
 
+static_assert((int)LOBE_NORMALS_UNSIGNED == NORMALS_UNSIGNED, "one list of encodings");
+static_assert((int)LOBE_NORMALS_SIGNED == NORMALS_SIGNED, "one list of encodings");
+static_assert((int)LOBE_NORMALS_UNSIGNED_XY == NORMALS_UNSIGNED_XY, "one list of encodings");
+static_assert((int)LOBE_NORMALS_SIGNED_XY == NORMALS_SIGNED_XY, "one list of encodings");
+
 void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits) {
     if (list->count == MAXIMUM_SPECIALISATIONS) {
         lobe_graph_fail(list->graph, LOBE_ERROR_LIMIT,
@@ -33,6 +38,7 @@ void passes_material_specialise(const device_material *material, specialisation_
     passes_specialise(list, SPECIALISE_LOBE_COUNT, material->lobe_count);
     passes_specialise(list, SPECIALISE_MAPS, material->map_bits);
     passes_specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
+    passes_specialise(list, SPECIALISE_NORMALS, material->maps[MAP_NORMAL].normals);
     passes_specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));
     passes_specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
     passes_specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);

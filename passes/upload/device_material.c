@@ -120,6 +120,7 @@ static lobe_result find_maps(device_scene *result, device_material *material,
                                            .width = image->width,
                                            .height = image->height,
                                            .format = image->format,
+                                           .normals = result->scene->images[use->image].normals,
                                            .readable = passes_image_texel(image, 0, 0, first)};
         material->map_bits |= 1u << map;
         if (use->texture_coordinates)
@@ -188,7 +189,7 @@ static lobe_result store_constants(lobe_graph *graph, device_material *material)
 
 static bool is_same_map(const device_map *a, const device_map *b) {
     return a->image == b->image && a->width == b->width && a->height == b->height &&
-           a->format == b->format && a->readable == b->readable;
+           a->format == b->format && a->normals == b->normals && a->readable == b->readable;
 }
 
 /// Whether the material has the lobes that it had, apart from other texels in its maps.

@@ -14,6 +14,7 @@ typedef struct device_map {
     int32_t image;               ///< of the scene, when the map was uploaded
     uint32_t width, height;      ///< texels
     lobe_format format;
+    lobe_normal_encoding normals;
     bool readable; ///< by the host
 } device_map;
 

@@ -63,6 +63,14 @@ static bool sample_map(const lobe_scene *scene, const device_map *map, double u,
     return true;
 }
 
+/// As stored_normal in shaders/lib/map/normal_map.glsl.
+static void decode_normal(lobe_normal_encoding encoding, const double value[4], double normal[3]) {
+    for (int i = 0; i < 3; i++)
+        normal[i] = passes_normals_are_signed(encoding) ? value[i] : 2 * value[i] - 1;
+    if (passes_normals_lack_z(encoding))
+        normal[2] = sqrt(fmax(0, 1 - normal[0] * normal[0] - normal[1] * normal[1]));
+}
+
 static bool sample_normal(const lobe_scene *scene, const device_material *material, double u,
                           double v, double normal[3]) {
     double value[4] = {0.5, 0.5, 1, 1};
@@ -72,8 +80,9 @@ static bool sample_normal(const lobe_scene *scene, const device_material *materi
     double scale[3] = {(double)material->material->normal_scale,
                        (double)material->material->normal_scale, 1};
     double square = 0;
+    decode_normal(map->normals, value, normal);
     for (int i = 0; i < 3; i++) {
-        normal[i] = (2 * value[i] - 1) * scale[i];
+        normal[i] *= scale[i];
         square += normal[i] * normal[i];
     }
     for (int i = 0; i < 3; i++)

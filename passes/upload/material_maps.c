@@ -1,5 +1,6 @@
 #include "passes/upload/material_maps.h"
 
+#include <math.h>
 #include <string.h>
 
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
@@ -93,9 +94,17 @@ static float channel(const lobe_image *image, const unsigned char *texel, uint32
     case LOBE_FORMAT_RG8_UNORM:
     case LOBE_FORMAT_RGBA8_UNORM:
         return (float)texel[index] / 255.0f;
+    case LOBE_FORMAT_RG8_SNORM:
+    case LOBE_FORMAT_RGBA8_SNORM:
+        return fmaxf((float)(int8_t)texel[index] / 127.0f, -1);
+    case LOBE_FORMAT_RG16_UNORM:
     case LOBE_FORMAT_RGBA16_UNORM:
         memcpy(&word, texel + 2 * index, sizeof word);
         return (float)word / 65535.0f;
+    case LOBE_FORMAT_RG16_SNORM:
+    case LOBE_FORMAT_RGBA16_SNORM:
+        memcpy(&word, texel + 2 * index, sizeof word);
+        return fmaxf((float)(int16_t)word / 32767.0f, -1);
     default:
         memcpy(&number, texel + 4 * index, sizeof number);
         return number;
@@ -107,7 +116,12 @@ static bool is_readable(lobe_format format) {
     case LOBE_FORMAT_R8_UNORM:
     case LOBE_FORMAT_RG8_UNORM:
     case LOBE_FORMAT_RGBA8_UNORM:
+    case LOBE_FORMAT_RG8_SNORM:
+    case LOBE_FORMAT_RGBA8_SNORM:
+    case LOBE_FORMAT_RG16_UNORM:
+    case LOBE_FORMAT_RG16_SNORM:
     case LOBE_FORMAT_RGBA16_UNORM:
+    case LOBE_FORMAT_RGBA16_SNORM:
     case LOBE_FORMAT_R32_FLOAT:
     case LOBE_FORMAT_RG32_FLOAT:
     case LOBE_FORMAT_RGBA32_FLOAT:
@@ -126,4 +140,12 @@ bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float v
         value[i] = i < lobe_format_channels(image->format) ? channel(image, texel, i)
                                                            : (i == 3 ? 1.0f : 0.0f);
     return true;
+}
+
+bool passes_normals_are_signed(lobe_normal_encoding encoding) {
+    return encoding == LOBE_NORMALS_SIGNED || encoding == LOBE_NORMALS_SIGNED_XY;
+}
+
+bool passes_normals_lack_z(lobe_normal_encoding encoding) {
+    return encoding == LOBE_NORMALS_UNSIGNED_XY || encoding == LOBE_NORMALS_SIGNED_XY;
 }

@@ -37,4 +37,8 @@ bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_textu
 /// for images without texels.
 bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]);
 
+/// Whether texels are normals as they are, not (n + 1) / 2, and whether z follows from x and y.
+bool passes_normals_are_signed(lobe_normal_encoding encoding);
+bool passes_normals_lack_z(lobe_normal_encoding encoding);
+
 #endif

@@ -33,6 +33,7 @@ material_rows *passes_material_rows_create(const lobe_allocator *allocator, cons
     rows->widths = image_of(scene, material, MAP_WIDTH);
     rows->width = grid.width;
     rows->height = grid.height;
+    rows->encoding = material->maps[MAP_NORMAL].normals;
     rows->normal_scale = material->material->normal_scale;
     rows->factor_channel = material->material->model == LOBE_MATERIAL_MICROFACET ? 1 : 0;
     for (uint32_t i = 0; i < 3; i++)
@@ -64,6 +65,26 @@ static void decode_words(const unsigned char *texels, uint32_t stride, uint32_t 
     }
 }
 
+static void decode_signed_bytes(const unsigned char *texels, uint32_t stride, uint32_t count,
+                                float *values) {
+    for (uint32_t x = 0; x < count; x++)
+        values[x] = fmaxf((float)(int8_t)texels[(size_t)x * stride] * (1.0f / 127), -1);
+}
+
+static void decode_signed_words(const unsigned char *texels, uint32_t stride, uint32_t count,
+                                float *values) {
+    for (uint32_t x = 0; x < count; x++) {
+        int16_t word;
+        memcpy(&word, texels + (size_t)x * stride, sizeof word);
+        values[x] = fmaxf((float)word * (1.0f / 32767), -1);
+    }
+}
+
+static bool has_sign(lobe_format format) {
+    return format == LOBE_FORMAT_RG8_SNORM || format == LOBE_FORMAT_RGBA8_SNORM ||
+           format == LOBE_FORMAT_RG16_SNORM || format == LOBE_FORMAT_RGBA16_SNORM;
+}
+
 static void decode_floats(const unsigned char *texels, uint32_t stride, uint32_t count,
                           float *values) {
     for (uint32_t x = 0; x < count; x++)
@@ -79,9 +100,11 @@ static void decode(const lobe_image *image, uint32_t y, uint32_t channel, float 
     if (channel >= channels)
         memset(values, 0, image->width * sizeof *values);
     else if (size == 1)
-        decode_bytes(row, stride, image->width, values);
+        (has_sign(image->format) ? decode_signed_bytes : decode_bytes)(row, stride, image->width,
+                                                                       values);
     else if (size == 2)
-        decode_words(row, stride, image->width, values);
+        (has_sign(image->format) ? decode_signed_words : decode_words)(row, stride, image->width,
+                                                                       values);
     else
         decode_floats(row, stride, image->width, values);
 }
@@ -99,12 +122,28 @@ static void read_channel(material_rows *rows, const lobe_image *image, uint32_t 
         values[x] = rows->texels[(uint64_t)x * image->width / rows->width];
 }
 
+/// As stored_normal in shaders/lib/map/normal_map.glsl.
+static void reconstruct_z(material_rows *rows, float factor, float offset) {
+    const float *restrict nx = rows->normal[0], *restrict ny = rows->normal[1];
+    float *restrict nz = rows->normal[2];
+    for (uint32_t i = 0; i < rows->width; i++) {
+        float x = factor * nx[i] - offset, y = factor * ny[i] - offset;
+        float z = sqrtf(fmaxf(0, 1 - x * x - y * y));
+        nz[i] = (z + offset) / factor;
+    }
+}
+
 static void normalise(material_rows *rows) {
     const float scale = rows->normal_scale;
+    const bool is_signed = passes_normals_are_signed(rows->encoding);
+    const float factor = is_signed ? 1 : 2, offset = is_signed ? 0 : 1;
+    if (passes_normals_lack_z(rows->encoding))
+        reconstruct_z(rows, factor, offset);
     float *restrict nx = rows->normal[0], *restrict ny = rows->normal[1],
                     *restrict nz = rows->normal[2];
     for (uint32_t i = 0; i < rows->width; i++) {
-        float x = (2 * nx[i] - 1) * scale, y = (2 * ny[i] - 1) * scale, z = 2 * nz[i] - 1;
+        float x = (factor * nx[i] - offset) * scale, y = (factor * ny[i] - offset) * scale,
+              z = factor * nz[i] - offset;
         float square = x * x + y * y + z * z;
         // False for NaN, too.
         bool sound = square > 1e-12f && square < 1e30f;

@@ -8,6 +8,7 @@
 typedef struct material_rows {
     const lobe_image *normals, *widths; ///< NULL: the material has no such map
     uint32_t width, height;             ///< of the grid, texels
+    lobe_normal_encoding encoding;
     float normal_scale;
     uint32_t factor_channel; ///< of the width map
     float *normal[3];        ///< of the row that was read: unit, in the tangent frame

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "passes/upload/material_maps.h"
 #include "passes/upload/number_check.h"
 
 /// The bits of a channel's exponent, which are all set in infinities and NaN; 0 for formats without
@@ -52,6 +53,33 @@ static lobe_result check_texels(const lobe_scene *scene, size_t index, const lob
     return LOBE_OK;
 }
 
+static bool has_sign(lobe_format format) {
+    switch (format) {
+    case LOBE_FORMAT_RG8_SNORM:
+    case LOBE_FORMAT_RGBA8_SNORM:
+    case LOBE_FORMAT_RG16_SNORM:
+    case LOBE_FORMAT_RGBA16_SNORM:
+        return true;
+    default:
+        return exponent_bits(format) != 0;
+    }
+}
+
+/// What the host gives on the device has a format of its own.
+static lobe_result check_encoding(const lobe_scene *scene, size_t index, const lobe_host *host) {
+    const lobe_scene_image *image = &scene->images[index];
+    if ((unsigned)image->normals > LOBE_NORMALS_SIGNED_XY)
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: image '%s': there is no encoding of normals %d", scene->name,
+                              image->name, (int)image->normals);
+    if (!passes_normals_are_signed(image->normals) || image->on_device ||
+        has_sign(image->image.format))
+        return LOBE_OK;
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                          "%s: image '%s': signed normals in the format %s, which has no sign",
+                          scene->name, image->name, lobe_format_name(image->image.format));
+}
+
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
                                      const lobe_rectangle *part, const lobe_host *host) {
     const lobe_image *image = &scene->images[index].image;
@@ -63,7 +91,9 @@ lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
                               scene->name, scene->images[index].name, image->width, image->height,
                               lobe_format_name(image->format),
                               has_texels ? "" : ", but no memory with them");
-    return image->texels ? check_texels(scene, index, part ? part : &whole, host) : LOBE_OK;
+    const lobe_result result = check_encoding(scene, index, host);
+    return result || !image->texels ? result
+                                    : check_texels(scene, index, part ? part : &whole, host);
 }
 
 static bool all_finite(const lobe_scene_vertex *vertex) {

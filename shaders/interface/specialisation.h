@@ -27,6 +27,7 @@
 // bool: shading sees the normal map interpolated; in passes that build maps, it or the width map
 #define SPECIALISE_INTERPOLATED SPECIALISE(12)
 #define SPECIALISE_MASKING      SPECIALISE(13) // uint, DISTRIBUTION_... whose masking is used
+#define SPECIALISE_NORMALS      SPECIALISE(14) // uint, NORMALS_...: how the normal map has them
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS SPECIALISE(16) // bool
 #define SPECIALISE_POINT_LIGHTS       SPECIALISE(17) // bool
@@ -56,6 +57,12 @@
 #define DISTRIBUTION_BLINN_PHONG 2
 #define DISTRIBUTION_VMF         3
 #define DISTRIBUTION_COUNT       4
+
+// See lobe_normal_encoding.
+#define NORMALS_UNSIGNED    0
+#define NORMALS_SIGNED      1
+#define NORMALS_UNSIGNED_XY 2
+#define NORMALS_SIGNED_XY   3
 
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1

@@ -12,6 +12,7 @@
 #include "maps/base_widths.glsl"
 
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
+layout(constant_id = SPECIALISE_NORMALS) const uint NORMALS = NORMALS_UNSIGNED;
 layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
 // Points of a texel at which the maps are read: its centre where no map is interpolated.
@@ -32,7 +33,8 @@ vec2 map_point(ivec2 texel, int index, ivec2 size) {
 
 vec3 normal_at(vec2 point) {
     return has_map(MAP_NORMAL)
-               ? decode_normal(textureLod(normal_map, point, 0.0).xyz, material.normal_scale)
+               ? decode_normal(textureLod(normal_map, point, 0.0).xyz, material.normal_scale,
+                               NORMALS)
                : vec3(0.0, 0.0, 1.0);
 }
 

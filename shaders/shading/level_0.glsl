@@ -19,7 +19,7 @@ struct level_0_normals {
 // The map's normal at texture coordinates, with slopes multiplied by `relief`.
 vec3 level_0_normal(vec2 coordinates, float relief) {
     return decode_normal(textureLod(normal_map, coordinates, 0.0).xyz,
-                         material.normal_scale * relief);
+                         material.normal_scale * relief, NORMALS);
 }
 
 // In each direction of the pixel two points that have the mean and the variance of all its points

@@ -24,6 +24,7 @@ layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBU
 layout(constant_id = SPECIALISE_LOBE_COUNT) const uint LOBE_COUNT = 1;
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
 layout(constant_id = SPECIALISE_SECOND_COORDINATES) const uint SECOND_COORDINATES = 0;
+layout(constant_id = SPECIALISE_NORMALS) const uint NORMALS = NORMALS_UNSIGNED;
 layout(constant_id = SPECIALISE_DIFFUSE) const bool DIFFUSE = true;
 layout(constant_id = SPECIALISE_NORMAL_CONCENTRATION) const bool NORMAL_CONCENTRATION = false;
 layout(constant_id = SPECIALISE_ALPHA_MASK) const bool ALPHA_MASK = false;

@@ -14,7 +14,7 @@ vec3 unfiltered_normal(surface_point surface) {
     if (!has_map(MAP_NORMAL))
         return vec3(0.0, 0.0, 1.0);
     return decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
-                         material.normal_scale);
+                         material.normal_scale, NORMALS);
 }
 
 vec4 unfiltered_base_colour(surface_point surface) {

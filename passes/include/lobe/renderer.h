@@ -38,7 +38,7 @@ LOBE_API lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe
 /// Which parts of a scene changed, by indices into its arrays. An array may be NULL where its count
 /// is 0, and may list elements that no instance uses.
 typedef struct lobe_scene_changes {
-    const uint32_t *images; ///< texels; also extent or format
+    const uint32_t *images; ///< texels; also extent, format or encoding of normals
     size_t image_count;
     /// One for each of `images`: which of its texels changed; all zero: any. NULL: any of all. Only
     /// these are checked, copied and uploaded, unless extent or format changed. An image may be
@@ -101,12 +101,12 @@ typedef struct lobe_given_content {
 /// `on_device`: adds passes that write them, or imports images and buffers of the host's Vulkan
 /// (lobe_graph_import_image, lobe_graph_import_host_buffer), and stores the resources in `content`.
 /// Each image has its image's extent, one level, one layer, and a format that is read the same way
-/// (linear or sRGB; normals as (n + 1) / 2). A buffer has a lobe_scene_vertex for each vertex of
-/// its mesh. Called while a graph is declared, before anything reads a map. A frame may take
-/// several graphs, for all of which the content must be the same: one for every eight samples of
-/// the reference, and one for each step of `environment_progress`. Filtered maps are rebuilt where
-/// the texels can have changed: in every frame from an image of the host's Vulkan, and otherwise if
-/// the passes that write them read something that changed.
+/// (linear or sRGB; normals as the scene's image says). A buffer has a lobe_scene_vertex for each
+/// vertex of its mesh. Called while a graph is declared, before anything reads a map. A frame may
+/// take several graphs, for all of which the content must be the same: one for every eight samples
+/// of the reference, and one for each step of `environment_progress`. Filtered maps are rebuilt
+/// where the texels can have changed: in every frame from an image of the host's Vulkan, and
+/// otherwise if the passes that write them read something that changed.
 typedef void (*lobe_content_giver)(void *user, lobe_graph *graph,
                                    const lobe_given_content *content);
 

@@ -28,6 +28,16 @@ typedef enum lobe_scene_wrap {
     LOBE_SCENE_WRAP_CLAMP
 } lobe_scene_wrap;
 
+/// How the texels of a normal map store normals: unit vectors in tangent space, +Y (OpenGL). Signed
+/// values need a format that has a sign. Where only x and y are stored, as in maps of two channels,
+/// z follows from their length after interpolation, and is not negative.
+typedef enum lobe_normal_encoding {
+    LOBE_NORMALS_UNSIGNED,    ///< RGB = (n + 1) / 2
+    LOBE_NORMALS_SIGNED,      ///< RGB = n
+    LOBE_NORMALS_UNSIGNED_XY, ///< RG = (n + 1) / 2
+    LOBE_NORMALS_SIGNED_XY,   ///< RG = n
+} lobe_normal_encoding;
+
 /// An image of the scene. Rows run downwards; texture coordinate (0, 0) is its top left corner.
 typedef struct lobe_scene_image {
     char *name; ///< where it comes from, for messages
@@ -38,6 +48,9 @@ typedef struct lobe_scene_image {
     /// scene is set, or the image is listed among its changes. Without any (NULL) filters expect
     /// everything, which costs precision.
     bool on_device;
+    /// Where materials use it as a normal map; not read otherwise. Colours are linear or sRGB as
+    /// the format says.
+    lobe_normal_encoding normals;
 } lobe_scene_image;
 
 /// A use of an image by a material.
@@ -101,7 +114,7 @@ typedef struct lobe_material {
     // Both models. A map's texel is multiplied by the factor.
     float base_colour[4]; ///< linear RGB albedo (of the diffuse part of half-vector lobes), alpha
     lobe_texture_use base_colour_map; ///< sRGB or linear, as its image's format says
-    lobe_texture_use normal_map;      ///< tangent space, +Y (OpenGL), RGB = (n + 1) / 2
+    lobe_texture_use normal_map;      ///< tangent space, +Y (OpenGL): see lobe_normal_encoding
     float normal_scale;               ///< x and y of the texel's normal are multiplied by it
     /// Concentration kappa_N of the normals inside one texel of the normal map; each base lobe is
     /// convolved with it (Xu et al. 2017, Eqs. 11-14). 0: none, the texel's normal is exact.

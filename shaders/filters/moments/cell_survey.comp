@@ -53,7 +53,7 @@ grid_texel read_texel(uvec2 position) {
     grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), 1.0);
     if (has_map(MAP_NORMAL))
         texel.normal =
-            decode_normal(fetch_texel(normal_map, position).xyz, material.normal_scale);
+            decode_normal(fetch_texel(normal_map, position).xyz, material.normal_scale, NORMALS);
     if (has_map(MAP_WIDTH)) {
         vec4 value = fetch_texel(width_map, position);
         texel.factor = MODEL == MODEL_MICROFACET ? value.g : value.r;

@@ -316,11 +316,53 @@ static void an_image_of_the_host_is_read_in_place(void **state) {
     close_subject(&s);
 }
 
+/// Two channels of the host's, signed: what its shader sees is the same normal, stored as usual.
+static void encodings_reach_the_hosts_shader(void **state) {
+    (void)state;
+    static const float usual[] = {0.65f, 0.3f, 0.9330127f, 1}, signed_xy[] = {0.3f, -0.4f, 0, 0};
+    static const VkFormat formats[] = {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SNORM};
+    for (int i = 0; i < 4; i++) {
+        subject s;
+        evaluation e = {0}, uploaded = {0};
+        result results[POINTS], expected[POINTS];
+        if (i % 2)
+            open_subject(&s, "moments", evaluation_moments, sizeof evaluation_moments);
+        else
+            open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
+        host_image image =
+            host_image_create(&s.host, formats[i / 2], MAP, MAP,
+                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+        lobe_vulkan_image given = clear_image(&s, &image, signed_xy);
+        for (size_t t = 0; t < MAP * MAP; t++)
+            memcpy((float *)s.scene->images[0].image.texels + 4 * t, usual, sizeof usual);
+        lobe_maps *maps = make_maps(&s, NULL);
+        evaluate(&s, maps, &uploaded, expected);
+        for (size_t t = 0; t < MAP * MAP; t++)
+            memcpy((float *)s.scene->images[0].image.texels + 4 * t, signed_xy, sizeof signed_xy);
+        s.scene->images[0].normals = LOBE_NORMALS_SIGNED_XY;
+        s.scene->images[0].on_device = true;
+        lobe_maps *others = make_maps(&s, &given);
+        evaluate(&s, others, &e, results);
+        for (int n = 0; n < POINTS; n++)
+            for (int channel = 0; channel < 3; channel++)
+                assert_float_equal(results[n].one_by_one[channel], expected[n].one_by_one[channel],
+                                   2e-3f * expected[n].one_by_one[channel]);
+        end_evaluation(&e);
+        end_evaluation(&uploaded);
+        lobe_maps_destroy(&maps);
+        lobe_maps_destroy(&others);
+        vkDestroyImageView(s.host.vulkan.device, given.view, NULL);
+        host_image_destroy(&s.host, &image);
+        close_subject(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lights_at_once_are_as_one_by_one),
         cmocka_unit_test(changed_texels_reach_the_same_pipeline),
         cmocka_unit_test(an_image_of_the_host_is_read_in_place),
+        cmocka_unit_test(encodings_reach_the_hosts_shader),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
