@@ -30,7 +30,7 @@ uint32_t passes_prefiltered_width(uint32_t size) {
 }
 
 double lobe_environment_level_concentration(uint32_t width, uint32_t level) {
-    if (width >> level <= 1)
+    if (level >= 32 || width >> level <= 1)
         return 0; // uniform: the mean of all directions
     double texel = 2.0 / (width >> level), deviation = LEVEL_TEXELS_PER_DEVIATION * texel;
     return 1 / (deviation * deviation);
