@@ -28,6 +28,15 @@ static const format_information *describe(lobe_format format) {
         [LOBE_FORMAT_BGRA8_UNORM] = {"BGRA8_UNORM", 4, 4},
         [LOBE_FORMAT_BGRA8_SRGB] = {"BGRA8_SRGB", 4, 4},
         [LOBE_FORMAT_D32_FLOAT] = {"D32_FLOAT", 4, 1},
+        [LOBE_FORMAT_BC1_UNORM] = {"BC1_UNORM", 0, 4},
+        [LOBE_FORMAT_BC1_SRGB] = {"BC1_SRGB", 0, 4},
+        [LOBE_FORMAT_BC3_UNORM] = {"BC3_UNORM", 0, 4},
+        [LOBE_FORMAT_BC3_SRGB] = {"BC3_SRGB", 0, 4},
+        [LOBE_FORMAT_BC4_UNORM] = {"BC4_UNORM", 0, 1},
+        [LOBE_FORMAT_BC5_UNORM] = {"BC5_UNORM", 0, 2},
+        [LOBE_FORMAT_BC5_SNORM] = {"BC5_SNORM", 0, 2},
+        [LOBE_FORMAT_BC7_UNORM] = {"BC7_UNORM", 0, 4},
+        [LOBE_FORMAT_BC7_SRGB] = {"BC7_SRGB", 0, 4},
     };
     return &formats[(unsigned)format < LOBE_FORMAT_COUNT ? format : LOBE_FORMAT_NONE];
 }
@@ -58,7 +67,8 @@ lobe_result lobe_image_allocate(lobe_image *image, lobe_format format, uint32_t 
     *image = (lobe_image){0};
     size_t size = lobe_format_size(format);
     if (size == 0)
-        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT, "image: no texel format is given");
+        return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
+                              "image: no format of single texels is given");
     if (width == 0 || height == 0 || width > LOBE_IMAGE_MAXIMUM_EXTENT ||
         height > LOBE_IMAGE_MAXIMUM_EXTENT)
         return lobe_host_fail(host, LOBE_ERROR_LIMIT,

@@ -87,6 +87,10 @@ static bool check_shape(lobe_graph *graph, const lobe_image_description *image) 
     uint32_t samples = at_least_one(image->samples);
     if (image->format <= LOBE_FORMAT_NONE || image->format >= LOBE_FORMAT_COUNT)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "image '%s': has no format", image->name);
+    else if (lobe_format_size(image->format) == 0)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "image '%s': only images of the host are compressed, as in %s", image->name,
+                        lobe_format_name(image->format));
     else if (image->levels > levels)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                         "image '%s': %u levels, but %ux%u texels have at most %u", image->name,

@@ -38,7 +38,8 @@ static bool same_shape(const lobe_graph *graph, const engine_dependency_access *
         return !source->is_image && !target->is_image && source->size == target->size;
     bool depths =
         (source->format == LOBE_FORMAT_D32_FLOAT) == (target->format == LOBE_FORMAT_D32_FLOAT);
-    bool same = depths && source->samples == target->samples &&
+    bool same = depths && lobe_format_size(source->format) > 0 &&
+                source->samples == target->samples &&
                 lobe_format_size(source->format) == lobe_format_size(target->format) &&
                 from->range.level_count == to->range.level_count &&
                 from->range.layer_count == to->range.layer_count;
@@ -113,7 +114,10 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
         return;
     command->read_back_size = engine_graph_range_bytes(
         source, &graph->frame.dependencies.accesses[command->source_access].range);
-    if (source->is_image && source->samples > 1)
+    if (source->is_image && lobe_format_size(source->format) == 0)
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "resource '%s' is compressed: it cannot be read back", source->name);
+    else if (source->is_image && source->samples > 1)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                         "resource '%s' is multisampled: resolve it before reading it back",
                         source->name);

@@ -36,10 +36,20 @@ typedef enum lobe_format {
     LOBE_FORMAT_BGRA8_UNORM, ///< common for displays
     LOBE_FORMAT_BGRA8_SRGB,
     LOBE_FORMAT_D32_FLOAT, ///< depth, device images only
+    // Compressed in blocks of 4x4 texels: images of a host's Vulkan only, for sampling.
+    LOBE_FORMAT_BC1_UNORM, ///< with alpha of one bit
+    LOBE_FORMAT_BC1_SRGB,
+    LOBE_FORMAT_BC3_UNORM,
+    LOBE_FORMAT_BC3_SRGB,
+    LOBE_FORMAT_BC4_UNORM, ///< one channel
+    LOBE_FORMAT_BC5_UNORM, ///< two channels
+    LOBE_FORMAT_BC5_SNORM,
+    LOBE_FORMAT_BC7_UNORM,
+    LOBE_FORMAT_BC7_SRGB,
     LOBE_FORMAT_COUNT
 } lobe_format;
 
-/// Bytes of one texel; 0 for LOBE_FORMAT_NONE.
+/// Bytes of one texel; 0 for LOBE_FORMAT_NONE and for formats of blocks.
 LOBE_API size_t lobe_format_size(lobe_format format);
 /// Channels of one texel [1, 4]; 0 for LOBE_FORMAT_NONE.
 LOBE_API uint32_t lobe_format_channels(lobe_format format);

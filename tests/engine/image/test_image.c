@@ -16,6 +16,10 @@ static void formats_have_size_channels_and_name(void **state) {
         const char *name = lobe_format_name((lobe_format)format);
         size_t channels = strcspn(name, "0123456789");
         size_t bits = strtoul(name + channels, NULL, 10);
+        if (strncmp(name, "BC", 2) == 0) { // of blocks
+            assert_int_equal(lobe_format_size((lobe_format)format), 0);
+            continue;
+        }
         assert_int_equal(lobe_format_channels((lobe_format)format), channels);
         assert_int_equal(lobe_format_size((lobe_format)format), channels * bits / 8);
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/image/half.h"
+#include "tests/engine/support/host_device.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -277,6 +278,134 @@ static void maps_given_on_the_device_have_encodings(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// In blocks of 4x4 texels, of the host's Vulkan
+
+enum { BLOCKS = MAP / 4, BLOCK_BYTES = 16 };
+
+/// Blocks of one value each: the first of both ends between which indices of 0 choose (BC5).
+static void write_block(bool has_sign, const double normal[2], unsigned char block[BLOCK_BYTES]) {
+    memset(block, 0, BLOCK_BYTES);
+    for (int channel = 0; channel < 2; channel++)
+        block[8 * channel] =
+            (unsigned char)(has_sign ? (int)lround(127 * normal[channel])
+                                     : (int)lround(255 * (0.5 * normal[channel] + 0.5)));
+}
+
+/// The same values in texels of two channels.
+static void write_texels(const unsigned char *blocks, lobe_image *image) {
+    for (uint32_t y = 0; y < MAP; y++)
+        for (uint32_t x = 0; x < MAP; x++)
+            for (int channel = 0; channel < 2; channel++)
+                ((unsigned char *)image->texels)[2 * (MAP * y + x) + (unsigned)channel] =
+                    blocks[BLOCK_BYTES * (BLOCKS * (y / 4) + x / 4) + 8 * (unsigned)channel];
+}
+
+static void fill_blocks(bool has_sign, unsigned char blocks[BLOCKS * BLOCKS * BLOCK_BYTES]) {
+    for (unsigned i = 0; i < BLOCKS * BLOCKS; i++) {
+        const double normal[2] = {0.5 * sin(1 + 2.3 * i), 0.5 * cos(3.1 * i)};
+        write_block(has_sign, normal, blocks + BLOCK_BYTES * i);
+    }
+}
+
+static void upload_blocks(host_device *host, const host_image *image, const unsigned char *blocks) {
+    const size_t size = BLOCKS * BLOCKS * BLOCK_BYTES;
+    host_buffer buffer = host_buffer_create(
+        host, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    VkCommandBuffer commands = host_begin(host);
+    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                    .imageExtent = {MAP, MAP, 1}};
+    host_write(commands, &buffer, 0, blocks, size);
+    host_finish(host, commands);
+    commands = host_begin(host);
+    host_barrier(commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    vkCmdCopyBufferToImage(commands, buffer.buffer, image->image,
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    host_barrier(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    host_finish(host, commands);
+    host_buffer_destroy(host, &buffer);
+}
+
+static void give_image(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    content->images[0] = lobe_graph_import_image(graph, user);
+}
+
+static void check_blocks(fixture *f, host_device *host, bool has_sign, const char *filter) {
+    const encoding as = {has_sign ? LOBE_FORMAT_RG8_SNORM : LOBE_FORMAT_RG8_UNORM,
+                         has_sign ? LOBE_NORMALS_SIGNED_XY : LOBE_NORMALS_UNSIGNED_XY};
+    const VkFormat format = has_sign ? VK_FORMAT_BC5_SNORM_BLOCK : VK_FORMAT_BC5_UNORM_BLOCK;
+    unsigned char blocks[BLOCKS * BLOCKS * BLOCK_BYTES];
+    lobe_image texels = map_image(as.format, MAP, MAP);
+    fill_blocks(has_sign, blocks);
+    write_texels(blocks, &texels);
+    lobe_scene *scene = scene_with(texels, as.normals, true, false);
+    lobe_frame expected = draw_with(f, scene, filter);
+    host_image image = host_image_create(
+        host, format, MAP, MAP, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    upload_blocks(host, &image, blocks);
+    lobe_vulkan_image lent = {.image = image.image,
+                              .format = format,
+                              .width = MAP,
+                              .height = MAP,
+                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                              .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                              .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    scene->images[0].on_device = true;
+    lobe_renderer_set_content_giver(f->renderer, give_image, &lent);
+    lobe_frame frame = draw_with(f, scene, filter);
+    check_error(&as, filter, relative_l2(&frame.radiance, &expected.radiance), 1e-3);
+    lobe_renderer_set_content_giver(f->renderer, NULL, NULL);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    host_image_destroy(host, &image);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+    lobe_scene_destroy(&scene);
+}
+
+static void compressed_images_of_the_host_are_maps(void **state) {
+    fixture *f = *state;
+    host_device host = {0};
+    lobe_vulkan_export_device(f->device, &host.vulkan);
+    const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .queueFamilyIndex = host.vulkan.queue_family};
+    assert_int_equal(vkCreateCommandPool(host.vulkan.device, &pool, NULL, &host.pool), VK_SUCCESS);
+    for (int i = 0; i < 4; i++)
+        check_blocks(f, &host, i % 2, i / 2 ? "moments" : "lean");
+    vkDestroyCommandPool(host.vulkan.device, host.pool, NULL);
+    assert_int_equal(f->errors, 0);
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
+}
+
+static void add_compressed_image(lobe_graph *graph) {
+    lobe_graph_image(
+        graph, &(lobe_image_description){
+                   .name = "blocks", .format = LOBE_FORMAT_BC5_SNORM, .width = 4, .height = 4});
+}
+
+/// Nothing of lobe's own is compressed, on the device or in memory.
+static void only_the_hosts_images_are_compressed(void **state) {
+    fixture *f = *state;
+    lobe_image image;
+    lobe_scene *scene =
+        scene_with(map_image(LOBE_FORMAT_RG8_SNORM, 4, 4), LOBE_NORMALS_SIGNED_XY, true, false);
+    fixture_forget_messages(f);
+    assert_failure(f, lobe_image_allocate(&image, LOBE_FORMAT_BC7_SRGB, 4, 4, &f->host),
+                   LOBE_ERROR_INVALID_ARGUMENT, "no format of single texels");
+    fixture_forget_messages(f);
+    scene->images[0].image.format = LOBE_FORMAT_BC5_SNORM;
+    assert_failure(f, lobe_renderer_set_scene(f->renderer, scene), LOBE_ERROR_MALFORMED,
+                   "4x4 texels of BC5_SNORM");
+    fixture_forget_messages(f);
+    lobe_graph_begin(f->graph);
+    add_compressed_image(f->graph);
+    assert_failure(f, lobe_graph_compile(f->graph), LOBE_ERROR_GRAPH,
+                   "only images of the host are compressed");
+    fixture_forget_messages(f);
+    lobe_graph_begin(f->graph);
+    lobe_scene_destroy(&scene);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Mistakes
 
 static void impossible_encodings_are_refused(void **state) {
@@ -301,6 +430,8 @@ int main(void) {
         cmocka_unit_test(interpolated_normals_agree_too),
         cmocka_unit_test(encodings_are_told_apart),
         cmocka_unit_test(maps_given_on_the_device_have_encodings),
+        cmocka_unit_test(compressed_images_of_the_host_are_maps),
+        cmocka_unit_test(only_the_hosts_images_are_compressed),
         cmocka_unit_test(impossible_encodings_are_refused),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
