@@ -22,6 +22,9 @@ struct Document {
     std::vector<gltf_view> views;
     std::vector<gltf_accessor> accessors;
     std::deque<std::vector<gltf_primitive>> primitives;
+    std::deque<std::vector<gltf_target>> targets;
+    std::deque<std::vector<gltf_channel>> channels;
+    std::deque<std::vector<gltf_animation_sampler>> animation_samplers;
     std::vector<gltf_mesh> meshes;
     std::vector<gltf_node> nodes;
     std::vector<gltf_material> materials;
@@ -32,6 +35,8 @@ struct Document {
     std::vector<gltf_light> lights;
     std::vector<gltf_image_light> image_lights;
     std::vector<gltf_scene> scenes;
+    std::vector<gltf_skin> skins;
+    std::vector<gltf_animation> animations;
     std::vector<const char *> extensions;
 };
 
@@ -136,6 +141,8 @@ unsigned channels(int type) {
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16;
     default:
         return 0;
     }
@@ -160,9 +167,25 @@ gltf_accessor convert(const tinygltf::Accessor &from) {
     return to;
 }
 
+gltf_target convert(const std::map<std::string, int> &from) {
+    gltf_target to = {-1, -1, -1, false};
+    for (const auto &attribute : from) {
+        if (attribute.first == "POSITION")
+            to.position = attribute.second;
+        else if (attribute.first == "NORMAL")
+            to.normal = attribute.second;
+        else if (attribute.first == "TANGENT")
+            to.tangent = attribute.second;
+        else
+            to.has_others = true;
+    }
+    return to;
+}
+
 gltf_primitive convert(const tinygltf::Primitive &from) {
-    static const char *const names[GLTF_ATTRIBUTE_COUNT] = {"POSITION",   "NORMAL",     "TANGENT",
-                                                            "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+    static const char *const names[GLTF_ATTRIBUTE_COUNT] = {
+        "POSITION", "NORMAL",   "TANGENT",  "TEXCOORD_0", "TEXCOORD_1",
+        "COLOR_0",  "JOINTS_0", "JOINTS_1", "WEIGHTS_0",  "WEIGHTS_1"};
     gltf_primitive to = {};
     for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
         auto found = from.attributes.find(names[i]);
@@ -171,7 +194,7 @@ gltf_primitive convert(const tinygltf::Primitive &from) {
     to.indices = from.indices;
     to.material = from.material;
     to.mode = from.mode;
-    to.has_targets = !from.targets.empty();
+    to.has_more_joints = from.attributes.count("JOINTS_2") > 0;
     return to;
 }
 
@@ -191,6 +214,8 @@ gltf_node convert(const tinygltf::Node &from) {
     numbers(from.translation, 3, to.translation);
     numbers(from.rotation, 4, to.rotation);
     numbers(from.scale, 3, to.scale);
+    to.weights = from.weights.data();
+    to.weight_count = from.weights.size();
     return to;
 }
 
@@ -295,6 +320,18 @@ gltf_scene convert(const tinygltf::Scene &from) {
     return {from.nodes.data(), from.nodes.size(), light ? integer(*light, "light", -1) : -1};
 }
 
+gltf_skin convert(const tinygltf::Skin &from) {
+    return {from.name.c_str(), from.joints.data(), from.joints.size(), from.inverseBindMatrices};
+}
+
+gltf_channel convert(const tinygltf::AnimationChannel &from) {
+    return {from.sampler, from.target_node, from.target_path.c_str()};
+}
+
+gltf_animation_sampler convert(const tinygltf::AnimationSampler &from) {
+    return {from.input, from.output, from.interpolation.c_str()};
+}
+
 template <typename From, typename To>
 void convert_all(const std::vector<From> &from, std::vector<To> &to, const To *&pointer,
                  size_t &count) {
@@ -305,15 +342,38 @@ void convert_all(const std::vector<From> &from, std::vector<To> &to, const To *&
     count = to.size();
 }
 
+void convert_targets(Document &content, const tinygltf::Primitive &from, gltf_primitive &to) {
+    if (from.targets.empty())
+        return;
+    content.targets.emplace_back();
+    convert_all(from.targets, content.targets.back(), to.targets, to.target_count);
+}
+
 void convert_meshes(Document &content, gltf_document &view) {
     for (const tinygltf::Mesh &from : content.model.meshes) {
         content.primitives.emplace_back();
-        gltf_mesh to = {from.name.c_str(), nullptr, 0};
+        gltf_mesh to = {from.name.c_str(), nullptr, 0, from.weights.data(), from.weights.size()};
         convert_all(from.primitives, content.primitives.back(), to.primitives, to.primitive_count);
+        for (size_t i = 0; i < from.primitives.size(); i++)
+            convert_targets(content, from.primitives[i], content.primitives.back()[i]);
         content.meshes.push_back(to);
     }
     view.meshes = content.meshes.data();
     view.mesh_count = content.meshes.size();
+}
+
+void convert_animations(Document &content, gltf_document &view) {
+    for (const tinygltf::Animation &from : content.model.animations) {
+        content.channels.emplace_back();
+        content.animation_samplers.emplace_back();
+        gltf_animation to = {from.name.c_str(), nullptr, 0, nullptr, 0};
+        convert_all(from.channels, content.channels.back(), to.channels, to.channel_count);
+        convert_all(from.samplers, content.animation_samplers.back(), to.samplers,
+                    to.sampler_count);
+        content.animations.push_back(to);
+    }
+    view.animations = content.animations.data();
+    view.animation_count = content.animations.size();
 }
 
 void convert_document(Document &content, gltf_document &view) {
@@ -332,7 +392,8 @@ void convert_document(Document &content, gltf_document &view) {
     convert_image_lights(content, view);
     convert_all(model.scenes, content.scenes, view.scenes, view.scene_count);
     view.scene = model.defaultScene;
-    view.animation_count = model.animations.size();
+    convert_all(model.skins, content.skins, view.skins, view.skin_count);
+    convert_animations(content, view);
     for (const std::string &name : model.extensionsUsed)
         content.extensions.push_back(name.c_str());
     view.extensions = content.extensions.data();

@@ -46,7 +46,7 @@ typedef struct gltf_accessor {
     int view;
     size_t offset, count;
     int component;     ///< a gltf_component or garbage
-    unsigned channels; ///< 1 to 4 of a scalar or vector; 0: a matrix
+    unsigned channels; ///< 1 to 4 of a scalar or vector, 16 of a matrix of 4x4; 0: another matrix
     bool normalised;
     gltf_sparse sparse;
 } gltf_accessor;
@@ -59,8 +59,18 @@ typedef enum gltf_attribute {
     GLTF_TEXCOORD_0,
     GLTF_TEXCOORD_1,
     GLTF_COLOR_0,
+    GLTF_JOINTS_0,
+    GLTF_JOINTS_1,
+    GLTF_WEIGHTS_0,
+    GLTF_WEIGHTS_1,
     GLTF_ATTRIBUTE_COUNT
 } gltf_attribute;
+
+/// What a morph target adds to: accessors; -1: none.
+typedef struct gltf_target {
+    int position, normal, tangent;
+    bool has_others; ///< attributes that lobe does not know
+} gltf_target;
 
 typedef enum gltf_mode {
     GLTF_POINTS,
@@ -76,14 +86,18 @@ typedef struct gltf_primitive {
     int attributes[GLTF_ATTRIBUTE_COUNT]; ///< accessors
     int indices;                          ///< accessor
     int material;
-    int mode;         ///< a gltf_mode or garbage
-    bool has_targets; ///< morph targets
+    int mode; ///< a gltf_mode or garbage
+    const gltf_target *targets;
+    size_t target_count;
+    bool has_more_joints; ///< JOINTS_2
 } gltf_primitive;
 
 typedef struct gltf_mesh {
     const char *name;
     const gltf_primitive *primitives;
     size_t primitive_count;
+    const double *weights; ///< of the morph targets
+    size_t weight_count;
 } gltf_mesh;
 
 typedef struct gltf_node {
@@ -94,7 +108,34 @@ typedef struct gltf_node {
     bool has_matrix;
     double matrix[16]; ///< column-major
     double translation[3], rotation[4], scale[3];
+    const double *weights; ///< of the mesh's morph targets, instead of its own
+    size_t weight_count;
 } gltf_node;
+
+typedef struct gltf_skin {
+    const char *name;
+    const int *joints; ///< nodes
+    size_t joint_count;
+    int inverse_bind_matrices; ///< accessor
+} gltf_skin;
+
+typedef struct gltf_channel {
+    int sampler, node;
+    const char *path; ///< "translation", "rotation", "scale", "weights" or garbage
+} gltf_channel;
+
+typedef struct gltf_animation_sampler {
+    int input, output;         ///< accessors
+    const char *interpolation; ///< "STEP", "LINEAR", "CUBICSPLINE" or garbage
+} gltf_animation_sampler;
+
+typedef struct gltf_animation {
+    const char *name;
+    const gltf_channel *channels; ///< those without a node are left out
+    size_t channel_count;
+    const gltf_animation_sampler *samplers;
+    size_t sampler_count;
+} gltf_animation;
 
 typedef struct gltf_texture_reference {
     int texture;     ///< index; -1: none
@@ -184,6 +225,9 @@ typedef struct gltf_document {
     const gltf_scene *scenes;
     size_t scene_count;
     int scene; ///< the default scene
+    const gltf_skin *skins;
+    size_t skin_count;
+    const gltf_animation *animations;
     size_t animation_count;
     const char *const *extensions; ///< those the file says it uses
     size_t extension_count;

@@ -135,8 +135,9 @@ static lobe_result open_sparse(const gltf_import *import, const gltf_sparse *spa
 }
 
 static lobe_result check_type(const gltf_import *import, const gltf_accessor *accessor,
-                              const char *what) {
-    if (accessor->channels == 0 || component_size(accessor->component) == 0)
+                              const char *what, unsigned most_channels) {
+    if (accessor->channels == 0 || accessor->channels > most_channels ||
+        component_size(accessor->component) == 0)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
                               "%s: %s: a matrix, or components of unknown type %d", import->path,
                               what, accessor->component);
@@ -150,14 +151,14 @@ static lobe_result check_type(const gltf_import *import, const gltf_accessor *ac
     return LOBE_OK;
 }
 
-lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
-                                      gltf_elements *elements) {
+static lobe_result open_accessor(const gltf_import *import, int accessor, const char *what,
+                                 unsigned most_channels, gltf_elements *elements) {
     *elements = (gltf_elements){0};
     if (accessor < 0 || (size_t)accessor >= import->document->accessor_count)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: %s: there is no accessor %d",
                               import->path, what, accessor);
     const gltf_accessor *a = &import->document->accessors[accessor];
-    lobe_result result = check_type(import, a, what);
+    lobe_result result = check_type(import, a, what, most_channels);
     if (result != LOBE_OK)
         return result;
     size_t size = component_size(a->component) * a->channels;
@@ -172,6 +173,21 @@ lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, c
     if (result == LOBE_OK && a->sparse.count > 0)
         result = open_sparse(import, &a->sparse, size, what, elements);
     return result;
+}
+
+lobe_result scenes_gltf_open_accessor(const gltf_import *import, int accessor, const char *what,
+                                      gltf_elements *elements) {
+    return open_accessor(import, accessor, what, 4, elements);
+}
+
+lobe_result scenes_gltf_open_matrices(const gltf_import *import, int accessor, const char *what,
+                                      gltf_elements *elements) {
+    lobe_result result = open_accessor(import, accessor, what, 16, elements);
+    if (result != LOBE_OK || (elements->channels == 16 && elements->component == GLTF_FLOAT))
+        return result;
+    return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                          "%s: %s: %u components of type %d; expected matrices of 4x4 floats",
+                          import->path, what, elements->channels, elements->component);
 }
 
 // The bytes of element `i`, looked up among the sparse ones first; NULL: zero.
@@ -220,6 +236,13 @@ void scenes_gltf_read_floats(const gltf_elements *elements, size_t i, float out[
     for (unsigned c = 0; c < elements->channels; c++)
         out[c] =
             bytes ? load_float(bytes + c * size, elements->component, elements->normalised) : 0;
+}
+
+void scenes_gltf_read_matrix(const gltf_elements *elements, size_t i, float out[16]) {
+    const uint8_t *bytes = find_element(elements, i);
+    memset(out, 0, 16 * sizeof *out);
+    if (bytes)
+        memcpy(out, bytes, 16 * sizeof *out);
 }
 
 uint32_t scenes_gltf_read_index(const gltf_elements *elements, size_t i) {

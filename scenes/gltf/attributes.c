@@ -32,6 +32,10 @@ static const attribute_rule rules[GLTF_ATTRIBUTE_COUNT] = {
     [GLTF_TEXCOORD_0] = {"TEXCOORD_0", 2, 2, KIND_FLOAT | UNSIGNED_NORMALISED, ANY_INTEGER},
     [GLTF_TEXCOORD_1] = {"TEXCOORD_1", 2, 2, KIND_FLOAT | UNSIGNED_NORMALISED, ANY_INTEGER},
     [GLTF_COLOR_0] = {"COLOR_0", 3, 4, KIND_FLOAT | UNSIGNED_NORMALISED, 0},
+    [GLTF_JOINTS_0] = {"JOINTS_0", 4, 4, KIND_UNSIGNED_BYTE | KIND_UNSIGNED_SHORT, 0},
+    [GLTF_JOINTS_1] = {"JOINTS_1", 4, 4, KIND_UNSIGNED_BYTE | KIND_UNSIGNED_SHORT, 0},
+    [GLTF_WEIGHTS_0] = {"WEIGHTS_0", 4, 4, KIND_FLOAT | UNSIGNED_NORMALISED, 0},
+    [GLTF_WEIGHTS_1] = {"WEIGHTS_1", 4, 4, KIND_FLOAT | UNSIGNED_NORMALISED, 0},
 };
 
 static unsigned kind_of(const gltf_elements *elements) {
@@ -52,14 +56,9 @@ static unsigned kind_of(const gltf_elements *elements) {
     }
 }
 
-static lobe_result open_attribute(const gltf_import *import, const gltf_primitive *primitive,
-                                  gltf_attribute attribute, gltf_attributes *attributes) {
-    const attribute_rule *rule = &rules[attribute];
-    gltf_elements *elements = &attributes->elements[attribute];
-    char what[192];
-    snprintf(what, sizeof what, "%s of %s", rule->name, attributes->name);
-    lobe_result result =
-        scenes_gltf_open_accessor(import, primitive->attributes[attribute], what, elements);
+static lobe_result open_checked(const gltf_import *import, const attribute_rule *rule, int accessor,
+                                const char *what, gltf_elements *elements) {
+    lobe_result result = scenes_gltf_open_accessor(import, accessor, what, elements);
     if (result != LOBE_OK)
         return result;
     unsigned kinds = rule->kinds | (import->quantised ? rule->quantised_kinds : 0);
@@ -69,13 +68,43 @@ static lobe_result open_attribute(const gltf_import *import, const gltf_primitiv
                               "%s: %s: %u components of type %d%s are not allowed", import->path,
                               what, elements->channels, elements->component,
                               elements->normalised ? ", normalised," : "");
-    size_t count = attributes->elements[GLTF_POSITION].count;
-    if (elements->count != count)
-        return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
-                              "%s: %s: %zu elements for %zu positions", import->path, what,
-                              elements->count, count);
-    attributes->present[attribute] = true;
     return LOBE_OK;
+}
+
+static lobe_result check_count(const gltf_import *import, const gltf_elements *elements,
+                               size_t count, const char *what) {
+    if (elements->count == count)
+        return LOBE_OK;
+    return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
+                          "%s: %s: %zu elements for %zu positions", import->path, what,
+                          elements->count, count);
+}
+
+static lobe_result open_attribute(const gltf_import *import, const gltf_primitive *primitive,
+                                  gltf_attribute attribute, gltf_attributes *attributes) {
+    gltf_elements *elements = &attributes->elements[attribute];
+    char what[192];
+    snprintf(what, sizeof what, "%s of %s", rules[attribute].name, attributes->name);
+    lobe_result result =
+        open_checked(import, &rules[attribute], primitive->attributes[attribute], what, elements);
+    if (result == LOBE_OK)
+        result = check_count(import, elements, attributes->elements[GLTF_POSITION].count, what);
+    attributes->present[attribute] = result == LOBE_OK;
+    return result;
+}
+
+lobe_result scenes_gltf_open_target(const gltf_import *import, const gltf_attributes *attributes,
+                                    gltf_attribute attribute, int accessor, size_t target,
+                                    gltf_elements *elements) {
+    attribute_rule rule = rules[attribute];
+    rule.minimum_channels = rule.maximum_channels = 3; // a tangent's handedness stays
+    char what[192];
+    snprintf(what, sizeof what, "%s of morph target %zu of %s", rule.name, target,
+             attributes->name);
+    lobe_result result = open_checked(import, &rule, accessor, what, elements);
+    return result == LOBE_OK
+               ? check_count(import, elements, attributes->elements[GLTF_POSITION].count, what)
+               : result;
 }
 
 lobe_result scenes_gltf_open_attributes(const gltf_import *import, const gltf_primitive *primitive,
@@ -131,7 +160,8 @@ static lobe_result read_attribute(const gltf_import *import, const gltf_attribut
 
 lobe_result scenes_gltf_read_vertices(const gltf_import *import, const gltf_attributes *attributes,
                                       const uint32_t *source, lobe_mesh *mesh) {
-    for (int i = 0; i < GLTF_ATTRIBUTE_COUNT; i++) {
+    // Joints and their weights are no part of a vertex.
+    for (int i = 0; i <= GLTF_COLOR_0; i++) {
         if (!attributes->present[i])
             continue;
         lobe_result result = read_attribute(import, attributes, (gltf_attribute)i, source, mesh);

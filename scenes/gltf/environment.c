@@ -3,6 +3,7 @@
 
 #include <lobe/colour.h>
 
+#include "scenes/animation/transform.h"
 #include "scenes/environment/direction.h"
 #include "scenes/environment/environment.h"
 #include "scenes/format/image_file.h"
@@ -83,7 +84,7 @@ static lobe_result read_faces(face_reader *reader, const gltf_image_light *light
 static lobe_result place(face_reader *reader, const gltf_image_light *light) {
     lobe_environment *environment = reader->environment;
     double columns[3][3];
-    if (!scenes_gltf_rotation(light->rotation, columns))
+    if (!scenes_transform_rotation(light->rotation, columns))
         return fail(reader, "its rotation has no length");
     if (!(light->intensity >= 0 && light->intensity <= 1e30))
         return fail(reader, "its intensity is outside [0, 1e30]");

@@ -114,9 +114,12 @@ static bool allocate_primitives(gltf_import *import) {
     }
     import->primitives = lobe_allocate(allocator, count + 1, sizeof *import->primitives);
     for (size_t i = 0; import->primitives && i < count; i++)
-        import->primitives[i] =
-            (gltf_primitive_state){GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED};
-    return import->primitives != NULL;
+        import->primitives[i] = (gltf_primitive_state){
+            GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, -1, -1, -1};
+    import->deformed = lobe_allocate(allocator, count + 1, sizeof *import->deformed);
+    if (import->primitives && import->deformed)
+        memcpy(import->deformed, import->primitives, count * sizeof *import->deformed);
+    return import->primitives && import->deformed;
 }
 
 static lobe_result allocate_states(gltf_import *import) {
@@ -133,6 +136,10 @@ static lobe_result allocate_states(gltf_import *import) {
 static void free_states(gltf_import *import) {
     lobe_release(import->first_primitives);
     lobe_release(import->primitives);
+    lobe_release(import->deformed);
+    lobe_release(import->motions);
+    lobe_release(import->rig_nodes);
+    lobe_release(import->skins);
     lobe_release(import->materials);
     lobe_release(import->images[0]);
     lobe_release(import->images[1]);
@@ -147,8 +154,6 @@ static void note_extensions(gltf_import *import) {
         if (strcmp(name, "KHR_mesh_quantization") == 0)
             import->quantised = true;
     }
-    if (document->animation_count > 0)
-        scenes_gltf_note_unsupported(import, "animations");
 }
 
 static lobe_result convert(gltf_import *import) {
@@ -159,12 +164,16 @@ static lobe_result convert(gltf_import *import) {
     result = scenes_gltf_convert_nodes(import);
     if (result == LOBE_OK)
         result = scenes_gltf_convert_environment(import);
+    if (result == LOBE_OK)
+        result = scenes_gltf_end_rig(import);
     if (result != LOBE_OK)
         return result;
     scenes_gltf_report_notes(import);
     result = scenes_complete(import->scene, import->own_light_only, import->host);
     if (result == LOBE_OK && import->scene->has_camera)
         scenes_gltf_aim_camera(import->scene);
+    if (result == LOBE_OK)
+        scenes_gltf_measure_camera(import->scene);
     return result;
 }
 

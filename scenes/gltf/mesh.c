@@ -1,6 +1,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/animation/posed_bounds.h"
 #include "scenes/gltf/attributes.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/mesh/mesh.h"
@@ -88,8 +89,13 @@ static lobe_result choose_vertices(gltf_import *import, const gltf_attributes *a
     return LOBE_OK;
 }
 
-static lobe_result fill_mesh(gltf_import *import, const gltf_attributes *attributes,
-                             uint32_t *indices, size_t index_count, lobe_mesh *mesh) {
+static bool is_deformed(const gltf_primitive *primitive, size_t joint_count) {
+    return joint_count > 0 || primitive->target_count > 0;
+}
+
+static lobe_result fill_mesh(gltf_import *import, const gltf_primitive *primitive,
+                             const gltf_attributes *attributes, uint32_t *indices,
+                             size_t index_count, size_t joint_count, lobe_mesh *mesh) {
     vertex_source source = {0};
     lobe_result result = choose_vertices(import, attributes, indices, index_count, &source);
     if (result == LOBE_OK)
@@ -99,6 +105,9 @@ static lobe_result fill_mesh(gltf_import *import, const gltf_attributes *attribu
         memcpy(mesh->indices, indices, index_count * sizeof *indices);
         result = scenes_gltf_read_vertices(import, attributes, source.elements, mesh);
     }
+    if (result == LOBE_OK && is_deformed(primitive, joint_count))
+        result = scenes_gltf_read_deformation(import, attributes, primitive, source.elements,
+                                              joint_count, mesh);
     lobe_release(source.elements);
     return result;
 }
@@ -151,7 +160,8 @@ static void note_missing_coordinates(gltf_import *import, const lobe_material *m
 
 // Leaves `mesh` without indices if no triangle has an area.
 static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primitive,
-                              const lobe_material *material, const char *name, lobe_mesh *mesh) {
+                              const lobe_material *material, const char *name, size_t joint_count,
+                              lobe_mesh *mesh) {
     gltf_attributes attributes;
     uint32_t *indices = NULL;
     size_t index_count = 0;
@@ -161,21 +171,21 @@ static lobe_result build_mesh(gltf_import *import, const gltf_primitive *primiti
                                             attributes.elements[GLTF_POSITION].count, &indices,
                                             &index_count);
     if (result == LOBE_OK)
-        result = fill_mesh(import, &attributes, indices, index_count, mesh);
+        result = fill_mesh(import, primitive, &attributes, indices, index_count, joint_count, mesh);
     lobe_release(indices);
     if (result != LOBE_OK)
         return result;
     result = complete_frames(import, &attributes, material, mesh);
     // Not earlier: even a triangle without area joins the tangents of its neighbours.
-    import->notes.degenerate_triangles += scenes_mesh_drop_degenerate(mesh);
+    // A morph target may give one an area.
+    if (primitive->target_count == 0)
+        import->notes.degenerate_triangles += scenes_mesh_drop_degenerate(mesh);
     if (mesh->index_count > 0)
         note_missing_coordinates(import, material, mesh);
     return result;
 }
 
 static bool is_drawable(gltf_import *import, const gltf_primitive *primitive) {
-    if (primitive->has_targets)
-        scenes_gltf_note_unsupported(import, "morph targets");
     if (primitive->mode < GLTF_TRIANGLES) {
         scenes_gltf_note_unsupported(import, "points and lines");
         return false;
@@ -187,7 +197,8 @@ static bool is_drawable(gltf_import *import, const gltf_primitive *primitive) {
     return true;
 }
 
-static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive,
+// `joint_count`: of the skin that deforms it; 0: none.
+static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive, size_t joint_count,
                            gltf_primitive_state *state) {
     const gltf_primitive *p = &import->document->meshes[mesh].primitives[primitive];
     char name[NAME_SIZE];
@@ -203,7 +214,8 @@ static lobe_result convert(gltf_import *import, size_t mesh, size_t primitive,
         return result;
     lobe_mesh built = {0};
     uint32_t index = 0;
-    result = build_mesh(import, p, &import->scene->materials[state->material], name, &built);
+    result = build_mesh(import, p, &import->scene->materials[state->material], name, joint_count,
+                        &built);
     bool drawn = result == LOBE_OK && built.index_count > 0;
     if (drawn)
         result = scenes_add_mesh(import->scene, &built, import->host, &index);
@@ -218,7 +230,45 @@ lobe_result scenes_gltf_convert_primitive(gltf_import *import, size_t mesh, size
     *state = &import->primitives[import->first_primitives[mesh] + primitive];
     if ((*state)->mesh != GLTF_NOT_CONVERTED)
         return LOBE_OK;
-    return convert(import, mesh, primitive, *state);
+    return convert(import, mesh, primitive, 0, *state);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Deformed meshes
+
+// Gives it the weights at rest, and what its pose follows.
+static lobe_result pose(gltf_import *import, size_t mesh, int node, gltf_primitive_state *state) {
+    lobe_mesh *posed = &import->scene->meshes[state->mesh];
+    const bool animated =
+        import->motions && state->weight_node >= 0 && import->motions[state->weight_node].weights;
+    lobe_result result = scenes_gltf_read_weights(
+        import, mesh, node, posed->deformation->target_count, posed->deformation->weights);
+    if (result == LOBE_OK && (state->skin >= 0 || animated))
+        return scenes_gltf_pose_mesh(import, (uint32_t)state->mesh, state->skin,
+                                     animated ? state->weight_node : -1, &state->posed_mesh);
+    lobe_posed_mesh rest = {0};
+    if (result == LOBE_OK)
+        result = scenes_posed_bounds_measure(posed, &rest, import->host);
+    if (result == LOBE_OK)
+        scenes_posed_bounds_set(&rest, posed);
+    lobe_release(rest.target_bounds);
+    return result;
+}
+
+lobe_result scenes_gltf_convert_deformed(gltf_import *import, size_t mesh, size_t primitive,
+                                         int32_t skin, int node, gltf_primitive_state **state) {
+    const bool own_weights = import->document->nodes[node].weight_count > 0 ||
+                             (import->motions && import->motions[node].weights);
+    const int64_t weight_node = own_weights ? node : -1;
+    gltf_primitive_state *s = *state =
+        &import->deformed[import->first_primitives[mesh] + primitive];
+    if (s->mesh != GLTF_NOT_CONVERTED && s->skin == skin && s->weight_node == weight_node)
+        return LOBE_OK;
+    *s = (gltf_primitive_state){
+        GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, GLTF_NOT_CONVERTED, skin, weight_node, -1};
+    const size_t joint_count = skin >= 0 ? import->scene->rig->skins[skin].joint_count : 0;
+    lobe_result result = convert(import, mesh, primitive, joint_count, s);
+    return result == LOBE_OK && s->mesh >= 0 ? pose(import, mesh, node, s) : result;
 }
 
 static void reflect_in_x(lobe_mesh *mesh) {

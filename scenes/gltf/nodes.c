@@ -1,62 +1,18 @@
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
+#include "scenes/animation/transform.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/scene/scene.h"
 
 // ---------------------------------------------------------------------------------------------
 // Transforms, column-major
 
-static void multiply(const double a[16], const double b[16], double out[16]) {
-    for (int column = 0; column < 4; column++) {
-        for (int row = 0; row < 4; row++) {
-            double sum = 0;
-            for (int k = 0; k < 4; k++)
-                sum += a[4 * k + row] * b[4 * column + k];
-            out[4 * column + row] = sum;
-        }
-    }
-}
-
-bool scenes_gltf_rotation(const double q[4], double columns[3][3]) {
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 1e-6) || !isfinite(length))
-        return false;
-    double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-    const double rotation[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-        {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-        {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
-    };
-    memcpy(columns, rotation, sizeof rotation);
-    return true;
-}
-
-// glTF 2.0, section 3.5.3: T R S.
-static bool compose(const gltf_node *node, double out[16]) {
-    const double *s = node->scale, *t = node->translation;
-    double rotation[3][3];
-    if (!scenes_gltf_rotation(node->rotation, rotation))
-        return false;
-    for (int column = 0; column < 3; column++) {
-        for (int row = 0; row < 3; row++)
-            out[4 * column + row] = rotation[column][row] * s[column];
-        out[4 * column + 3] = 0;
-        out[12 + column] = t[column];
-    }
-    out[15] = 1;
-    return true;
-}
-
-static bool is_affine(const double m[16]) {
-    return fabs(m[3]) < 1e-6 && fabs(m[7]) < 1e-6 && fabs(m[11]) < 1e-6 && fabs(m[15] - 1) < 1e-6;
-}
-
-static lobe_result local_transform(const gltf_import *import, int index, double out[16]) {
+lobe_result scenes_gltf_local_transform(const gltf_import *import, int index, double out[16]) {
     const gltf_node *node = &import->document->nodes[index];
     memcpy(out, node->matrix, sizeof node->matrix);
-    if (node->has_matrix ? is_affine(node->matrix) : compose(node, out))
+    if (node->has_matrix
+            ? scenes_transform_is_affine(node->matrix)
+            : scenes_transform_compose(node->translation, node->rotation, node->scale, out))
         return LOBE_OK;
     return lobe_host_fail(
         import->host, LOBE_ERROR_MALFORMED, "%s: node %d: %s", import->path, index,
@@ -66,22 +22,17 @@ static lobe_result local_transform(const gltf_import *import, int index, double 
 static lobe_result world_transform(const gltf_import *import, int index, const double *parent,
                                    double out[16]) {
     double local[16];
-    lobe_result result = local_transform(import, index, local);
+    lobe_result result = scenes_gltf_local_transform(import, index, local);
     if (result != LOBE_OK)
         return result;
     if (parent)
-        multiply(parent, local, out);
+        scenes_transform_multiply(parent, local, out);
     else
         memcpy(out, local, sizeof local);
-    for (int i = 0; i < 16; i++) {
-        // Squares of values up to this limit are finite in single precision. NaN fails the test,
-        // too.
-        if (!(fabs(out[i]) <= 1e18))
-            return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
-                                  "%s: node %d: its transform is out of range", import->path,
-                                  index);
-    }
-    return LOBE_OK;
+    if (scenes_transform_is_in_range(out))
+        return LOBE_OK;
+    return lobe_host_fail(import->host, LOBE_ERROR_LIMIT,
+                          "%s: node %d: its transform is out of range", import->path, index);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -91,6 +42,7 @@ typedef struct node_tree {
     int *parents; // -1: a root
     int *stack;   // nodes still to be visited
     size_t depth; // of the stack
+    int *order;   // all nodes, parents first
     bool *visited;
     double (*worlds)[16];
 } node_tree;
@@ -100,9 +52,10 @@ static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
     const lobe_allocator *allocator = lobe_host_allocator(import->host);
     tree->parents = lobe_allocate(allocator, count, sizeof *tree->parents);
     tree->stack = lobe_allocate(allocator, count, sizeof *tree->stack);
+    tree->order = lobe_allocate(allocator, count, sizeof *tree->order);
     tree->visited = lobe_allocate(allocator, count, sizeof *tree->visited);
     tree->worlds = lobe_allocate(allocator, count, sizeof *tree->worlds);
-    if (tree->parents && tree->stack && tree->visited && tree->worlds)
+    if (tree->parents && tree->stack && tree->order && tree->visited && tree->worlds)
         return LOBE_OK;
     return lobe_host_fail(import->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for %zu nodes",
                           import->path, count - 1);
@@ -111,6 +64,7 @@ static lobe_result allocate_tree(const gltf_import *import, node_tree *tree) {
 static void free_tree(node_tree *tree) {
     lobe_release(tree->parents);
     lobe_release(tree->stack);
+    lobe_release(tree->order);
     lobe_release(tree->visited);
     lobe_release(tree->worlds);
 }
@@ -142,8 +96,8 @@ static void push_children(const gltf_import *import, node_tree *tree, int node) 
 }
 
 // Each node has one parent, so nodes that no root reaches are in loops or below loops.
-static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
-    size_t count = import->document->node_count;
+static lobe_result find_order(const gltf_import *import, node_tree *tree) {
+    size_t count = import->document->node_count, ordered = 0;
     tree->depth = 0;
     for (size_t i = 0; i < count; i++) {
         if (tree->parents[i] >= 0)
@@ -152,6 +106,7 @@ static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
         while (tree->depth > 0) {
             int node = tree->stack[--tree->depth];
             tree->visited[node] = true;
+            tree->order[ordered++] = node;
             push_children(import, tree, node);
         }
     }
@@ -168,37 +123,45 @@ static lobe_result check_loops(const gltf_import *import, node_tree *tree) {
 // ---------------------------------------------------------------------------------------------
 // What nodes carry
 
-typedef enum orientation { ORIENTATION_KEPT, ORIENTATION_MIRRORED, ORIENTATION_FLAT } orientation;
-
-// The sign of the determinant; 0 if the three axes span practically no volume.
-static orientation orientation_of(const double m[16]) {
-    double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-                         m[8] * (m[1] * m[6] - m[2] * m[5]);
-    double volume = 1;
-    for (int column = 0; column < 3; column++) {
-        const double *c = m + 4 * column;
-        volume *= sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
-    }
-    if (!(fabs(determinant) > 1e-9 * volume))
-        return ORIENTATION_FLAT;
-    return determinant < 0 ? ORIENTATION_MIRRORED : ORIENTATION_KEPT;
+static bool moves(const gltf_import *import, int node) {
+    return import->motions && import->motions[node].moves;
 }
 
-// A mirroring transform is split into a mirrored mesh and a transform that does not mirror: then
-// winding, normals and tangent frames are right in object space as well as in the world.
-static lobe_result place(gltf_import *import, gltf_primitive_state *state, const double world[16]) {
-    float transform[16];
-    orientation kind = orientation_of(world);
-    if (kind == ORIENTATION_FLAT) {
+static lobe_result add_instance(gltf_import *import, int64_t mesh, int64_t material,
+                                const float transform[16]) {
+    if (import->scene->instance_count >= GLTF_MAXIMUM_INSTANCES)
+        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
+                              import->path, GLTF_MAXIMUM_INSTANCES);
+    return scenes_add_instance(import->scene, (uint32_t)mesh, (uint32_t)material, transform,
+                               import->host);
+}
+
+// Scaled to nothing: kept, hidden, if it moves and so may grow.
+static lobe_result place_flat(gltf_import *import, const gltf_primitive_state *state, int node) {
+    if (!moves(import, node)) {
         import->notes.flat_instances++;
         return LOBE_OK;
     }
-    for (int i = 0; i < 16; i++)
-        transform[i] = (float)world[i];
-    transform[3] = transform[7] = transform[11] = 0;
-    transform[15] = 1;
+    lobe_result result = add_instance(import, state->mesh, state->material, NULL);
+    if (result != LOBE_OK)
+        return result;
+    import->scene->instances[import->scene->instance_count - 1].hidden = true;
+    return scenes_gltf_pose_instance(import, node, false, true);
+}
+
+// A mirroring transform is split into a mirrored mesh and a transform that does not mirror: then
+// winding, normals and tangent frames are right in object space as well as in the world. A mesh
+// that is deformed has no mirrored one: its transform mirrors.
+static lobe_result place(gltf_import *import, gltf_primitive_state *state, int node,
+                         const double world[16]) {
+    float transform[16];
+    const int handedness = scenes_transform_handedness(world);
+    if (handedness == 0)
+        return place_flat(import, state, node);
+    const bool reflected = handedness < 0 && !import->scene->meshes[state->mesh].deformation;
+    scenes_transform_store(world, transform);
     int64_t mesh = state->mesh;
-    if (kind == ORIENTATION_MIRRORED) {
+    if (reflected) {
         lobe_result result = scenes_gltf_convert_mirrored(import, state);
         if (result != LOBE_OK)
             return result;
@@ -206,39 +169,78 @@ static lobe_result place(gltf_import *import, gltf_primitive_state *state, const
         for (int row = 0; row < 3; row++)
             transform[row] = -transform[row];
     }
-    if (import->scene->instance_count >= GLTF_MAXIMUM_INSTANCES)
-        return lobe_host_fail(import->host, LOBE_ERROR_LIMIT, "%s: more than %zu instances",
-                              import->path, GLTF_MAXIMUM_INSTANCES);
-    return scenes_add_instance(import->scene, (uint32_t)mesh, (uint32_t)state->material, transform,
-                               import->host);
+    lobe_result result = add_instance(import, mesh, state->material, transform);
+    if (result != LOBE_OK || !moves(import, node))
+        return result;
+    return scenes_gltf_pose_instance(import, node, reflected, false);
 }
 
-static lobe_result place_mesh(gltf_import *import, int mesh, const double world[16]) {
-    if ((size_t)mesh >= import->document->mesh_count)
+// A skin takes its mesh to the world: the node's own transform does not count.
+static lobe_result place_skinned(gltf_import *import, const gltf_primitive_state *state) {
+    lobe_result result = add_instance(import, state->mesh, state->material, NULL);
+    return result == LOBE_OK ? scenes_gltf_pose_skinned(import, state->posed_mesh) : result;
+}
+
+// `skin`: of the rig; -1: none.
+static lobe_result place_primitive(gltf_import *import, int node, size_t primitive, int32_t skin,
+                                   const double world[16]) {
+    const size_t mesh = (size_t)import->document->nodes[node].mesh;
+    const gltf_primitive *p = &import->document->meshes[mesh].primitives[primitive];
+    const bool skinned = skin >= 0 && p->attributes[GLTF_JOINTS_0] >= 0;
+    gltf_primitive_state *state;
+    if (skin >= 0 && !skinned)
+        scenes_gltf_note_unsupported(import, "skins of meshes without joints");
+    lobe_result result = skinned || p->target_count > 0
+                             ? scenes_gltf_convert_deformed(import, mesh, primitive,
+                                                            skinned ? skin : -1, node, &state)
+                             : scenes_gltf_convert_primitive(import, mesh, primitive, &state);
+    if (result != LOBE_OK || state->mesh < 0)
+        return result;
+    return skinned ? place_skinned(import, state) : place(import, state, node, world);
+}
+
+static lobe_result place_mesh(gltf_import *import, int node, const double world[16]) {
+    const gltf_document *document = import->document;
+    const int mesh = document->nodes[node].mesh;
+    int32_t skin = -1;
+    size_t target_count;
+    if ((size_t)mesh >= document->mesh_count)
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED, "%s: there is no mesh %d",
                               import->path, mesh);
-    for (size_t i = 0; i < import->document->meshes[mesh].primitive_count; i++) {
-        gltf_primitive_state *state;
-        lobe_result result = scenes_gltf_convert_primitive(import, (size_t)mesh, i, &state);
-        if (result == LOBE_OK && state->mesh >= 0)
-            result = place(import, state, world);
-        if (result != LOBE_OK)
-            return result;
-    }
+    lobe_result result = scenes_gltf_count_targets(import, (size_t)mesh, &target_count);
+    if (result == LOBE_OK && document->nodes[node].skin >= 0)
+        result = scenes_gltf_convert_skin(import, document->nodes[node].skin, &skin);
+    for (size_t i = 0; result == LOBE_OK && i < document->meshes[mesh].primitive_count; i++)
+        result = place_primitive(import, node, i, skin, world);
+    return result;
+}
+
+static lobe_result place_light(gltf_import *import, int node, const double world[16]) {
+    lobe_result result =
+        scenes_gltf_convert_light(import, import->document->nodes[node].light, world);
+    return result == LOBE_OK && moves(import, node) ? scenes_gltf_pose_light(import, node) : result;
+}
+
+static lobe_result place_camera(gltf_import *import, int node, const double world[16]) {
+    const bool first = !import->scene->has_camera;
+    lobe_result result =
+        scenes_gltf_convert_camera(import, import->document->nodes[node].camera, world);
+    if (result != LOBE_OK || !first || !moves(import, node))
+        return result;
+    import->scene->rig->camera_node = (int32_t)import->rig_nodes[node];
+    scenes_gltf_measure_camera(import->scene);
     return LOBE_OK;
 }
 
 static lobe_result convert_node(gltf_import *import, int index, const double world[16]) {
     const gltf_node *node = &import->document->nodes[index];
     lobe_result result = LOBE_OK;
-    if (node->skin >= 0)
-        scenes_gltf_note_unsupported(import, "skins");
     if (node->mesh >= 0)
-        result = place_mesh(import, node->mesh, world);
+        result = place_mesh(import, index, world);
     if (result == LOBE_OK && node->light >= 0)
-        result = scenes_gltf_convert_light(import, node->light, world);
+        result = place_light(import, index, world);
     if (result == LOBE_OK && node->camera >= 0)
-        result = scenes_gltf_convert_camera(import, node->camera, world);
+        result = place_camera(import, index, world);
     return result;
 }
 
@@ -303,7 +305,9 @@ lobe_result scenes_gltf_convert_nodes(gltf_import *import) {
     if (result == LOBE_OK)
         result = find_parents(import, &tree);
     if (result == LOBE_OK)
-        result = check_loops(import, &tree);
+        result = find_order(import, &tree);
+    if (result == LOBE_OK)
+        result = scenes_gltf_begin_rig(import, tree.order, tree.parents);
     if (result == LOBE_OK)
         result = walk_scene(import, &tree);
     free_tree(&tree);

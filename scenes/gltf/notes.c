@@ -44,6 +44,10 @@ void scenes_gltf_report_notes(const gltf_import *import) {
     report_count(import, notes->clamped_factors, "material factors clamped to their ranges");
     report_count(import, notes->flat_instances,
                  "instances left out because they are scaled to nothing");
+    report_count(import, notes->unit_weights,
+                 "vertices whose joint weights do not sum to 1; normalised");
+    report_count(import, notes->unbound_vertices,
+                 "vertices of skins without joint weights; bound to the first joint");
     report_count(import, notes->missing_coordinates,
                  "meshes lack texture coordinates that their material uses");
 }

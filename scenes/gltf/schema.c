@@ -79,7 +79,6 @@ static const json_schema numbers_3 = {.kind = JSON_ARRAY, .element = &number, .l
 static const json_schema numbers_4 = {.kind = JSON_ARRAY, .element = &number, .length = 4};
 static const json_schema numbers_16 = {.kind = JSON_ARRAY, .element = &number, .length = 16};
 static const json_schema indices = {.kind = JSON_ARRAY, .element = &integer};
-static const json_schema objects = {.kind = JSON_ARRAY, .element = &object};
 static const json_schema named_indices = {.kind = JSON_OBJECT, .element = &integer};
 
 #define OBJECT(name, ...)                                                                          \
@@ -173,6 +172,16 @@ OBJECT(skin, {"joints", &indices, true}, {"skeleton", &integer, false},
        {"inverseBindMatrices", &integer, false}, {"name", &text, false});
 ARRAY_OF(skins, skin);
 
+OBJECT(channel_target, {"node", &integer, false}, {"path", &text, true});
+OBJECT(channel, {"sampler", &integer, true}, {"target", &channel_target, true});
+ARRAY_OF(channels, channel);
+OBJECT(animation_sampler, {"input", &integer, true}, {"output", &integer, true},
+       {"interpolation", &text, false});
+ARRAY_OF(animation_samplers, animation_sampler);
+OBJECT(animation, {"channels", &channels, true}, {"samplers", &animation_samplers, true},
+       {"name", &text, false});
+ARRAY_OF(animations, animation);
+
 // EXT_lights_image_based. It also requires irradiance coefficients and the image size, which are
 // not read.
 static const json_schema cube_faces = {.kind = JSON_ARRAY, .element = &integer, .length = 6};
@@ -193,7 +202,7 @@ OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
        {"nodes", &nodes, false}, {"scenes", &scenes, false}, {"scene", &integer, false},
        {"materials", &materials, false}, {"textures", &textures, false},
        {"samplers", &samplers, false}, {"images", &images, false}, {"cameras", &cameras, false},
-       {"animations", &objects, false}, {"skins", &skins, false},
+       {"animations", &animations, false}, {"skins", &skins, false},
        {"extensions", &root_extensions, false});
 
 lobe_result scenes_gltf_schema_check(const char *path, const char *json, size_t json_size,

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "scenes/mesh/deformation.h"
 #include "scenes/mesh/vector.h"
 
 #define MESH_MAXIMUM_COUNT ((size_t)1 << 31)
@@ -43,6 +44,7 @@ void scenes_mesh_free(lobe_mesh *mesh) {
     lobe_release(mesh->name);
     lobe_release(mesh->vertices);
     lobe_release(mesh->indices);
+    scenes_deformation_free(&mesh->deformation);
     *mesh = (lobe_mesh){0};
 }
 

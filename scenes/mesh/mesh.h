@@ -14,7 +14,8 @@
 lobe_result scenes_mesh_allocate(lobe_mesh *mesh, const char *name, size_t vertex_count,
                                  size_t index_count, const lobe_host *host);
 
-/// Frees the name, vertices and indices and zeroes the structure. May be called repeatedly.
+/// Frees the name, vertices, indices and deformation and zeroes the structure. May be called
+/// repeatedly.
 void scenes_mesh_free(lobe_mesh *mesh);
 
 /// Smooth normals: at each vertex the mean of its triangles' normals, weighted by area. A vertex

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "scenes/mesh/adjacency.h"
+#include "scenes/mesh/deformation.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/tangent_groups.h"
 #include "scenes/mesh/vector.h"
@@ -145,7 +146,8 @@ static bool append_copies(tangent_work *work) {
     size_t count = mesh->vertex_count + work->copy_count;
     if (work->copy_count == 0)
         return true;
-    if (count > UINT32_MAX)
+    if (count > UINT32_MAX ||
+        !scenes_deformation_copy_vertices(mesh, work->origins, work->copy_count))
         return false;
     lobe_scene_vertex *vertices = lobe_reallocate(NULL, mesh->vertices, count, sizeof *vertices);
     if (!vertices)

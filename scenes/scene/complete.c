@@ -23,7 +23,7 @@ static void include_instance(const lobe_scene *scene, const lobe_instance *insta
     }
 }
 
-static lobe_result set_bounds(lobe_scene *scene, const lobe_host *host) {
+lobe_result scenes_set_bounds(lobe_scene *scene, const lobe_host *host) {
     vector3 minimum = {0, 0, 0}, maximum = {0, 0, 0};
     if (scene->instance_count > 0) {
         minimum = (vector3){INFINITY, INFINITY, INFINITY};
@@ -51,7 +51,7 @@ lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host) {
 }
 
 lobe_result scenes_complete(lobe_scene *scene, bool own_light_only, const lobe_host *host) {
-    lobe_result result = set_bounds(scene, host);
+    lobe_result result = scenes_set_bounds(scene, host);
     if (result != LOBE_OK)
         return result;
     if (!scene->has_camera)

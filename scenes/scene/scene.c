@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "scenes/animation/rig.h"
 #include "scenes/mesh/mesh.h"
 
 static lobe_result out_of_memory(const lobe_scene *scene, const lobe_host *host) {
@@ -151,6 +152,7 @@ void lobe_scene_destroy(lobe_scene **scene) {
     lobe_release(old->meshes);
     lobe_release(old->instances);
     lobe_release(old->lights);
+    scenes_rig_free(&old->rig);
     lobe_environment_destroy(&old->environment);
     lobe_release(old->name);
     lobe_release(old);

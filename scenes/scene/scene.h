@@ -47,6 +47,10 @@ void scenes_set_camera(lobe_scene *scene, const float eye[3], const float target
 /// `has_added_light`.
 lobe_result scenes_add_missing_light(lobe_scene *scene, const lobe_host *host);
 
+/// Sets the scene's bounds from those of its meshes. LOBE_ERROR_LIMIT, with the bounds unchanged,
+/// if they are too far out.
+lobe_result scenes_set_bounds(lobe_scene *scene, const lobe_host *host);
+
 /// The last step: sets the scene's bounds and adds a missing camera, which frames them, and, unless
 /// `own_light_only`, missing light, each with a notice. A scene without instances stays dark,
 /// without a notice. Errors: LOBE_ERROR_LIMIT (bounds too far out), _OUT_OF_MEMORY.

@@ -70,6 +70,43 @@ static void glTF_files_say_where_memory_ends(void **state) {
     assert_int_equal(fail_each_allocation(work_with_scene, &parameters), from_file);
 }
 
+/// A mesh with a skin, morph targets and an animation, from the same bytes.
+static const char moving_document[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"triangle.bin\",\"byteLength\":60}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteLength\":12},"
+    "{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":8,\"byteLength\":8},"
+    "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":24}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":3},"
+    "{\"bufferView\":1,\"componentType\":5121,\"type\":\"VEC4\",\"count\":3},"
+    "{\"bufferView\":2,\"componentType\":5126,\"type\":\"VEC4\",\"count\":3},"
+    "{\"bufferView\":3,\"componentType\":5126,\"type\":\"SCALAR\",\"count\":2},"
+    "{\"bufferView\":4,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2},"
+    "\"targets\":[{\"POSITION\":0}]}]}],\"skins\":[{\"joints\":[1]}],"
+    "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{},{\"mesh\":0}],"
+    "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,"
+    "\"path\":\"translation\"}}],\"samplers\":[{\"input\":3,\"output\":4}]}]}";
+
+static lobe_result work_with_pose(void *parameters, const lobe_host *host) {
+    lobe_scene *scene;
+    lobe_result result = lobe_scene_open_with(parameters, host, &scene);
+    if (result == LOBE_OK)
+        result = lobe_scene_set_pose(scene, &(lobe_pose){.seconds = 0.5}, host);
+    lobe_scene_destroy(&scene);
+    return result;
+}
+
+static void rigs_say_where_memory_ends(void **state) {
+    (void)state;
+    char path[512];
+    lobe_file_write(temporary_folder_file(&test_folder, "triangle.bin"), triangle, sizeof triangle,
+                    NULL);
+    snprintf(path, sizeof path, "%s", temporary_folder_file(&test_folder, "moving.gltf"));
+    lobe_scene_open_parameters parameters = {
+        .scene = path, .data = moving_document, .size = sizeof moving_document - 1};
+    assert_true(fail_each_allocation(work_with_pose, &parameters) > 80);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Others
 
@@ -165,6 +202,7 @@ static void the_hosts_own_scene_is_freed(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(glTF_files_say_where_memory_ends),
+        IN_TEST_FOLDER(rigs_say_where_memory_ends),
         IN_TEST_FOLDER(folders_of_maps_say_where_memory_ends),
         cmocka_unit_test(scenes_by_code_say_where_memory_ends),
         IN_TEST_FOLDER(environments_say_where_memory_ends),

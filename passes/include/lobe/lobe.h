@@ -6,8 +6,10 @@
 /// and which others include in a way of their own (VK_NO_PROTOTYPES, volk) that must come first.
 
 #include <lobe/allocator.h>
+#include <lobe/animation.h>
 #include <lobe/api.h>
 #include <lobe/colour.h>
+#include <lobe/deformation.h>
 #include <lobe/device.h>
 #include <lobe/environment.h>
 #include <lobe/environment_maps.h>

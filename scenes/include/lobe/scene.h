@@ -5,7 +5,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lobe/animation.h>
 #include <lobe/api.h>
+#include <lobe/deformation.h>
 #include <lobe/environment.h>
 #include <lobe/file.h>
 #include <lobe/host.h>
@@ -166,18 +168,21 @@ typedef struct lobe_mesh {
     size_t index_count;
     bool has_texture_coordinates[2];
     bool has_colour;
-    float minimum[3], maximum[3]; ///< bounds of the positions
+    float minimum[3], maximum[3];  ///< bounds of the positions, as they are drawn
+    lobe_deformation *deformation; ///< NULL: it keeps its shape
     /// The host gives the vertices on the device, in every frame: see lobe_content_giver.
     /// `vertices` is then an example, which is not uploaded: texture coordinates and colours of
-    /// those given must be laid out as there.
+    /// those given must be laid out as there. With `deformation` they are its base.
     bool on_device;
 } lobe_mesh;
 
 /// A mesh placed in the world with a material. Where surfaces coincide, which is seen is undefined.
 typedef struct lobe_instance {
     uint32_t mesh, material;
-    float transform[16]; ///< object to world, column-major, affine, invertible; the determinant
-                         ///< is above 0: an import gives mirrored instances a mirrored mesh
+    float transform[16]; ///< object to world, column-major, affine, invertible. An import gives
+                         ///< mirrored instances a mesh reflected in x, so that the determinant is
+                         ///< above 0, except for meshes with a deformation, and for animations that
+                         ///< mirror.
     bool hidden;         ///< not drawn; nothing is built for it alone
 } lobe_instance;
 
@@ -225,6 +230,7 @@ typedef struct lobe_scene {
     size_t instance_count;
     lobe_light *lights;
     size_t light_count;
+    lobe_rig *rig;                 ///< what moves; NULL: nothing
     lobe_environment *environment; ///< light from all directions; NULL: none
     bool has_added_light;          ///< the file has no light: the environment is the sky
     bool environment_visible;      ///< it is visible where nothing is hit, instead of `background`
@@ -296,7 +302,8 @@ typedef struct lobe_scene_open_parameters {
     const lobe_carrier *carrier;
 } lobe_scene_open_parameters;
 
-/// Opens a scene. From a file, everything that its default scene reaches is imported. One warning
+/// Opens a scene. From a file, everything that its default scene reaches is imported, at rest:
+/// animations are imported into its rig, see lobe_scene_set_pose. One warning
 /// names unsupported parts; triangles without area are dropped and normals of length zero
 /// recomputed, each with a warning that counts them. Triangles without normals are flat, as glTF
 /// requires. A missing camera or light is added, with a notice (see `own_light_only`). A file with

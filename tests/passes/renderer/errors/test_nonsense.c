@@ -350,6 +350,17 @@ static void scenes(void **state) {
         lobe_scene_frame(scene, aspects[i], &camera);
         assert_true(isfinite(camera.eye[0]) && isfinite(camera.near_plane));
     }
+    size_t animation;
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_scene_set_pose",
+            lobe_scene_set_pose(NULL, NULL, &f->host));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "a pose at nan s",
+            lobe_scene_set_pose(scene, &(lobe_pose){.seconds = NAN}, &f->host));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "there is no animation 7",
+            lobe_scene_set_pose(scene, &(lobe_pose){.animation = 7}, &f->host));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_scene_find_animation",
+            lobe_scene_find_animation(NULL, "walk", &f->host, &animation));
+    REFUSED(f, LOBE_ERROR_NOT_FOUND, "it has: none",
+            lobe_scene_find_animation(scene, "walk", &f->host, &animation));
     lobe_scene_path(scene, NAN, &camera);
     assert_true(isfinite(camera.eye[0]));
     lobe_scene_destroy(&scene);
