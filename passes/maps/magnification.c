@@ -66,8 +66,8 @@ static double square_of_stretch(const device_scene *scene, size_t instance) {
 static double square_of_footprint(const device_scene *scene, size_t instance, uint32_t set,
                                   const pixel_measure *pixels) {
     const uint32_t mesh = scene->instances[instance].mesh;
-    if (scene->scene->meshes[mesh].on_device)
-        return 0; // of unknown place and extent
+    if (scene->scene->meshes[mesh].on_device || scene->scene->meshes[mesh].deformation)
+        return 0; // of unknown place or extent
     const float depth = nearest_depth(scene, instance, pixels);
     const double side = scene->measures[mesh].least_density[set] *
                         (double)(pixels->constant + pixels->per_depth * depth);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "passes/context/given_content.h"
+#include "passes/renderer/deform.h"
 #include "passes/renderer/tile_marking.h"
 
 static bool has_own_maps(const filter_context *context, size_t instance) {
@@ -40,6 +41,7 @@ static void add_instances(rendering *r, const device_material *material, lobe_fr
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     passes_given_content_take(&r->context, r->renderer->give_content, r->renderer->giver);
+    passes_deform(&r->context);
     passes_tile_marking(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);

@@ -94,7 +94,9 @@ lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index)
     const mesh_measures before = scene->measures[index];
     char name[128];
     snprintf(name, sizeof name, "indices of %s", mesh->name);
-    const lobe_result status = store_vertices(scene, index);
+    lobe_result status = store_vertices(scene, index);
+    if (status == LOBE_OK)
+        status = passes_device_deformation_upload(scene->graph, mesh, &scene->deformations[index]);
     if (status != LOBE_OK)
         return status;
     scene->measures[index] = measure(mesh, before.version + 1);
@@ -104,6 +106,12 @@ lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index)
 
 lobe_resource passes_device_mesh_import(lobe_graph *graph, const device_scene *scene,
                                         uint32_t mesh) {
+    const lobe_resource deformed = scene->deformed[mesh];
+    return deformed.version > 0 ? deformed : passes_device_mesh_import_base(graph, scene, mesh);
+}
+
+lobe_resource passes_device_mesh_import_base(lobe_graph *graph, const device_scene *scene,
+                                             uint32_t mesh) {
     if (scene->scene->meshes[mesh].on_device)
         return scene->given_vertices[mesh];
     return lobe_graph_import_buffer(graph, scene->vertices[mesh]);

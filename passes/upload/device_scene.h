@@ -6,6 +6,7 @@
 #include <lobe/renderer.h>
 #include <lobe/scene.h>
 
+#include "passes/upload/deformation/device_deformation.h"
 #include "shaders/interface/material.h"
 
 /// A map of a material, ready to be bound.
@@ -88,11 +89,15 @@ typedef struct device_scene {
     lobe_resource *given;
     lobe_resource *given_vertices;          ///< the same, one for each mesh
     lobe_resource *given_previous_vertices; ///< the same, of the previous frame
-    lobe_texture *environment;              ///< its image; NULL: none
+    /// One for each mesh: its vertices in this frame's pose; all zero: it has none, or none that
+    /// differs from the mesh.
+    lobe_resource *deformed;
+    lobe_texture *environment; ///< its image; NULL: none
     device_material *materials;
-    lobe_buffer **vertices;  ///< one for each mesh; NULL: not used, or given by the host
-    lobe_buffer **indices;   ///< one for each mesh; NULL: not used
-    mesh_measures *measures; ///< one for each mesh
+    lobe_buffer **vertices;           ///< one for each mesh; NULL: not used, or given by the host
+    lobe_buffer **indices;            ///< one for each mesh; NULL: not used
+    device_deformation *deformations; ///< one for each mesh
+    mesh_measures *measures;          ///< one for each mesh
     device_instance *instances;
     size_t instance_count; ///< when they were last uploaded
     size_t instance_room;  ///< how many the array holds

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "passes/upload/deformation/deformation_check.h"
 #include "passes/upload/number_check.h"
 #include "passes/upload/transform.h"
 
@@ -137,6 +138,7 @@ lobe_result passes_check_frame(const lobe_scene *scene, const lobe_host *host) {
         result = passes_check_transform(scene, i, host);
     for (size_t i = 0; !result && i < scene->light_count; i++)
         result = check_light(scene, i, host);
+    result = result ? result : passes_check_poses(scene, host);
     const number_owner owner = owner_of(scene, "scene", SIZE_MAX, host);
     result = result ? result : check_bounds(scene, host);
     result = result ? result

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "passes/upload/deformation/deformation_check.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/number_check.h"
 
@@ -177,7 +178,8 @@ lobe_result passes_scene_check_mesh(const lobe_scene *scene, size_t index, const
         .host = host, .where = scene->name, .kind = "mesh", .name = mesh->name, .index = index};
     lobe_result result = check_triangles(scene, mesh, host);
     result = result ? result : check_bounds(&owner, mesh);
-    return result ? result : check_vertices(&owner, mesh);
+    result = result ? result : check_vertices(&owner, mesh);
+    return result ? result : passes_check_deformation(&owner, mesh);
 }
 
 /// Instances are numbered from 1 on, in 32 bits.

@@ -33,6 +33,10 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->given_vertices);
     result->given_previous_vertices = lobe_allocate(result->allocator, scene->mesh_count + 1,
                                                     sizeof *result->given_previous_vertices);
+    result->deformed =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->deformed);
+    result->deformations =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->deformations);
     result->materials =
         lobe_allocate(result->allocator, scene->material_count + 1, sizeof *result->materials);
     result->vertices =
@@ -42,8 +46,8 @@ static bool allocate_tables(device_scene *result) {
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
     return result->images && result->metals && result->given && result->given_vertices &&
-           result->given_previous_vertices && result->materials && result->vertices &&
-           result->indices && result->measures &&
+           result->given_previous_vertices && result->deformed && result->deformations &&
+           result->materials && result->vertices && result->indices && result->measures &&
            passes_device_scene_reserve_instances(result, scene->instance_count);
 }
 
@@ -112,6 +116,8 @@ void passes_device_scene_destroy(device_scene **scene) {
         lobe_buffer_destroy(&s->vertices[i]);
         lobe_buffer_destroy(&s->indices[i]);
     }
+    for (size_t i = 0; s->deformations && i < s->scene->mesh_count; i++)
+        passes_device_deformation_destroy(&s->deformations[i]);
     lobe_texture_destroy(&s->white);
     lobe_texture_destroy(&s->environment);
     lobe_release(s->images);
@@ -119,6 +125,8 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->given);
     lobe_release(s->given_vertices);
     lobe_release(s->given_previous_vertices);
+    lobe_release(s->deformed);
+    lobe_release(s->deformations);
     lobe_release(s->materials);
     lobe_release(s->vertices);
     lobe_release(s->indices);

@@ -10,6 +10,7 @@
 #include "shaders/interface/atlas.h"
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering_atlas.h"
+#include "shaders/interface/deformation.h"
 #include "shaders/interface/environment_light.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/gaussian_mixture.h"
@@ -100,6 +101,17 @@ static known_member known[] = {
     MEMBER(frame_constants, footprint, 7),
     MEMBER(frame_constants, dither, 8),
     MEMBER(frame_constants, first_light, 9),
+    MEMBER(joint_influence, joint, 0),
+    MEMBER(joint_influence, weight, 1),
+    MEMBER(morph_delta, target, 0),
+    MEMBER(morph_delta, position, 1),
+    MEMBER(morph_delta, normal, 2),
+    MEMBER(morph_delta, tangent, 3),
+    MEMBER(deform_constants, vertex_count, 0),
+    MEMBER(deform_constants, influences, 1),
+    MEMBER(deform_constants, targets, 2),
+    MEMBER(deform_constants, faceted, 3),
+    MEMBER(deform_constants, row, 4),
     MEMBER(instance_constants, rows, 0),
     MEMBER(draw_constants, first_instance, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),

@@ -77,7 +77,8 @@ typedef struct lobe_scene_changes {
 /// Constants of materials that are equal to those of the device are not written.
 ///
 /// Lights (and their number), the scene's camera, background and bounds, the transforms of
-/// instances and whether they are hidden are read in every frame and need not be listed.
+/// instances and whether they are hidden, and the poses and bounds of meshes are read in every
+/// frame and need not be listed.
 ///
 /// Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene is set, an index out of range, a part outside),
 /// LOBE_ERROR_MALFORMED (as for lobe_renderer_set_scene); nothing has changed then. After any other
