@@ -1,5 +1,7 @@
 #include "tools/animation/animation.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "engine/shader/shaders.h"
@@ -16,11 +18,16 @@ static const struct generator {
 };
 
 struct animation {
-    lobe_texture *base;
-    uint32_t image; ///< of the scene
-    const char *shader;
-    uint32_t width, height; ///< texels
+    lobe_host host;
     double seconds;
+    // A map.
+    lobe_texture *base;
+    uint32_t image;         ///< of the scene
+    const char *shader;     ///< NULL: there is none
+    uint32_t width, height; ///< texels
+    // A rig.
+    lobe_scene *scene;
+    size_t index; ///< of its animation
 };
 
 static lobe_resource add_pass(const animation *a, lobe_graph *graph) {
@@ -91,27 +98,49 @@ static lobe_result prepare(animation *a, lobe_device *device, lobe_scene *scene,
     return result == LOBE_OK ? take_example(a, device, &scene->images[a->image].image) : result;
 }
 
+static lobe_result allocate(const lobe_scene *scene, const lobe_host *host, animation **result) {
+    *result = lobe_allocate(lobe_host_allocator(host), 1, sizeof **result);
+    if (!*result)
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->name);
+    if (host)
+        (*result)->host = *host;
+    return LOBE_OK;
+}
+
+static lobe_result create_map(lobe_device *device, lobe_scene *scene, size_t index,
+                              const lobe_host *host, animation **result) {
+    const struct generator *generator = find_generator(&scene->images[index]);
+    lobe_result status = allocate(scene, host, result);
+    if (status != LOBE_OK)
+        return status;
+    (*result)->image = (uint32_t)index;
+    (*result)->shader = generator->shader;
+    (*result)->width = scene->images[index].image.width;
+    (*result)->height = scene->images[index].image.height;
+    return prepare(*result, device, scene, generator);
+}
+
+static lobe_result create_pose(lobe_scene *scene, const lobe_host *host, animation **result) {
+    lobe_result status = allocate(scene, host, result);
+    if (status != LOBE_OK)
+        return status;
+    (*result)->scene = scene;
+    return animation_set_time(*result, 0);
+}
+
 lobe_result animation_create(lobe_device *device, lobe_scene *scene, const lobe_host *host,
                              animation **result) {
     *result = NULL;
     size_t index = 0;
     while (index < scene->image_count && !find_generator(&scene->images[index]))
         ++index;
-    if (index == scene->image_count)
+    const bool has_map = index < scene->image_count;
+    if (!has_map && (!scene->rig || scene->rig->animation_count == 0))
         return LOBE_OK;
-    const struct generator *generator = find_generator(&scene->images[index]);
-    animation *a = lobe_allocate(lobe_host_allocator(host), 1, sizeof *a);
-    if (!a)
-        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", scene->name);
-    *a = (animation){.image = (uint32_t)index,
-                     .shader = generator->shader,
-                     .width = scene->images[index].image.width,
-                     .height = scene->images[index].image.height};
-    const lobe_result status = prepare(a, device, scene, generator);
-    if (status == LOBE_OK)
-        *result = a;
-    else
-        animation_destroy(&a);
+    const lobe_result status =
+        has_map ? create_map(device, scene, index, host, result) : create_pose(scene, host, result);
+    if (status != LOBE_OK)
+        animation_destroy(result);
     return status;
 }
 
@@ -124,14 +153,60 @@ void animation_destroy(animation **animation) {
 }
 
 void animation_attach(animation *animation, lobe_renderer *renderer) {
-    lobe_renderer_set_content_giver(renderer, animation ? give : NULL, animation);
+    const bool gives = animation && animation->shader;
+    lobe_renderer_set_content_giver(renderer, gives ? give : NULL, animation);
 }
 
-void animation_set_time(animation *animation, double seconds) {
-    if (animation)
-        animation->seconds = seconds;
+// ---------------------------------------------------------------------------------------------
+// Time
+
+static lobe_result set_pose(animation *a, size_t index, double seconds) {
+    const lobe_pose pose = {.animation = index, .seconds = seconds};
+    const lobe_result result = a->scene ? lobe_scene_set_pose(a->scene, &pose, &a->host) : LOBE_OK;
+    if (result != LOBE_OK)
+        return result;
+    a->index = index;
+    a->seconds = seconds;
+    return LOBE_OK;
+}
+
+lobe_result animation_set_time(animation *animation, double seconds) {
+    return animation ? set_pose(animation, animation->index, seconds) : LOBE_OK;
 }
 
 double animation_time(const animation *animation) {
     return animation ? animation->seconds : 0;
+}
+
+lobe_result animation_set_index(animation *animation, size_t index) {
+    return animation && animation->scene ? set_pose(animation, index, animation->seconds) : LOBE_OK;
+}
+
+lobe_result animation_find(const lobe_scene *scene, const char *text, const lobe_host *host,
+                           size_t *index) {
+    const size_t count = scene->rig ? scene->rig->animation_count : 0;
+    char *end;
+    const unsigned long number = strtoul(text, &end, 10);
+    *index = 0;
+    // A name may be a number, or "all", too.
+    if (count == 0 || lobe_scene_find_animation(scene, text, NULL, index) == LOBE_OK)
+        return LOBE_OK;
+    const bool all = strcmp(text, "all") == 0;
+    if (!all && (text[0] < '0' || text[0] > '9' || *end != '\0' || number >= count))
+        return lobe_scene_find_animation(scene, text, host, index);
+    *index = all ? LOBE_ANIMATION_ALL : number;
+    return LOBE_OK;
+}
+
+size_t animation_index(const animation *animation) {
+    return animation ? animation->index : 0;
+}
+
+double animation_duration(const animation *animation) {
+    const lobe_rig *rig = animation && animation->scene ? animation->scene->rig : NULL;
+    double longest = 0;
+    for (size_t i = 0; rig && i < rig->animation_count; i++)
+        if (animation->index == LOBE_ANIMATION_ALL || animation->index == i)
+            longest = fmax(longest, rig->animations[i].duration);
+    return longest;
 }

@@ -43,9 +43,10 @@ lobe_result changed_frame_render(lobe_renderer *renderer, lobe_scene *scene, ani
         move_texels(&scene->images[i].image);
     }
     const lobe_scene_changes changes = {.images = images, .image_count = count};
-    animation_set_time(animation, animation_time(animation) + 1.0 / 30);
+    lobe_result result = animation_set_time(animation, animation_time(animation) + 1.0 / 30);
     const changed_cost before = cost_until_now();
-    lobe_result result = lobe_renderer_update_scene(renderer, &changes);
+    if (result == LOBE_OK)
+        result = lobe_renderer_update_scene(renderer, &changes);
     if (result == LOBE_OK)
         result = lobe_renderer_render(renderer, parameters, frame);
     const changed_cost after = cost_until_now();

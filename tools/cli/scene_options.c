@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/animation/rig.h"
 #include "tools/cli/closest_name.h"
 #include "tools/scenes/scene_list.h"
 
@@ -79,6 +80,7 @@ static void remove_lights(lobe_scene *scene) {
     lobe_release(scene->lights);
     scene->lights = NULL;
     scene->light_count = 0;
+    scenes_rig_forget_lights(scene);
 }
 
 static lobe_result replace_environment(const scene_options *options, const lobe_host *host,

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/animation/rig.h"
+
 option view_option_eye(view_options *options) {
     return (option){.name = "eye",
                     .kind = OPTION_VECTOR,
@@ -151,13 +153,19 @@ bool view_options_apply(const view_options *options, lobe_light *lights, lobe_sc
     // Otherwise a near plane meant for another distance would cut away close objects.
     if (options->has_eye || options->has_target)
         camera.near_plane = fminf(camera.near_plane, (float)(1e-3 * reach));
+    // A camera of the user's does not follow an animation of the scene's.
+    if (scene->rig && memcmp(&camera, &scene->camera, sizeof camera) != 0)
+        scene->rig->camera_node = -1;
     scene->camera = camera;
     lobe_scene_path(scene, options->path, &camera);
+    if (scene->rig && options->path > 0)
+        scene->rig->camera_node = -1;
     scene->camera = camera;
     if (lights) {
         lobe_release(scene->lights);
         scene->lights = lights;
         scene->light_count = options->lights.count;
+        scenes_rig_forget_lights(scene);
     }
     return true;
 }

@@ -31,7 +31,8 @@ typedef struct render_request {
     uint32_t samples;
     const char *frames_text;
     frame_sequence frames;
-    double time; ///< seconds
+    double time;           ///< seconds
+    const char *animation; ///< NULL: the first
     const char *graph;
     uint32_t depth;
     bool layers;   ///< the layers of arbitrary output variables
@@ -210,10 +211,17 @@ static lobe_result check_last_frame(const render_request *request, const render_
                           state->scene->name, seconds, ANIMATION_MAXIMUM_SECONDS);
 }
 
+static lobe_result choose_animation(const render_request *request, render_state *state) {
+    size_t index;
+    lobe_result result = animation_find(state->scene, request->animation, &state->host, &index);
+    return result == LOBE_OK ? animation_set_index(state->animation, index) : result;
+}
+
 static lobe_result animate(const render_request *request, render_state *state) {
     lobe_result result =
         animation_create(state->device, state->scene, &state->host, &state->animation);
     const char *consequence = request->has_time          ? "--time makes no difference"
+                              : request->animation       ? "--animation makes no difference"
                               : request->frames.numbered ? "all pictures are equal"
                                                          : NULL;
     if (result == LOBE_OK && !state->animation && consequence)
@@ -221,6 +229,8 @@ static lobe_result animate(const render_request *request, render_state *state) {
                       state->scene->name, consequence);
     if (result == LOBE_OK && state->animation)
         result = check_last_frame(request, state);
+    if (result == LOBE_OK && request->animation)
+        result = choose_animation(request, state);
     if (result == LOBE_OK)
         animation_attach(state->animation, state->renderer);
     return result;
@@ -360,8 +370,9 @@ static lobe_result render_frames(const render_request *request, render_state *st
     for (uint32_t i = 0; result == LOBE_OK && i < request->frames.count; i++) {
         state->frame_number = i + 1;
         begin_frame(state);
-        animation_set_time(state->animation, seconds_of(request, i));
-        result = render_frame(request, state);
+        result = animation_set_time(state->animation, seconds_of(request, i));
+        if (result == LOBE_OK)
+            result = render_frame(request, state);
         if (result == LOBE_OK && request->frames.numbered)
             result = write_images(request, state, i);
     }
@@ -521,6 +532,12 @@ static int run(int argc, char **argv) {
          .minimum = 0,
          .maximum = ANIMATION_MAXIMUM_SECONDS,
          .given = &request.has_time},
+        {.name = "animation",
+         .kind = OPTION_TEXT,
+         .argument = "NAME",
+         .summary = "which animation of a file: a name, an index from 0 on, or 'all' at once "
+                    "(default: the first)",
+         .target = &request.animation},
         {.name = "frames",
          .kind = OPTION_TEXT,
          .argument = "N|A..B",

@@ -19,15 +19,16 @@ static lobe_result render_pair(const sweep_job *job, const lobe_scene *scene,
     for (int i = 0; i < 2; i++) {
         lobe_camera camera;
         const double seconds = (station + 0.5) / job->stations * path_seconds + i * step_seconds;
+        if (result == LOBE_OK)
+            result = animation_set_time(job->bench.animation, seconds);
         lobe_scene_path(scene, seconds / path_seconds, &camera);
-        animation_set_time(job->bench.animation, seconds);
         parameters.camera = &camera;
         pair[i] = (lobe_frame){0};
         if (result == LOBE_OK && !sweep_stopped(job))
             result = lobe_renderer_render(renderer, &parameters, &pair[i]);
     }
-    animation_set_time(job->bench.animation, 0);
-    return result;
+    const lobe_result back = animation_set_time(job->bench.animation, 0);
+    return result == LOBE_OK ? back : result;
 }
 
 static void free_pair(lobe_frame pair[2]) {

@@ -65,6 +65,19 @@ static void set_title(const viewer *v) {
     glfwSetWindowTitle(v->window, title);
 }
 
+/// Poses the first scene to the beginning of the animation that the command line names.
+static lobe_result choose_animation(viewer *v) {
+    const lobe_rig *rig = v->scene->rig;
+    lobe_result result = LOBE_OK;
+    if (!rig || rig->animation_count == 0)
+        return LOBE_OK;
+    if (v->request->animation)
+        result = animation_find(v->scene, v->request->animation, &v->host, &v->view.animation);
+    return result == LOBE_OK ? lobe_scene_set_pose(
+                                   v->scene, &(lobe_pose){.animation = v->view.animation}, &v->host)
+                             : result;
+}
+
 lobe_result viewer_open_first_scene(viewer *v) {
     const viewer_request *request = v->request;
     scene_options opening = v->opening;
@@ -79,6 +92,9 @@ lobe_result viewer_open_first_scene(viewer *v) {
         return result;
     }
     v->view.scene = v->scene;
+    result = choose_animation(v);
+    if (result != LOBE_OK)
+        return result;
     v->view.camera = v->scene->camera;
     v->turned = v->opening.rotation;
     return viewer_lights_open(v);
@@ -97,8 +113,11 @@ static lobe_result replace_scene(viewer *v, const char *name) {
     lobe_scene *scene = NULL;
     if (scene_options_open(&v->opening, name, size, &v->host, &scene) != LOBE_OK)
         return LOBE_OK;
+    const size_t animation = v->view.animation;
+    v->view.animation = 0;
     if (give_scene(v, scene) != LOBE_OK) {
         lobe_scene_destroy(&scene);
+        v->view.animation = animation;
         return give_scene(v, v->scene);
     }
     lobe_scene_destroy(&v->scene);

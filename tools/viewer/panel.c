@@ -1,5 +1,6 @@
 #include "tools/viewer/viewer.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -236,6 +237,40 @@ static void show_all_passes(const viewer *v) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Time
+
+static void choose_animation(viewer *v) {
+    const lobe_rig *rig = v->scene->rig;
+    const char *names[MAXIMUM_CHOICES] = {"all at once"};
+    size_t count = 1;
+    for (; rig && count <= rig->animation_count && count < MAXIMUM_CHOICES; count++)
+        names[count] = rig->animations[count - 1].name[0] ? rig->animations[count - 1].name
+                                                          : "(without a name)";
+    size_t chosen = v->view.animation == LOBE_ANIMATION_ALL ? 0 : v->view.animation + 1;
+    if (count > 2 && imgui_choice("animation", names, count, &chosen))
+        viewer_set_animation(v, chosen == 0 ? LOBE_ANIMATION_ALL : chosen - 1);
+}
+
+/// A line of time for animations that repeat; others go on until time is stopped.
+static void show_time(viewer *v) {
+    const double duration = animation_duration(v->sides[0].animation);
+    double seconds = duration > 0 ? fmod(v->view.seconds, duration) : v->view.seconds;
+    char text[32];
+    choose_animation(v);
+    if (duration > 0) {
+        if (imgui_number("seconds", 0, duration, &seconds)) {
+            v->time_runs = false;
+            viewer_set_time(v, fmin(fmax(seconds, 0), ANIMATION_MAXIMUM_SECONDS));
+        }
+    } else {
+        snprintf(text, sizeof text, "%.1f", seconds);
+        imgui_line("seconds", text);
+    }
+    if (imgui_button(v->time_runs ? "stop time" : "let time go on"))
+        v->time_runs = !v->time_runs;
+}
+
+// ---------------------------------------------------------------------------------------------
 // Path
 
 static void show_path(viewer *v) {
@@ -281,6 +316,8 @@ static void show_panel(viewer *v) {
         set_side("second", &v->sides[1], has_environment);
     if (!is_wide(v, WIDTH_FOR_TIMES) && imgui_section("Times", true))
         show_all_passes(v);
+    if (v->sides[0].animation && imgui_section("Time", true))
+        show_time(v);
     if (imgui_section("Path of the camera", true))
         show_path(v);
     imgui_space();

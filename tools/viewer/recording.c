@@ -38,7 +38,9 @@ static bool choose_path(const viewer *v, char path[PATH_MAX]) {
 
 /// A reference is recorded with the samples it has so far.
 static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
-    animation_set_time(side->animation, v->view.seconds);
+    const lobe_result result = animation_set_time(side->animation, v->view.seconds);
+    if (result != LOBE_OK)
+        return result;
     return lobe_renderer_render(side->renderer,
                                 &(lobe_render_parameters){
                                     .filter = side->filter,

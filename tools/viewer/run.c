@@ -86,8 +86,7 @@ static void move(viewer *v) {
     const double now = glfwGetTime(), seconds = fmin(now - v->last_time, 0.1);
     double steps[3];
     if (changes_with_time(v)) {
-        v->view.seconds = fmod(v->view.seconds + now - v->last_time, ANIMATION_MAXIMUM_SECONDS);
-        viewer_redraw_scene(v);
+        viewer_set_time(v, fmod(v->view.seconds + now - v->last_time, ANIMATION_MAXIMUM_SECONDS));
     }
     v->last_time = now;
     if (v->plays || v->steps) {

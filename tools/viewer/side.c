@@ -48,6 +48,8 @@ lobe_result viewer_side_set_scene(const viewer_view *view, viewer_side *side) {
     lobe_result result =
         animation_create(view->device->lobe, view->scene, view->host, &side->animation);
     animation_attach(side->animation, side->renderer);
+    if (result == LOBE_OK && view->animation != 0)
+        result = animation_set_index(side->animation, view->animation);
     return result == LOBE_OK ? lobe_renderer_set_scene(side->renderer, view->scene) : result;
 }
 
@@ -183,19 +185,20 @@ static void adapt_step(viewer_side *side, double seconds) {
 
 static lobe_result render_samples(const viewer_view *view, viewer_side *side, uint32_t count) {
     lobe_frame frame;
-    animation_set_time(side->animation, view->seconds);
-    lobe_result result =
-        lobe_renderer_render(side->renderer,
-                             &(lobe_render_parameters){
-                                 .filter = side->filter,
-                                 .settings = &side->settings,
-                                 .camera = &view->camera,
-                                 .width = view->width,
-                                 .height = view->height,
-                                 .reference = {.samples = count, .pattern = side->pattern++},
-                                 .environment.cache = view->cache,
-                             },
-                             &frame);
+    lobe_result result = animation_set_time(side->animation, view->seconds);
+    if (result == LOBE_OK)
+        result =
+            lobe_renderer_render(side->renderer,
+                                 &(lobe_render_parameters){
+                                     .filter = side->filter,
+                                     .settings = &side->settings,
+                                     .camera = &view->camera,
+                                     .width = view->width,
+                                     .height = view->height,
+                                     .reference = {.samples = count, .pattern = side->pattern++},
+                                     .environment.cache = view->cache,
+                                 },
+                                 &frame);
     if (result != LOBE_OK)
         return result;
     take_times(side);
@@ -289,7 +292,11 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     lobe_settings settings;
     const lobe_filter *filter = filter_to_draw(side, &settings);
     adapt_parts(side);
-    animation_set_time(side->animation, view->seconds);
+    side->failed = animation_set_time(side->animation, view->seconds) != LOBE_OK;
+    if (side->failed) {
+        side->stale = false;
+        return LOBE_ERROR_MALFORMED; // said already
+    }
     side->target.image.layout = VK_IMAGE_LAYOUT_UNDEFINED;
     lobe_result result = lobe_renderer_render(
         side->renderer,

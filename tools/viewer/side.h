@@ -65,7 +65,8 @@ typedef struct viewer_side {
 typedef struct viewer_view {
     const viewer_device *device;
     lobe_scene *scene;
-    double seconds; ///< the time in a scene that changes with time
+    double seconds;   ///< the time in a scene that changes with time
+    size_t animation; ///< which of the scene's; LOBE_ANIMATION_ALL: all
     lobe_camera camera;
     uint32_t width, height;   ///< pixels
     uint32_t maximum_samples; ///< at which refining ends

@@ -105,6 +105,12 @@ static int run(int argc, char **argv) {
          .fallback = "0",
          .minimum = -VIEWER_MAXIMUM_EXPOSURE,
          .maximum = VIEWER_MAXIMUM_EXPOSURE},
+        {.name = "animation",
+         .kind = OPTION_TEXT,
+         .argument = "NAME",
+         .summary = "which animation of a file: a name, an index from 0 on, or 'all' at once "
+                    "(default: the first)",
+         .target = &request.animation},
         {.name = "path-frames",
          .kind = OPTION_INTEGER,
          .argument = "N",

@@ -1,6 +1,7 @@
 #include "tools/viewer/viewer.h"
 
 #include <stdio.h>
+#include <string.h>
 
 void viewer_redraw_panels(viewer *v) {
     v->redraws = VIEWER_REDRAWS;
@@ -18,6 +19,28 @@ void viewer_show_message(viewer *v, const char *text) {
     snprintf(v->message, sizeof v->message, "%s", text);
     v->opens = false;
     viewer_redraw_panels(v);
+}
+
+/// Poses the scene, so that the camera can follow it before anything is drawn.
+static void pose(viewer *v) {
+    const bool follows = memcmp(&v->view.camera, &v->scene->camera, sizeof v->view.camera) == 0;
+    // A failure shows a message. Both sides pose the same scene: the last call decides.
+    (void)animation_set_index(v->sides[1].animation, v->view.animation);
+    (void)animation_set_index(v->sides[0].animation, v->view.animation);
+    (void)animation_set_time(v->sides[0].animation, v->view.seconds);
+    if (follows)
+        v->view.camera = v->scene->camera;
+    viewer_redraw_scene(v);
+}
+
+void viewer_set_time(viewer *v, double seconds) {
+    v->view.seconds = seconds;
+    pose(v);
+}
+
+void viewer_set_animation(viewer *v, size_t index) {
+    v->view.animation = index;
+    pose(v);
 }
 
 void viewer_reset_camera(viewer *v) {

@@ -21,6 +21,7 @@ typedef struct viewer_request {
     uint32_t frames; ///< to draw at least, before the window may idle
     bool exit;       ///< close the window after those
     uint32_t samples, path_frames;
+    const char *animation; ///< which of the first scene; NULL: its first
     double exposure;
     const char *folder; ///< of recorded frames
     scene_options opening;
@@ -113,6 +114,11 @@ void viewer_redraw_scene(viewer *v);
 void viewer_redraw_panels(viewer *v);
 /// Shows a message in the window.
 void viewer_show_message(viewer *v, const char *text);
+/// Sets the time in a scene that changes with time, [0, ANIMATION_MAXIMUM_SECONDS]. A camera that
+/// is where the scene's is follows it.
+void viewer_set_time(viewer *v, double seconds);
+/// Chooses one of the scene's animations, or LOBE_ANIMATION_ALL.
+void viewer_set_animation(viewer *v, size_t index);
 /// Switches to the scene's own camera.
 void viewer_reset_camera(viewer *v);
 /// Changes the filter of a side. Its knobs get their defaults, except those with the same name as

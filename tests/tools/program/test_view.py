@@ -7,7 +7,8 @@ import time
 from pathlib import Path
 
 import tap
-from files import exr_write, gltf_triangle, gltf_write, png_read, png_write
+from files import exr_header, exr_write, gltf_triangle, gltf_write, png_read, png_write
+from motion import write_moving_square
 from program import (FOLDER, ROOT, check, fails, fresh_folder, is_wrong_usage, lobe, report,
                      succeeds)
 from screen import Screen, Window
@@ -523,6 +524,31 @@ def test_time_runs_until_it_is_stopped():
     check(comes(lambda: seen(64, 48) != stopped), "time does not go on")
     moving.do("key", "t")
     check(moving.close() == 0, moving.said())
+    return None
+
+
+def test_animated_files_play():
+    if missing():
+        return missing()
+    folder = fresh_folder("played")
+    scene = write_moving_square(folder / "square.gltf", "skin")
+    moving = Window(screen(), scene, "--size", "256x16", "--filter", "direct", "--environment",
+                    "none", "--animation", "slide", "-o", folder, "--validation", settles=False)
+    views = []
+
+    def moves():
+        if seen(256, 16) not in views:
+            views.append(seen(256, 16))
+        return len(views) > 4
+
+    screen().do("key", "Tab")
+    check(comes(moves), "the file stands still")
+    moving.do("key", "t")
+    moving.do("key", "r")
+    check(comes((folder / "square-0000.exr").exists), "nothing is recorded")
+    check(moving.close() == 0, moving.said())
+    check("seconds" in exr_header(folder / "square-0000.exr"), "no time is recorded")
+    fails("view", scene, "--animation", "walk", DISPLAY=screen().name, says="no animation 'walk'")
     return None
 
 
