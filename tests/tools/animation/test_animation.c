@@ -35,7 +35,7 @@ static void stop(playing *p) {
 
 static lobe_frame picture(playing *p, const char *filter, double seconds) {
     const picture_request request = {.filter = filter, .width = 48, .height = 27, .samples = 2};
-    animation_set_time(p->animation, seconds);
+    assert_int_equal(animation_set_time(p->animation, seconds), LOBE_OK);
     return draw(p->f, &request);
 }
 
@@ -122,6 +122,95 @@ static void other_scenes_stand_still(void **state) {
     stop(&p);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Rigs
+
+static void *allocate(size_t count, size_t size) {
+    void *memory = lobe_allocate(NULL, count, size);
+    assert_non_null(memory);
+    return memory;
+}
+
+/// Along x, from 0 to `distance` within `duration`.
+static lobe_animation slide(const char *name, float distance, float duration) {
+    lobe_animation animation = {.name = lobe_copy_text(NULL, name),
+                                .channels = allocate(1, sizeof(lobe_animation_channel)),
+                                .channel_count = 1,
+                                .duration = duration};
+    lobe_animation_channel *channel = animation.channels;
+    *channel = (lobe_animation_channel){.interpolation = LOBE_INTERPOLATION_LINEAR,
+                                        .times = allocate(2, sizeof(float)),
+                                        .key_count = 2,
+                                        .width = 3,
+                                        .values = allocate(6, sizeof(float))};
+    channel->times[1] = duration;
+    channel->values[3] = distance;
+    return animation;
+}
+
+/// A scene with a rig that the host made.
+static lobe_scene *rigged_scene(fixture *f) {
+    lobe_scene *scene;
+    assert_int_equal(scene_list_open("checkerboard", NULL, false, &f->host, &scene), LOBE_OK);
+    lobe_rig *rig = scene->rig = allocate(1, sizeof *rig);
+    rig->camera_node = -1;
+    rig->nodes = allocate(1, sizeof *rig->nodes);
+    rig->node_count = 1;
+    rig->nodes[0] = (lobe_node){.parent = -1, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+    rig->instances = allocate(1, sizeof *rig->instances);
+    rig->instance_count = 1;
+    rig->instances[0] = (lobe_posed_instance){.skinned_mesh = -1};
+    rig->animations = allocate(3, sizeof *rig->animations);
+    rig->animation_count = 3;
+    rig->animations[0] = slide("walk", 1, 2);
+    rig->animations[1] = slide("run", 4, 1);
+    rig->animations[2] = slide("1", -3, 3);
+    return scene;
+}
+
+static void rigs_are_posed(void **state) {
+    static const struct {
+        const char *text;
+        size_t index;
+        double duration;
+        float place; ///< at half a second
+    } choices[] = {{"walk", 0, 2, 0.25f},
+                   {"run", 1, 1, 2},
+                   {"1", 2, 3, -0.5f}, // a name
+                   {"0", 0, 2, 0.25f},
+                   {"all", LOBE_ANIMATION_ALL, 3, -0.5f}};
+    fixture *f = *state;
+    playing p = {.f = f, .scene = rigged_scene(f)};
+    const float *x = &p.scene->instances[0].transform[12];
+    assert_int_equal(animation_create(f->device, p.scene, &f->host, &p.animation), LOBE_OK);
+    animation_attach(p.animation, f->renderer);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, p.scene), LOBE_OK);
+    const uint64_t first = hash_at(&p, 0);
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        size_t index = 9;
+        assert_int_equal(animation_find(p.scene, choices[i].text, &f->host, &index), LOBE_OK);
+        assert_true(index == choices[i].index);
+        assert_int_equal(animation_set_index(p.animation, index), LOBE_OK);
+        assert_true(animation_index(p.animation) == index);
+        assert_float_equal(animation_duration(p.animation), choices[i].duration, 0);
+        assert_int_equal(animation_set_time(p.animation, 0.5), LOBE_OK);
+        assert_float_equal(*x, choices[i].place, 1e-6);
+        assert_true(hash_at(&p, 0.5) != first);
+        assert_true(hash_at(&p, 0) == first);
+    }
+    // What fails changes nothing.
+    const float before = *x;
+    size_t index;
+    assert_failure(f, animation_find(p.scene, "3", &f->host, &index), LOBE_ERROR_NOT_FOUND,
+                   "'walk', 'run', '1'");
+    fixture_forget_messages(f);
+    assert_failure(f, animation_set_index(p.animation, 3), LOBE_ERROR_INVALID_ARGUMENT,
+                   "no animation 3");
+    fixture_forget_messages(f);
+    assert_true(animation_index(p.animation) == LOBE_ANIMATION_ALL && *x == before);
+    stop(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_depend_on_the_time_alone),
@@ -129,6 +218,7 @@ int main(void) {
         cmocka_unit_test(filters_follow_the_texels),
         cmocka_unit_test(rain_falls),
         cmocka_unit_test(other_scenes_stand_still),
+        cmocka_unit_test(rigs_are_posed),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }
