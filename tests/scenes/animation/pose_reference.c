@@ -30,9 +30,8 @@ static point morph(const lobe_mesh *mesh, size_t vertex) {
         p.normal[i] = mesh->vertices[vertex].normal[i];
         p.tangent[i] = mesh->vertices[vertex].tangent[i];
     }
-    for (size_t k = 0; d->target_count > 0 && k < d->delta_count; k++) {
-        if (k < d->first_deltas[vertex] || k >= d->first_deltas[vertex + 1])
-            continue;
+    const uint32_t *first = d->target_count > 0 ? d->first_deltas + vertex : NULL;
+    for (uint32_t k = first ? first[0] : 0; first && k < first[1]; k++) {
         const double weight = d->weights[d->deltas[k].target];
         for (int i = 0; i < 3; i++) {
             p.position[i] += weight * d->deltas[k].position[i];
