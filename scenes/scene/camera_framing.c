@@ -57,12 +57,25 @@ static void visit_point(picture_frame *frame, visit *visit, vector3 point) {
           vector3_dot(p, frame->axes.forward));
 }
 
+/// The corners of the bounds, where vertices are found on the device.
+static void visit_bounds(picture_frame *frame, visit *visit, const lobe_instance *instance,
+                         const lobe_mesh *mesh) {
+    for (int corner = 0; corner < 8; corner++)
+        visit_point(frame, visit,
+                    vector3_transform(instance->transform,
+                                      (vector3){corner & 1 ? mesh->maximum[0] : mesh->minimum[0],
+                                                corner & 2 ? mesh->maximum[1] : mesh->minimum[1],
+                                                corner & 4 ? mesh->maximum[2] : mesh->minimum[2]}));
+}
+
 static void visit_points(picture_frame *frame, visit *visit) {
     const lobe_scene *scene = frame->scene;
     for (size_t i = 0; i < scene->instance_count; i++) {
         const lobe_instance *instance = &scene->instances[i];
         const lobe_mesh *mesh = &scene->meshes[instance->mesh];
-        for (size_t k = 0; k < mesh->vertex_count; k++) {
+        if (mesh->deformation)
+            visit_bounds(frame, visit, instance, mesh);
+        for (size_t k = 0; !mesh->deformation && k < mesh->vertex_count; k++) {
             const vector3 position = vector3_load(mesh->vertices[k].position);
             visit_point(frame, visit, vector3_transform(instance->transform, position));
         }

@@ -1,5 +1,6 @@
 #include "tools/cli/scene_options.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -147,6 +148,56 @@ static void suggest_scene(const char *name, const lobe_host *host) {
         lobe_host_log(host, LOBE_LOG_NOTICE, "%s: did you mean '%s'?", name, closest.closest);
 }
 
+/// The bounds of the scene in some moments of its first animation. It is left at rest.
+static lobe_result find_motion(lobe_scene *scene, float minimum[3], float maximum[3],
+                               const lobe_host *host) {
+    enum { MOMENTS = 16 };
+    lobe_result result = LOBE_OK;
+    for (int i = 0; result == LOBE_OK && i <= MOMENTS; i++) {
+        const lobe_pose pose = {.seconds = scene->rig->animations[0].duration * i / MOMENTS,
+                                .once = true};
+        result = lobe_scene_set_pose(scene, &pose, host);
+        for (int axis = 0; axis < 3; axis++) {
+            minimum[axis] =
+                i > 0 ? fminf(minimum[axis], scene->minimum[axis]) : scene->minimum[axis];
+            maximum[axis] =
+                i > 0 ? fmaxf(maximum[axis], scene->maximum[axis]) : scene->maximum[axis];
+        }
+    }
+    return result == LOBE_OK
+               ? lobe_scene_set_pose(scene, &(lobe_pose){.animation = LOBE_ANIMATION_NONE}, host)
+               : result;
+}
+
+/// Sees all of a box.
+static void frame_box(const float minimum[3], const float maximum[3], double aspect,
+                      lobe_camera *camera) {
+    lobe_scene_vertex corners[8] = {0};
+    for (int i = 0; i < 8; i++)
+        for (int axis = 0; axis < 3; axis++)
+            corners[i].position[axis] = (i >> axis & 1 ? maximum : minimum)[axis];
+    lobe_mesh box = {.vertices = corners, .vertex_count = 8};
+    lobe_instance instance = {.transform = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    lobe_scene scene = {
+        .meshes = &box, .mesh_count = 1, .instances = &instance, .instance_count = 1};
+    memcpy(scene.minimum, minimum, sizeof scene.minimum);
+    memcpy(scene.maximum, maximum, sizeof scene.maximum);
+    lobe_scene_frame(&scene, aspect, camera);
+}
+
+/// Of what moves, all that its first animation reaches.
+static lobe_result frame(lobe_scene *scene, double aspect, const lobe_host *host) {
+    float minimum[3], maximum[3];
+    if (!scene->rig || scene->rig->animation_count == 0) {
+        lobe_scene_frame(scene, aspect, &scene->camera);
+        return LOBE_OK;
+    }
+    const lobe_result result = find_motion(scene, minimum, maximum, host);
+    if (result == LOBE_OK)
+        frame_box(minimum, maximum, aspect, &scene->camera);
+    return result;
+}
+
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result) {
     const char *assets = options->assets ? options->assets : getenv("LOBE_ASSETS");
@@ -157,7 +208,7 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
     if (status == LOBE_ERROR_NOT_FOUND)
         suggest_scene(scene, host);
     if (status == LOBE_OK && !(*result)->has_camera)
-        lobe_scene_frame(*result, (double)size[0] / size[1], &(*result)->camera);
+        status = frame(*result, (double)size[0] / size[1], host);
     if (status == LOBE_OK)
         status = scene_options_light(options, host, *result);
     if (status != LOBE_OK)

@@ -39,8 +39,8 @@ bool scene_options_give_light(const scene_options *options);
 lobe_result scene_options_light(const scene_options *options, const lobe_host *host,
                                 lobe_scene *scene);
 
-/// Opens a scene and applies the options. A scene without a camera gets one that frames it in a
-/// picture of this size.
+/// Opens a scene and applies the options. A scene without a camera gets one that frames it, and its
+/// first animation, in a picture of this size.
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result);
 

@@ -242,7 +242,8 @@ typedef struct lobe_scene {
 } lobe_scene;
 
 /// A perspective camera that sees all of a scene from the front, a little from the right and above,
-/// as large as fits into a picture of this aspect (width / height, above 0). Bounds must be set.
+/// as large as fits into a picture of this aspect (width / height, above 0). Bounds must be set. Of
+/// meshes with a deformation the bounds are seen, of others the vertices.
 LOBE_API void lobe_scene_frame(const lobe_scene *scene, double aspect, lobe_camera *camera);
 
 /// A camera on the scene's path, on which measurements over time are taken. `part` [0, 1] says how

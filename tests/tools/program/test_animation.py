@@ -8,7 +8,7 @@ from motion import (HALF_WIDTH, INTERPOLATIONS, PLACES, WAYS, moving_squares, pl
                     write_moving_square)
 from program import SMALL, check, fails, fresh_folder, leaves, report, succeeds
 
-WIDTH, HEIGHT = 256, 16  # of a row
+WIDTH, HEIGHT = 128, 8  # of a row
 
 
 def drawn(rows=1):
@@ -86,6 +86,19 @@ def test_animated_cameras_are_followed():
     succeeds("render", folder / "camera.gltf", *drawn(), "--time", "0.1", "--eye", "0.5,0,5",
              "--target", "0.5,0,0", "-o", folder / "b.exr")
     near(folder / "b.exr", -0.5)
+
+
+def test_an_added_camera_sees_all_of_the_motion():
+    folder = fresh_folder("framed")
+    document = moving_squares([("skin", "LINEAR")])
+    del document["cameras"], document["nodes"][0]["camera"]
+    gltf_write(folder / "framed.gltf", document)
+    succeeds("render", folder / "framed.gltf", *drawn(16), "--frames", "0..10", "-o",
+             folder / "frame.exr")
+    for n in 0, 4, 10:
+        texels = exr_texels(folder / f"frame-{n:04}.exr")
+        columns = [i % WIDTH for i, texel in enumerate(texels) if texel[3] > 0.5]
+        check(columns and min(columns) > 0 and max(columns) < WIDTH - 1, f"frame {n} is cut off")
 
 
 def test_broken_channels_are_named():
