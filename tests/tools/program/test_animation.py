@@ -1,5 +1,7 @@
 """How `lobe render` and `lobe bench` play the animations of glTF files."""
 
+import json
+import math
 import sys
 
 import tap
@@ -16,13 +18,16 @@ def drawn(rows=1):
             "--environment", "none"]
 
 
-def near(path, expected, row=0):
-    """The bright square of a row is there, to a pixel and a half."""
-    texels = exr_texels(path)[row * WIDTH * HEIGHT:(row + 1) * WIDTH * HEIGHT]
-    bright = [n % WIDTH for n, texel in enumerate(texels) if texel[3] > 0.5]
-    check(bright, f"{path}: nothing is bright in row {row}")
-    found = ((sum(bright) / len(bright) + 0.5) / WIDTH * 2 - 1) * HALF_WIDTH
-    check(abs(found - expected) < 3 * HALF_WIDTH / WIDTH, f"{path}, {row}: {found}, not {expected}")
+def near(path, *places):
+    """The bright square of each row is there, to a pixel and a half."""
+    texels = exr_texels(path)
+    for row, expected in enumerate(places):
+        bright = [n % WIDTH for n in range(row * WIDTH * HEIGHT, (row + 1) * WIDTH * HEIGHT)
+                  if texels[n][3] > 0.5]
+        check(bright, f"{path}: nothing is bright in row {row}")
+        found = ((sum(bright) / len(bright) + 0.5) / WIDTH * 2 - 1) * HALF_WIDTH
+        check(abs(found - expected) < 3 * HALF_WIDTH / WIDTH,
+              f"{path}, row {row}: {found}, not {expected}")
 
 
 def test_squares_follow_their_keys():
@@ -34,8 +39,7 @@ def test_squares_follow_their_keys():
     for n in range(12):
         path = folder / f"frame-{n:04}.exr"
         check(abs(exr_header(path)["seconds"] - n / 30) < 1e-6, "another time")
-        for row, (_, interpolation) in enumerate(ways):
-            near(path, place(interpolation, n / 30), row)
+        near(path, *(place(interpolation, n / 30) for _, interpolation in ways))
 
 
 def test_a_picture_is_of_time_zero_or_of_the_time_given():
@@ -114,9 +118,14 @@ def test_broken_channels_are_named():
 def test_animated_files_are_measured():
     folder = fresh_folder("bench")
     scene = write_moving_square(folder / "square.gltf", "skin")
-    result = succeeds("bench", scene, *SMALL, "--filters", "direct", "--frames", "2", "--samples",
-                      "2")
+    measured = ["bench", scene, *SMALL, "--filters", "direct", "--frames", "2", "--samples", "2",
+                "--environment", "none"]
+    result = succeeds(*measured)
     check("deform" in result.stdout, report(result))
+    succeeds(*measured, "--sweep", "--knobs", "none", "--stations", "2", "--path-samples", "1",
+             "--json", folder / "sweep.json")
+    rows = json.loads((folder / "sweep.json").read_text())["rows"]
+    check(rows and all(math.isfinite(row["flicker"]) for row in rows), str(rows))
 
 
 sys.exit(tap.run(globals()))
