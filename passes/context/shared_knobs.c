@@ -1,6 +1,6 @@
 #include "passes/context/shared_knobs.h"
 
-#include "shaders/interface/environment_light.h"
+#include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/specialisation.h"
 
 static const char *const views[] = {"radiance", "lobes", "level", "samples", NULL};

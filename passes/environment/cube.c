@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "shaders/interface/environment.h"
+#include "shaders/interface/environment/environment.h"
 
 // Minimum number of subsamples along a texel of the image.
 #define SUBSAMPLES_PER_TEXEL 4

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "shaders/interface/directional_albedo.h"
+#include "shaders/interface/environment/directional_albedo.h"
 #include "shaders/interface/specialisation.h"
 
 const lobe_sampler passes_directional_albedo_sampler = {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "shaders/interface/irradiance_harmonics.h"
+#include "shaders/interface/environment/irradiance_harmonics.h"
 
 /// Ramamoorthi, Hanrahan 2001, Eq. 8: the clamped cosine's factor of degree l.
 static const double cosine_factor[3] = {M_PI, 2 * M_PI / 3, M_PI / 4};

@@ -17,7 +17,7 @@ typedef struct irradiance_source {
 
 /// Adds the passes that project an environment's irradiance to nine spherical harmonics
 /// (Ramamoorthi, Hanrahan 2001): a retained buffer of struct irradiance_harmonics
-/// (shaders/interface/irradiance_harmonics.h). A graph can hold one of them.
+/// (shaders/interface/environment/irradiance_harmonics.h). A graph can hold one of them.
 ///
 /// Reads the first level whose faces are at most 64 texels wide. With faces of 256 texels,
 /// coefficients are then off by up to 1.4e-2 of the first for a sun of one texel, whose direction

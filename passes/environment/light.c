@@ -8,8 +8,8 @@
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
 #include "passes/maps/filtered_maps.h"
-#include "shaders/interface/environment_light.h"
-#include "shaders/interface/irradiance_harmonics.h"
+#include "shaders/interface/environment/environment_light.h"
+#include "shaders/interface/environment/irradiance_harmonics.h"
 
 /// Maximum number of texels along a face that the exact integral sums. Lavapipe silently ends the
 /// loops of a shader after 65535 iterations in total, and filters have loops of their own: a closed

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "shaders/interface/environment.h"
+#include "shaders/interface/environment/environment.h"
 
 /// Weight of the lobe of concentration kappa in a GGX lobe.
 ///

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "shaders/interface/environment.h"
+#include "shaders/interface/environment/environment.h"
 
 // Variance of the smoothing before a halving, in squared texels of the smaller cube: enough that
 // the smaller cube represents everything between its texels to a thousandth.

@@ -5,7 +5,7 @@
 // solid angle, from subsamples at most a quarter of an image texel apart. A sun of two texels keeps
 // its energy to 2e-4, next to the poles to 5e-3.
 
-#include "interface/environment.h"
+#include "interface/environment/environment.h"
 #include "lib/light/cube_texel.glsl"
 #include "lib/light/latitude_longitude.glsl"
 

@@ -12,7 +12,7 @@
 //
 // The quadrature is the same for all distributions: 384 half vectors, error below 3e-4 everywhere.
 
-#include "interface/directional_albedo.h"
+#include "interface/environment/directional_albedo.h"
 #include "lib/lobe/base_lobe.glsl"
 #include "lib/microfacet/microfacet.glsl"
 

@@ -3,7 +3,7 @@
 
 // The environment's maps, and the mean radiance of a lobe of directions by each method.
 
-#include "interface/environment_light.h"
+#include "interface/environment/environment_light.h"
 #include "lib/lobe/direction_lobe.glsl"
 #include "lib/light/environment_level.glsl"
 #include "shading/surface.glsl"

@@ -4,7 +4,7 @@
 // What a Lambert surface gathers of the environment.
 
 #include "environment/environment.glsl"
-#include "interface/irradiance_harmonics.h"
+#include "interface/environment/irradiance_harmonics.h"
 #include "lib/light/spherical_harmonics.glsl"
 #include "shading/base_material.glsl"
 

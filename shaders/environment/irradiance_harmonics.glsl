@@ -1,7 +1,7 @@
 #ifndef IRRADIANCE_HARMONICS_GLSL
 #define IRRADIANCE_HARMONICS_GLSL
 
-#include "interface/irradiance_harmonics.h"
+#include "interface/environment/irradiance_harmonics.h"
 
 // Sums of harmonics over the invocations of a group by repeated halving: always in the same order,
 // and with only log2(64) roundings.

@@ -5,7 +5,7 @@
 // concentrations (see passes/environment/mixture.c): a weighted sum of the cubes filtered with
 // those lobes, whose concentrations are a factor of two apart.
 
-#include "interface/environment.h"
+#include "interface/environment/environment.h"
 #include "lib/light/cube_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

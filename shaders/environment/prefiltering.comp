@@ -5,7 +5,7 @@
 // source within the lobe's cap, weighted by the lobe and their solid angles, and divides by the sum
 // of the weights, so that a constant stays constant.
 
-#include "interface/environment.h"
+#include "interface/environment/environment.h"
 #include "lib/light/cube_texel.glsl"
 #include "lib/lobe/spherical_cap.glsl"
 

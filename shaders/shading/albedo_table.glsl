@@ -3,7 +3,7 @@
 
 // How much microfacets reflect of a white environment (passes/environment/directional_albedo.h).
 
-#include "interface/environment_light.h"
+#include "interface/environment/environment_light.h"
 #include "lib/microfacet/directional_albedo.glsl"
 #include "shading/surface.glsl"
 

@@ -1,7 +1,7 @@
 #ifndef LIB_SPHERICAL_HARMONICS_GLSL
 #define LIB_SPHERICAL_HARMONICS_GLSL
 
-#include "interface/irradiance_harmonics.h"
+#include "interface/environment/irradiance_harmonics.h"
 #include "lib/lobe/von_mises_fisher.glsl"
 
 // Real spherical harmonics up to degree 2, orthonormal over the sphere: Ramamoorthi, Hanrahan,

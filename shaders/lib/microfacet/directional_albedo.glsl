@@ -1,7 +1,7 @@
 #ifndef LIB_DIRECTIONAL_ALBEDO_GLSL
 #define LIB_DIRECTIONAL_ALBEDO_GLSL
 
-#include "interface/directional_albedo.h"
+#include "interface/environment/directional_albedo.h"
 #include "interface/specialisation.h"
 
 // The table that shaders/environment/directional_albedo.comp fills for one distribution, and what

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "passes/environment/directional_albedo.h"
-#include "shaders/interface/directional_albedo.h"
+#include "shaders/interface/environment/directional_albedo.h"
 #include "tests/reference/microfacet/directional_albedo.h"
 
 enum { SIZE = DIRECTIONAL_ALBEDO_SIZE, DISTRIBUTIONS = LOBE_DISTRIBUTION_VMF + 1 };

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "passes/environment/irradiance_harmonics.h"
-#include "shaders/interface/irradiance_harmonics.h"
+#include "shaders/interface/environment/irradiance_harmonics.h"
 #include "tests/reference/light/cube_texel.h"
 #include "tests/reference/light/spherical_harmonics.h"
 #include "tests/reference/vector.h"

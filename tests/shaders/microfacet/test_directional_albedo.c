@@ -6,7 +6,7 @@
 
 #include <lobe/scene.h>
 
-#include "shaders/interface/directional_albedo.h"
+#include "shaders/interface/environment/directional_albedo.h"
 #include "tests/engine/support/cmocka_all.h"
 #include "tests/shaders/support/check.h"
 #include "tests/shaders/support/harness.h"

@@ -1,7 +1,7 @@
 #ifndef INTERFACE_IRRADIANCE_HARMONICS_H
 #define INTERFACE_IRRADIANCE_HARMONICS_H
 
-#include "types.h"
+#include "../types.h"
 
 // Spherical harmonics of degree l and order m, l <= 2, |m| <= l: number l (l + 1) + m.
 #define HARMONICS 9

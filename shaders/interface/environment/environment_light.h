@@ -1,8 +1,8 @@
 #ifndef INTERFACE_ENVIRONMENT_LIGHT_H
 #define INTERFACE_ENVIRONMENT_LIGHT_H
 
-#include "specialisation.h"
-#include "types.h"
+#include "../specialisation.h"
+#include "../types.h"
 
 // Light from an environment (uniform block, std140). Its maps are in its own space.
 struct environment_constants {

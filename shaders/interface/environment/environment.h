@@ -1,7 +1,7 @@
 #ifndef INTERFACE_ENVIRONMENT_H
 #define INTERFACE_ENVIRONMENT_H
 
-#include "types.h"
+#include "../types.h"
 
 // Push constants of the passes that prepare an environment.
 

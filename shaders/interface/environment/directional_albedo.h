@@ -1,7 +1,7 @@
 #ifndef INTERFACE_DIRECTIONAL_ALBEDO_H
 #define INTERFACE_DIRECTIONAL_ALBEDO_H
 
-#include "types.h"
+#include "../types.h"
 
 // The table of directional albedo: columns are the square root of the cosine to the viewer, rows
 // are roughness, each from 0 in the first texel's centre to 1 in the last one's. What its channels
