@@ -4,7 +4,7 @@
 struct own_camera {
     float eye[3], target[3], up[3];
     float vertical_field_of_view, orthographic_height, near_plane;
-    float shift[2];
+    float shift[2], jitter[2];
 };
 
 struct own_light {

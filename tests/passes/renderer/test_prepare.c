@@ -153,6 +153,35 @@ static void prepared_frames_make_no_pipelines(void **state) {
     }
 }
 
+static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    content->images[0] = lobe_graph_import_texture(graph, user);
+}
+
+/// Filters adapt to what is given in each frame with passes of their own.
+static void given_images_are_prepared_for(void **state) {
+    static const char *const filters[] = {"lean", "moments"};
+    for (int i = 0; i < 2; i++) {
+        fixture own = start(*state);
+        lobe_scene *scene = rich_scene();
+        lobe_texture *texture;
+        const lobe_texture_parameters normals = {.image = &scene->images[0].image};
+        assert_int_equal(lobe_texture_create(own.device, &normals, &texture), LOBE_OK);
+        scene->images[0].on_device = true;
+        lobe_renderer *renderer = renderer_of(&own, scene);
+        const lobe_render_parameters wanted = parameters(filters[i]);
+        lobe_renderer_set_content_giver(renderer, give, texture);
+        assert_int_equal(lobe_renderer_prepare(renderer, &wanted), LOBE_OK);
+        faults.pipelines = 0;
+        for (int n = 0; n < 2; n++)
+            picture(&own, renderer, &wanted);
+        assert_int_equal(faults.pipelines, 0);
+        lobe_renderer_destroy(&renderer);
+        lobe_texture_destroy(&texture);
+        lobe_scene_destroy(&scene);
+        stop(*state, &own);
+    }
+}
+
 static void preparing_changes_no_picture(void **state) {
     fixture own = start(*state);
     lobe_scene *scene = rich_scene();
@@ -458,6 +487,7 @@ static void mistakes_are_those_of_frames(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prepared_frames_make_no_pipelines),
+        cmocka_unit_test(given_images_are_prepared_for),
         cmocka_unit_test(preparing_changes_no_picture),
         cmocka_unit_test(progress_is_told_and_may_stop),
         cmocka_unit_test(frames_go_on_while_others_prepare),
