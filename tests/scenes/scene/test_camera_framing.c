@@ -137,6 +137,30 @@ static void a_point_is_seen_from_afar(void **state) {
     assert_true(fabs(box.left) < 0.5 && fabs(box.top) < 0.5);
 }
 
+/// The vertices of a deformed mesh are found on the device: its bounds are framed.
+static void deformed_meshes_are_where_their_bounds_are(void **state) {
+    (void)state;
+    static const float low[3] = {4, 5, 6}, high[3] = {7, 9, 8};
+    lobe_deformation deformation = {0};
+    lobe_camera expected, camera;
+    box_scene box;
+    for (size_t a = 0; a < sizeof aspects / sizeof *aspects; a++) {
+        frame(low, high, aspects[a], &expected);
+        make_scene((float[]){-1, -1, -1}, (float[]){1, 1, 1}, &box);
+        box.scene.instance_count = box.scene.mesh_count = 1;
+        box.meshes[0].deformation = &deformation;
+        memcpy(box.meshes[0].minimum, low, sizeof low);
+        memcpy(box.meshes[0].maximum, high, sizeof high);
+        memcpy(box.scene.minimum, low, sizeof low);
+        memcpy(box.scene.maximum, high, sizeof high);
+        lobe_scene_frame(&box.scene, aspects[a], &camera);
+        for (int axis = 0; axis < 3; axis++) {
+            assert_float_equal(camera.eye[axis], expected.eye[axis], 1e-4);
+            assert_float_equal(camera.target[axis], expected.target[axis], 1e-4);
+        }
+    }
+}
+
 static void nothing_has_a_camera_too(void **state) {
     (void)state;
     const lobe_scene empty = {0};
@@ -153,6 +177,7 @@ int main(void) {
         cmocka_unit_test(empty_corners_take_no_room),
         cmocka_unit_test(the_eye_keeps_away_from_what_is_long),
         cmocka_unit_test(a_point_is_seen_from_afar),
+        cmocka_unit_test(deformed_meshes_are_where_their_bounds_are),
         cmocka_unit_test(nothing_has_a_camera_too),
     };
     return cmocka_run_group_tests_name("camera that frames a scene", tests, NULL, NULL);
