@@ -88,7 +88,7 @@ static void check_vertices(const filter_context *context, uint32_t index) {
     const device_scene *scene = context->scene;
     const lobe_mesh *mesh = &scene->scene->meshes[index];
     const lobe_resource given = scene->given_vertices[index],
-                        previous = scene->given_previous_vertices[index];
+                        previous = scene->previous_vertices[index];
     if (given.version == 0 && mesh->on_device && is_mesh_drawn(scene, index))
         fail(context, "mesh", mesh->name,
              "is on the device, but the host gave no vertices in this frame");
@@ -120,9 +120,9 @@ void passes_given_content_take(const filter_context *context, lobe_content_giver
     const device_scene *scene = context->scene;
     const size_t meshes = scene->scene->mesh_count;
     const lobe_given_content content = {scene->given, scene->given_vertices,
-                                        scene->given_previous_vertices};
+                                        scene->previous_vertices};
     memset(scene->given_vertices, 0, meshes * sizeof *scene->given_vertices);
-    memset(scene->given_previous_vertices, 0, meshes * sizeof *scene->given_previous_vertices);
+    memset(scene->previous_vertices, 0, meshes * sizeof *scene->previous_vertices);
     take_images(context, &content, give, giver);
     for (uint32_t i = 0; i < scene->scene->mesh_count; i++)
         check_vertices(context, i);

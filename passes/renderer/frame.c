@@ -1,3 +1,4 @@
+#include "passes/renderer/deform.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/motion/motion.h"
 #include "passes/renderer/samples/samples.h"
@@ -72,6 +73,7 @@ static void draw(rendering *r, const frame_delivery *delivery, const shading_tar
     else
         passes_shading(&r->context, &r->renderer->draws, &light, &centre, NULL, targets);
     if (delivery->motion) {
+        passes_deform_previous(&r->context, &r->renderer->motion.poses);
         const motion_start start = start_of_motion(r);
         passes_motion(&r->context, &r->renderer->draws, &start, targets);
     }

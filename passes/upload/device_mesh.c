@@ -119,7 +119,7 @@ lobe_resource passes_device_mesh_import_base(lobe_graph *graph, const device_sce
 
 lobe_resource passes_device_mesh_import_previous(lobe_graph *graph, const device_scene *scene,
                                                  uint32_t mesh) {
-    if (scene->given_previous_vertices[mesh].version > 0)
-        return scene->given_previous_vertices[mesh];
+    if (scene->previous_vertices[mesh].version > 0)
+        return scene->previous_vertices[mesh];
     return passes_device_mesh_import(graph, scene, mesh);
 }

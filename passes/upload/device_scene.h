@@ -87,8 +87,10 @@ typedef struct device_scene {
     image_metal *metals;             ///< one for each image
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;
-    lobe_resource *given_vertices;          ///< the same, one for each mesh
-    lobe_resource *given_previous_vertices; ///< the same, of the previous frame
+    lobe_resource *given_vertices; ///< the same, one for each mesh
+    /// One for each mesh: its vertices in the previous frame, which the host gave or which were
+    /// deformed again for motion; all zero: as in this frame.
+    lobe_resource *previous_vertices;
     /// One for each mesh: its vertices in this frame's pose; all zero: it has none, or none that
     /// differs from the mesh.
     lobe_resource *deformed;

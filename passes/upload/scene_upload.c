@@ -31,8 +31,8 @@ static bool allocate_tables(device_scene *result) {
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
     result->given_vertices =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->given_vertices);
-    result->given_previous_vertices = lobe_allocate(result->allocator, scene->mesh_count + 1,
-                                                    sizeof *result->given_previous_vertices);
+    result->previous_vertices =
+        lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->previous_vertices);
     result->deformed =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->deformed);
     result->deformations =
@@ -46,7 +46,7 @@ static bool allocate_tables(device_scene *result) {
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
     return result->images && result->metals && result->given && result->given_vertices &&
-           result->given_previous_vertices && result->deformed && result->deformations &&
+           result->previous_vertices && result->deformed && result->deformations &&
            result->materials && result->vertices && result->indices && result->measures &&
            passes_device_scene_reserve_instances(result, scene->instance_count);
 }
@@ -124,7 +124,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->metals);
     lobe_release(s->given);
     lobe_release(s->given_vertices);
-    lobe_release(s->given_previous_vertices);
+    lobe_release(s->previous_vertices);
     lobe_release(s->deformed);
     lobe_release(s->deformations);
     lobe_release(s->materials);

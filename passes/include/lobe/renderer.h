@@ -218,14 +218,16 @@ typedef struct lobe_render_host {
 /// picture, to the right and down; added to the position of a pixel, the position at which the
 /// previous frame showed the same point of the surface. Jitter of both cameras is left out; their
 /// shifts are not. Of each pixel, the surface at its centre (plus jitter) counts, as in `depth`. It
-/// is moved by the cameras and by the transforms of its instance; of vertices that change
-/// themselves, only those that the host gives on the device with `previous_vertices` move. What was
-/// behind the previous camera's eye gets (32768, 32768); other motion is clamped to +-32768.
+/// is moved by the cameras, by the transforms of its instance and by the poses of its mesh (see
+/// lobe_deformation); of vertices that change otherwise, only those that the host gives on the
+/// device with `previous_vertices` move. What was behind the previous camera's eye gets
+/// (32768, 32768); other motion is clamped to +-32768.
 ///
 /// What is not given here is taken from the last frame of this renderer that had motion, whatever
 /// its extent. Where that has nothing, what is drawn stood still: in the first frame after
-/// lobe_renderer_set_scene, everything; later, instances that were not there or hidden, and those
-/// listed in lobe_scene_changes, which therefore should not list those that only moved.
+/// lobe_renderer_set_scene, everything; later, instances that were not there or hidden, and
+/// instances and meshes listed in lobe_scene_changes, which therefore should not list those that
+/// only moved. Poses are always those of that frame.
 typedef struct lobe_render_motion {
     bool deliver; ///< deliver it in the frame; a target's `motion` is computed without that, too
     const lobe_camera *previous_camera;     ///< NULL: as said above

@@ -20,7 +20,8 @@ static bool reserve(motion_history *history, size_t count, const lobe_allocator 
 
 bool passes_motion_history_complete(motion_history *history, const lobe_scene *scene,
                                     const lobe_allocator *allocator) {
-    if (!reserve(history, scene->instance_count, allocator))
+    if (!reserve(history, scene->instance_count, allocator) ||
+        !passes_pose_history_reserve(&history->poses, scene, allocator))
         return false;
     for (size_t i = history->count; i < scene->instance_count; i++)
         history->known[i] = false;
@@ -41,6 +42,7 @@ void passes_motion_history_keep(motion_history *history, const lobe_scene *scene
         memcpy(history->transforms[i], scene->instances[i].transform,
                sizeof history->transforms[i]);
     }
+    passes_pose_history_keep(&history->poses, scene);
 }
 
 void passes_motion_history_update(motion_history *history, const lobe_scene *scene,
@@ -50,10 +52,13 @@ void passes_motion_history_update(motion_history *history, const lobe_scene *sce
     for (size_t i = 0; i < changes->instance_count; i++)
         if (changes->instances[i] < history->count)
             history->known[changes->instances[i]] = false;
+    for (size_t i = 0; i < changes->mesh_count; i++)
+        passes_pose_history_forget_mesh(&history->poses, changes->meshes[i]);
 }
 
 void passes_motion_history_forget(motion_history *history) {
     lobe_release(history->transforms);
     lobe_release(history->known);
+    passes_pose_history_forget(&history->poses);
     *history = (motion_history){0};
 }
