@@ -77,6 +77,24 @@ lobe_result engine_graph_finish_flights(lobe_graph *graph) {
     return result;
 }
 
+lobe_result engine_graph_finish_frames(lobe_graph *graph) {
+    uint64_t last = 0;
+    bool recorded = false; // into commands that the host submitted
+    for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++) {
+        const engine_graph_flight *flight = &graph->kept.flights[i];
+        recorded = recorded || (flight->busy && flight->submission == 0);
+        if (flight->busy && flight->submission > last)
+            last = flight->submission;
+    }
+    const lobe_result result = recorded   ? engine_device_wait_queue(graph->device)
+                               : last > 0 ? engine_device_wait(graph->device, last)
+                                          : LOBE_OK;
+    for (uint32_t i = 0; result == LOBE_OK && i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
+        if (graph->kept.flights[i].busy)
+            engine_graph_retire_flight(graph, &graph->kept.flights[i]);
+    return result;
+}
+
 void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count) {
     if (!graph)
         return;

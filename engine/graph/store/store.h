@@ -79,9 +79,12 @@ void engine_graph_release_imports(lobe_graph *graph);
 lobe_result engine_graph_create_flights(lobe_graph *graph);
 /// New frame: takes a free flight, or waits for the oldest one.
 lobe_result engine_graph_begin_flight(lobe_graph *graph);
-/// Waits for all frames of the graph, so that anything they use can be freed. Returns at once if
-/// none is in flight. After a failure they may still be running.
+/// Waits for all frames of the graph, and for what the host submitted since, so that anything they
+/// use can be freed, exports too. Returns at once if none is in flight. After a failure they may
+/// still be running.
 lobe_result engine_graph_finish_flights(lobe_graph *graph);
+/// Waits for the frames alone, so that what no export shows to the host can be freed.
+lobe_result engine_graph_finish_frames(lobe_graph *graph);
 /// Frees what only this flight's frame needed, which the device has finished.
 void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight);
 /// All frames must have finished.

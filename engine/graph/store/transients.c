@@ -240,7 +240,7 @@ lobe_result engine_graph_place_transients(lobe_graph *graph) {
     if (graph->kept.transients.plan != plan) {
         lobe_result result = LOBE_OK;
         if (graph->kept.transients.count > 0)
-            result = engine_graph_finish_flights(graph);
+            result = engine_graph_finish_frames(graph);
         if (result != LOBE_OK)
             return result;
         engine_graph_free_transients(graph);
