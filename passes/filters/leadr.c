@@ -1,23 +1,13 @@
 #include "passes/context/filter.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/filters/slope_knobs.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/maps/slope_moments.h"
 #include "shaders/interface/slope_moments.h"
 
 static const char *const base_planes[] = {"facets", "surface", NULL};
-static const char *const grids[] = {"3", "5", "7", NULL};
 
-static const filter_knob grid_knob = {
-    .description = {.name = "grid",
-                    .summary = "slopes in each direction over which diffuse facets are summed",
-                    .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 2,
-                    .initial = 1,
-                    .choices = grids,
-                    .sweep = "3,7"},
-    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_GRID),
-};
 static const filter_knob base_plane_knob = {
     .description = {.name = "base_plane",
                     .summary = "the plane over which the roughness of base lobes is added: that of "
@@ -27,17 +17,10 @@ static const filter_knob base_plane_knob = {
                     .choices = base_planes},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_BASE_PLANE),
 };
-static const filter_knob height_knob = {
-    .description = {.name = "height",
-                    .summary = "scales the relief of the maps; 0: flat",
-                    .maximum = 4,
-                    .initial = 1},
-    .feeds = KNOB_FEEDS_FILTER(leadr_knobs, height),
-};
 static const filter_knob *const knobs[] = {
-    &grid_knob,
+    &passes_knob_grid,
     &base_plane_knob,
-    &height_knob,
+    &passes_knob_height,
     &passes_knob_probes,
     &passes_knob_anisotropy,
     &passes_knob_bias,

@@ -7,6 +7,7 @@
     FILTER(toksvig)                                                                                \
     FILTER(lean)                                                                                   \
     FILTER(leadr)                                                                                  \
+    FILTER(multi_leadr)                                                                            \
     FILTER(lobes)                                                                                  \
     FILTER(moments)                                                                                \
     FILTER(tan)                                                                                    \

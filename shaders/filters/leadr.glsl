@@ -12,22 +12,13 @@
 
 #include "shading/slope_maps.glsl"
 #include "lib/microfacet/slope_masking.glsl"
+#include "shading/facet_grid.glsl"
 
-layout(constant_id = SPECIALISE_GRID) const uint GRID_CHOICE = 1;
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
 
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     leadr_knobs filter_knobs;
 };
-
-// Slopes along each axis of the grid, and its reach in standard deviations. Mean error over
-// random surfaces, views and lights: 2.4 %, 0.6 % and 0.3 %. (The paper's reach of 1.8 for 5 slopes
-// gives 1.3 %.)
-const uint GRID = 3u + 2u * GRID_CHOICE;
-
-float grid_reach() {
-    return GRID_CHOICE == 0u ? 1.4 : GRID_CHOICE == 1u ? 2.2 : 2.6;
-}
 
 float height_scale() {
     return filter_knobs.height;
@@ -39,55 +30,15 @@ struct footprint_lobe {
 };
 
 #include "shading/slope_appearance.glsl"
+#include "shading/slope_reflection.glsl"
 
-footprint_lobe footprint_lobe_of(slope_moments moments) {
+footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
+    moments = fetch_moments(area, surface);
     vec3 base = BASE_PLANE == BASE_PLANE_FACETS
                     ? flat_covariance_of_tilted(moments.mean, moments.base_variance)
                     : vec3(moments.base_variance, moments.base_variance, 0.0);
     return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
                           slope_distribution_of(moments.mean, moments.covariance + base));
-}
-
-float grid_position(uint i) {
-    return grid_reach() * (2.0 * float(i) / float(GRID - 1u) - 1.0);
-}
-
-// The sum of the weights of one row of the grid.
-float grid_weight() {
-    float sum = 0.0;
-    for (uint i = 0u; i < GRID; ++i)
-        sum += exp(-0.5 * grid_position(i) * grid_position(i));
-    return sum;
-}
-
-// <n, omega_i> of the facet of a slope, for each light.
-vec4 facet_cosines(vec2 slope, vec3 incoming[4]) {
-    vec4 heights = vec4(height_above_slope(slope, incoming[0]), 0.0, 0.0, 0.0);
-    if (LIGHTS_AT_ONCE > 1u)
-        heights.y = height_above_slope(slope, incoming[1]);
-    if (LIGHTS_AT_ONCE > 2u)
-        heights.z = height_above_slope(slope, incoming[2]);
-    if (LIGHTS_AT_ONCE > 3u)
-        heights.w = height_above_slope(slope, incoming[3]);
-    return max(heights, 0.0) * inversesqrt(1.0 + dot(slope, slope));
-}
-
-// Algorithm 3: the sum of Eq. 23 over a grid of slopes, separately for each light. For a few lights
-// that is exact and costs no more than nine spherical harmonics of the irradiance, whose error is
-// up to 9 %.
-vec4 facet_sums(slope_distribution facets, vec3 outgoing, vec3 incoming[4]) {
-    vec4 sums = vec4(0.0);
-    for (uint j = 0u; j < GRID; ++j) {
-        for (uint k = 0u; k < GRID; ++k) {
-            vec2 position = vec2(grid_position(j), grid_position(k));
-            vec2 slope = slope_at(facets, position);
-            float weight = exp(-0.5 * dot(position, position));
-            sums += weight * max(height_above_slope(slope, outgoing), 0.0) *
-                    facet_cosines(slope, incoming);
-        }
-    }
-    float row = grid_weight();
-    return sums / (row * row);
 }
 
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
@@ -225,22 +176,6 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
 }
 
 #ifdef ENVIRONMENT
-// The slopes' lobe as one of directions, about the mean normal, to first order.
-half_vector_distribution half_vectors_of_slopes(slope_distribution slopes) {
-    vec3 normal = normal_of_slope(slopes.mean);
-    vec3 first = vec3(-slopes.root.x, -slopes.root.z, 0.0) * normal.z;
-    vec3 second = vec3(0.0, -slopes.root.y, 0.0) * normal.z;
-    return gaussian_slopes(normal, first - normal * dot(normal, first),
-                           second - normal * dot(normal, second));
-}
-
-// In the direction in which slopes vary most.
-float largest_variance(slope_distribution slopes) {
-    vec3 root = slopes.root;
-    float x = root.x * root.x, y = root.z * root.z + root.y * root.y, mixed = root.x * root.z;
-    return 0.5 * (x + y) + length(vec2(0.5 * (x - y), mixed));
-}
-
 // Algorithm 1. Each sample reads the mean over as far as neighbours are apart in the direction in
 // which they are furthest apart, so that no light falls between them (section 5.2; the paper takes
 // the larger of the two axes' deviations, which is less where slopes vary most along a diagonal).
@@ -281,12 +216,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
         return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
         return sampled_slopes(surface, slopes, frame.specular);
-    // Masked as a round distribution as narrow as the slopes are: the rest of their variance
-    // elongates the lobe.
-    vec3 narrowest = principal_lobe(half_vectors.shape).second;
-    float width =
-        base_lobe_of_concentration(DISTRIBUTION, 1.0 / max(dot(narrowest, narrowest), 1e-6));
-    return reflect_microfacets(surface, half_vectors, frame.specular, width);
+    return reflect_masked_slopes(surface, half_vectors, frame.specular);
 }
 
 // Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Only masking is applied, as

@@ -19,7 +19,8 @@ struct footprint_lobe {
 
 #include "shading/slope_appearance.glsl"
 
-footprint_lobe footprint_lobe_of(slope_moments moments) {
+footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
+    moments = fetch_moments(area, surface);
     footprint_lobe result;
     vec3 normal = normal_of_slope(moments.mean);
     result.tangent_from_mean = mat3(rotate_from_pole(normal, vec3(1.0, 0.0, 0.0)),

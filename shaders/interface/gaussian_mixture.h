@@ -41,6 +41,9 @@
 // and variance s^2 along each axis, base lobes included, a, a m_x, a m_y, a (2 s^2 + |m|^2), or as
 // printed a (s^2 + |m|^2).
 #define MIXTURE_PLANE_PROJECTED 1
+// Slopes (slope_moments.h). As in the Lambert plane, but all masses are those of base lobes of area
+// one, and v is their variance in slopes.
+#define MIXTURE_PLANE_SLOPES 2
 
 // Of components while lobes are shared out among them; what they get of these may have any.
 #define MIXTURE_SHAPE_AUTOMATIC 0 // as serves the material better

@@ -5,7 +5,8 @@
 // defines, the structure before it includes this file:
 //
 //   struct footprint_lobe                         what its lobe is made of
-//   footprint_lobe footprint_lobe_of(slope_moments)
+//   footprint_lobe fetch_lobe(map_area, surface_point, out slope_moments)
+//                                                 and the moments of all slopes
 //   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
 //                                                 like gather_lights and evaluate_appearance
@@ -27,7 +28,7 @@ struct appearance {
     float level;
 };
 
-footprint_lobe footprint_lobe_of(slope_moments moments);
+footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments);
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
@@ -47,8 +48,7 @@ appearance fetch_appearance(surface_point surface) {
     if (FILTERED_LOBES) {
         result.level = area.level;
         result.base_share = may_see_level_0(lobe_map()) ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
-        result.moments = fetch_moments(area, surface);
-        result.lobe = footprint_lobe_of(result.moments);
+        result.lobe = fetch_lobe(area, surface, result.moments);
         result.normal = normal_of_slope(result.moments.mean);
     } else {
         result.normal = scaled_normal(unfiltered_normal(surface));

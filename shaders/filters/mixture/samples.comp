@@ -7,6 +7,7 @@
 #include "interface/gaussian_mixture.h"
 #include "interface/lobe_grid.h"
 #include "interface/moment_bins.h"
+#include "lib/microfacet/slope_distribution.glsl"
 #include "maps/plane_lobes.glsl"
 
 const uint SIDE = 8, THREADS = SIDE * SIDE;
@@ -46,6 +47,12 @@ plane_lobe lobe_in_plane(int i, vec3 normal, float factor, vec4 specular) {
         lobe.place = axis.z > 0.0 ? axis.xy : axis.xy / max(length(axis.xy), 1e-6);
         // The mean of outwards and around; at most that of all directions alike, cosine-weighted.
         lobe.variance = min(lobe.variance * (0.5 + 0.5 * axis.z * axis.z), 0.25);
+        lobe.mass = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
+    }
+    if (PLANE == MIXTURE_PLANE_SLOPES) {
+        lobe.place = slope_of_normal(direction_from_plane(lobe.place));
+        // As for one Gaussian of slopes (maps/slope_moments.comp).
+        lobe.variance = 1.0 / max(base_concentration(i, factor), 1.0);
         lobe.mass = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
     }
     return lobe;

@@ -198,3 +198,123 @@ void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const 
         radiance[i] += lambert * diffuse_of(material, i, incoming, half_vector);
     }
 }
+
+// ---------------------------------------------------------------------------------------------
+// LEADR with several lobes
+
+/// The mean of max(x, 0) for a normal number.
+static double mean_above_zero(double mean, double deviation) {
+    if (deviation <= 0)
+        return fmax(mean, 0);
+    const double x = mean / deviation;
+    return 0.5 * mean * erfc(-x / sqrt(2)) + deviation * exp(-x * x / 2) / sqrt(2 * M_PI);
+}
+
+static double variance_along(const double covariance[3], const double direction[3]) {
+    return covariance[0] * direction[0] * direction[0] +
+           covariance[1] * direction[1] * direction[1] +
+           2 * covariance[2] * direction[0] * direction[1];
+}
+
+static double area_above(const reference_slopes *slopes, const double direction[3]) {
+    return mean_above_zero(height_above(slopes->mean, direction),
+                           sqrt(fmax(variance_along(slopes->covariance, direction), 0)));
+}
+
+double multi_leadr_area_ratio(const slope_component *components, int count,
+                              const double direction[3]) {
+    double area = 0, height = 0;
+    for (int i = 0; i < count; i++) {
+        reference_slopes slopes;
+        double variance;
+        read_moments(components[i].moments, &slopes, &variance);
+        area += components[i].part * area_above(&slopes, direction);
+        height += components[i].part * height_above(slopes.mean, direction);
+    }
+    return area / height;
+}
+
+/// Base lobes become part of the components, as they do for facets that mirror.
+static slope_component with_base(const slope_component *component) {
+    slope_component result = *component;
+    double base[3];
+    reference_flat_covariance(component->moments, component->moments[3], base);
+    for (int i = 0; i < 3; i++)
+        result.moments[4 + i] += base[i];
+    return result;
+}
+
+/// Ashikhmin et al. 2000, as in Heitz 2014, section 5.3.
+static double diffuse_visibility(const slope_component *components, int count,
+                                 const double incoming[3], const double outgoing[3]) {
+    const double in = multi_leadr_area_ratio(components, count, incoming) - 1;
+    const double out = multi_leadr_area_ratio(components, count, outgoing) - 1;
+    const double lengths = hypot(incoming[0], incoming[1]) * hypot(outgoing[0], outgoing[1]);
+    double tau = 0;
+    if (lengths > 0) {
+        const double cosine = (incoming[0] * outgoing[0] + incoming[1] * outgoing[1]) / lengths;
+        const double angle = acos(fmax(-1, fmin(1, cosine)));
+        tau = 4.41 * angle / (4.41 * angle + 1);
+    }
+    return 1 / (1 + fmax(in, out) + tau * fmin(in, out));
+}
+
+static double mirror_visibility(const slope_component *components, int count,
+                                const double incoming[3], const double outgoing[3]) {
+    return 1 / (multi_leadr_area_ratio(components, count, incoming) +
+                multi_leadr_area_ratio(components, count, outgoing) - 1);
+}
+
+typedef struct multi_leadr_sums {
+    double distribution, lobe, facets; ///< of all components
+    double in, out;                    ///< heights above the mean plane
+} multi_leadr_sums;
+
+static multi_leadr_sums sum_components(const slope_component *components,
+                                       const slope_component *mirrors, int count,
+                                       const leadr_knobs *knobs, const double outgoing[3],
+                                       const double incoming[3], const double half_vector[3]) {
+    multi_leadr_sums sums = {0};
+    for (int i = 0; i < count; i++) {
+        const double part = components[i].part;
+        reference_slopes facets, slopes;
+        double variance;
+        read_moments(components[i].moments, &facets, &variance);
+        read_moments(mirrors[i].moments, &slopes, &variance);
+        sums.distribution += part * reference_distribution_of_slopes(&slopes, half_vector);
+        sums.lobe += part * reference_lobe_of_slopes(&slopes, half_vector);
+        sums.facets += part * sum_of_facets(&facets, knobs, outgoing, incoming);
+        sums.in += part * height_above(facets.mean, incoming);
+        sums.out += part * height_above(facets.mean, outgoing);
+    }
+    return sums;
+}
+
+void shade_multi_leadr(const lobe_material *material, const leadr_knobs *knobs,
+                       const slope_component *components, int count, const double outgoing[3],
+                       const double incoming[3], double radiance[3]) {
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    slope_component mirrors[8];
+    double half_vector[3];
+    if (incoming[2] <= 0)
+        return;
+    half_between(incoming, outgoing, half_vector);
+    for (int i = 0; i < count; i++)
+        mirrors[i] = with_base(&components[i]);
+    const multi_leadr_sums sums =
+        sum_components(components, mirrors, count, knobs, outgoing, incoming, half_vector);
+    const bool seen = sums.in > 0 && sums.out > 0;
+    const bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
+    double mirror = sums.lobe, lambert = 0;
+    if (microfacet)
+        mirror = seen ? sums.distribution * mirror_visibility(mirrors, count, incoming, outgoing) /
+                            (4 * sums.out)
+                      : 0;
+    if (seen)
+        lambert =
+            sums.facets / sums.out * diffuse_visibility(components, count, incoming, outgoing);
+    for (int i = 0; i < 3; i++)
+        radiance[i] = mirror * (microfacet ? fresnel_of(material, i, incoming, half_vector)
+                                           : colour_of_lobes(material, i)) +
+                      lambert * diffuse_of(material, i, incoming, half_vector);
+}

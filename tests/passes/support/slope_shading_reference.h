@@ -24,4 +24,18 @@ typedef struct leadr_knobs {
 void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
                  const double outgoing[3], const double incoming[3], double radiance[3]);
 
+/// A Gaussian of a mixture of slopes. All parts together are one.
+typedef struct slope_component {
+    double part, moments[8];
+} slope_component;
+
+/// 1 + Lambda of a displaced surface with such facets, for a direction above its mean plane.
+double multi_leadr_area_ratio(const slope_component *components, int count,
+                              const double direction[3]);
+
+/// The filter "multi_leadr", of height 1.
+void shade_multi_leadr(const lobe_material *material, const leadr_knobs *knobs,
+                       const slope_component *components, int count, const double outgoing[3],
+                       const double incoming[3], double radiance[3]);
+
 #endif

@@ -211,6 +211,10 @@ typedef struct candidate {
 static const candidate candidates[] = {
     {"toksvig", {NULL}},
     {"lean", {NULL}},
+    {"leadr", {NULL}},
+    {"multi_leadr", {"components=1", NULL}},
+    {"multi_leadr", {NULL}},
+    {"multi_leadr", {"components=6", NULL}},
     {"lobes", {NULL}},
     {"fournier", {"peaks=4", NULL}},
     {"fournier", {NULL}},
@@ -316,8 +320,22 @@ static void neighbours_blend(void **state) {
     assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
+/// Slopes of stones and of the flat joints between them are no Gaussian.
+static void several_lobes_of_slopes_halve_the_error_of_one(void **state) {
+    lobe_image map = stones();
+    const map_error one = measure(*state, &map, 8, "leadr", (const char *[6]){NULL});
+    const map_error several = measure(*state, &map, 8, "multi_leadr", (const char *[6]){NULL});
+    lobe_image_free(&map);
+    print_message("# one %.4f %.4f, several %.4f %.4f\n", one.centre, one.corner, several.centre,
+                  several.corner);
+    assert_true(several.centre <= 0.5 * one.centre && several.corner <= 0.6 * one.corner);
+}
+
 int main(int count, char **arguments) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(neighbours_blend)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(neighbours_blend),
+        cmocka_unit_test(several_lobes_of_slopes_halve_the_error_of_one),
+    };
     if (count < 2)
         return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
     void *state = NULL;

@@ -1,0 +1,274 @@
+// LEADR with several lobes. The slopes under a pixel are a mixture of Gaussians fitted to them
+// (shaders/filters/mixture/level.comp), where relief with flat places between steep ones, or with
+// few directions, is no Gaussian. All lobes are one displaced surface, which masks itself as a
+// whole:
+//   1 + Lambda(omega) = sum_j w_j E_j[<omega, (-s, 1)>^+] / <omega, (-E[s], 1)>,
+// so that what is visible of it keeps the surface's projected area. Developed here, after Dupuy,
+// Heitz, Iehl, Poulin, Neyret, Ostromoukhov 2013, Linear Efficient Antialiased Displacement and
+// Reflectance Mapping, Eqs. 13 to 23.
+
+#include "shading/slope_maps.glsl"
+#include "interface/moment_bins.h"
+#include "lib/microfacet/slope_masking.glsl"
+#include "shading/facet_grid.glsl"
+
+layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
+
+layout(LOBE_DESCRIPTOR(22), std140) uniform binning_block { moment_binning_constants binning; };
+layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
+    leadr_knobs filter_knobs;
+};
+
+float height_scale() {
+    return filter_knobs.height;
+}
+
+// A Gaussian of texels' slopes; with base lobes, those of facets that mirror.
+struct slope_lobe {
+    float part;
+    slope_distribution facets, slopes;
+};
+
+struct footprint_lobe {
+    slope_lobe lobes[MOMENT_MAXIMUM_BINS]; // the first BINS
+};
+
+#include "shading/slope_appearance.glsl"
+#include "shading/slope_reflection.glsl"
+
+// Of component `index`; all parts together are one.
+slope_moments fetch_component(map_area area, surface_point surface, uint index, out float part) {
+    vec4 place = filtered_layer(moment_map, area, 2u * index);
+    vec4 spread = filtered_layer(moment_map, area, 2u * index + 1u);
+    vec4 range = binning.bins[0].range; // of all components alike
+    float scale = 1.0 / max(place.x, 1e-6), height = height_scale();
+    vec2 mean = place.yz * scale;
+    part = place.x * binning.largest.x;
+    slope_moments moments;
+    moments.mean = height * (mean * range.z + range.xy);
+    moments.covariance =
+        height * height * range.z * range.z * covariance_of_moments(mean, spread.xyz * scale) +
+        surface.curvature;
+    moments.mean_cosine = 1.0;
+    moments.base_variance =
+        max(spread.w * scale * binning.bins[0].shape.w, 1.0 / CONCENTRATION_MAXIMUM);
+    return moments;
+}
+
+footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
+    footprint_lobe result;
+    float whole = 0.0, base_variance = 0.0;
+    vec2 mean = vec2(0.0);
+    vec3 second = vec3(0.0);
+    for (uint i = 0u; i < BINS; ++i) {
+        float part;
+        slope_moments own = fetch_component(area, surface, i, part);
+        vec3 base = flat_covariance_of_tilted(own.mean, own.base_variance);
+        result.lobes[i] = slope_lobe(part, slope_distribution_of(own.mean, own.covariance),
+                                     slope_distribution_of(own.mean, own.covariance + base));
+        whole += part;
+        base_variance += part * own.base_variance;
+        mean += part * own.mean;
+        second += part * (own.covariance + vec3(own.mean * own.mean, own.mean.x * own.mean.y));
+    }
+    float scale = 1.0 / max(whole, 1e-6);
+    for (uint i = 0u; i < BINS; ++i)
+        result.lobes[i].part *= scale;
+    mean *= scale;
+    moments = slope_moments(mean, covariance_of_moments(mean, second * scale), 1.0,
+                            base_variance * scale);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Masking
+
+// E[<direction, (-s, 1)>^+], by Smith's Lambda about the slopes' own mean: h (1 + Lambda), h the
+// height above that mean, and where the direction is below it |h| Lambda.
+float mean_height_above(slope_distribution slopes, vec3 direction) {
+    float height = height_above_slope(slopes.mean, direction);
+    float variance = slope_variance_along(slopes, direction.xy);
+    float cotangent = abs(height) * inversesqrt(max(2.0 * variance, 1e-30));
+    return max(height, 0.0) + abs(height) * lambda_gaussian(cotangent);
+}
+
+// 1 + Lambda of the whole mixture; `diffuse`: of the texels' facets, without base lobes. The
+// direction is above the mean plane.
+float area_ratio(appearance fetched, vec3 direction, bool diffuse) {
+    float area = 0.0;
+    for (uint i = 0u; i < BINS; ++i) {
+        slope_lobe lobe = fetched.lobe.lobes[i];
+        area += lobe.part * (diffuse ? mean_height_above(lobe.facets, direction)
+                                     : mean_height_above(lobe.slopes, direction));
+    }
+    float height = height_above_slope(fetched.moments.mean, direction);
+    return max(area / max(height, 1e-6), 1.0);
+}
+
+// How independent the heights are that two directions see, by the angle between their azimuths:
+// Heitz 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, section 5.3;
+// the angle's function is that of Ashikhmin, Premoze, Shirley 2000, A Microfacet-based BRDF
+// Generator, as there.
+float height_independence(vec3 incoming, vec3 outgoing) {
+    float lengths = dot(incoming.xy, incoming.xy) * dot(outgoing.xy, outgoing.xy);
+    if (lengths <= 0.0)
+        return 0.0;
+    float cosine = dot(incoming.xy, outgoing.xy) * inversesqrt(lengths);
+    float angle = 4.41 * acos(clamp(cosine, -1.0, 1.0));
+    return angle / (angle + 1.0);
+}
+
+bool both_above(appearance fetched, vec3 incoming, vec3 outgoing) {
+    return height_above_slope(fetched.moments.mean, incoming) > 0.0 &&
+           height_above_slope(fetched.moments.mean, outgoing) > 0.0;
+}
+
+// The part of the surface that both directions see: Eq. 13.
+float mirror_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
+    return both_above(fetched, incoming, outgoing)
+               ? 1.0 / (area_ratio(fetched, incoming, false) +
+                        area_ratio(fetched, outgoing, false) - 1.0)
+               : 0.0;
+}
+
+// The same of diffuse facets. Which of them both see depends on the azimuths; of facets that
+// mirror, base lobes are part, which the base material masks without azimuths.
+float diffuse_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
+    if (!both_above(fetched, incoming, outgoing))
+        return 0.0;
+    float first = area_ratio(fetched, incoming, true) - 1.0;
+    float second = area_ratio(fetched, outgoing, true) - 1.0;
+    return 1.0 / (1.0 + max(first, second) +
+                  height_independence(incoming, outgoing) * min(first, second));
+}
+
+float divisor_height(appearance fetched, vec3 outgoing) {
+    return max(height_above_slope(fetched.moments.mean, outgoing), COSINE_MINIMUM);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Lights
+
+void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (!DIFFUSE)
+        return;
+    vec4 sums = vec4(0.0);
+    for (uint i = 0u; i < BINS; ++i)
+        sums += fetched.lobe.lobes[i].part *
+                facet_sums(fetched.lobe.lobes[i].facets, surface.outgoing, incoming);
+    fetched.gathered = sums / divisor_height(fetched, surface.outgoing);
+}
+
+vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
+    float distribution = 0.0;
+    for (uint i = 0u; i < BINS; ++i)
+        distribution += fetched.lobe.lobes[i].part *
+                        distribution_of_slopes(fetched.lobe.lobes[i].slopes, halfway);
+    return microfacet_specular(fresnel, distribution,
+                               mirror_visibility(fetched, incoming, outgoing),
+                               height_above_slope(fetched.moments.mean, outgoing));
+}
+
+vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
+    float visible = diffuse_visibility(fetched, incoming, outgoing);
+    return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
+                              visible * fetched.gathered[light]);
+}
+
+float half_vector_lobes(appearance fetched, vec3 halfway) {
+    float sum = 0.0;
+    for (uint i = 0u; i < BINS; ++i)
+        sum += fetched.lobe.lobes[i].part *
+               lobe_of_slopes(fetched.lobe.lobes[i].slopes, halfway);
+    return sum;
+}
+
+// Half-vector lobes include their own masking.
+vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
+    vec3 halfway = half_vector(incoming, outgoing);
+    vec3 fresnel = vec3(0.0), sum;
+    if (MODEL == MODEL_MICROFACET) {
+        fresnel = fresnel_schlick(fetched.filtered.specular, vec3(1.0), dot(incoming, halfway));
+        sum = mirror_facets(fetched, fresnel, halfway, outgoing, incoming);
+    } else {
+        sum = lobes_colour() * fetched.filtered.specular * half_vector_lobes(fetched, halfway);
+    }
+    if (DIFFUSE)
+        sum += lambert_facets(fetched, fresnel, outgoing, incoming, light);
+    return sum;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The environment
+
+#ifdef ENVIRONMENT
+// Algorithm 1 for one of the lobes, masked as the whole mixture.
+vec3 sampled_lobe(appearance fetched, surface_point surface, slope_distribution slopes) {
+    float spacing = grid_spacing();
+    float area = spacing * spacing * largest_variance(slopes);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
+        for (uint k = 0u; k < ENVIRONMENT_GRID; ++k) {
+            vec2 place = spacing * (vec2(j, k) - 0.5 * (float(ENVIRONMENT_GRID) - 1.0));
+            vec2 slope = slope_at(slopes, place);
+            vec3 normal = normal_of_slope(slope);
+            float cosine = dot(normal, surface.outgoing);
+            vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
+            float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
+                         mirror_visibility(fetched, incoming, surface.outgoing);
+            float solid_angle = area * normal.z * normal.z * normal.z;
+            float weight = exp(-0.5 * dot(place, place));
+            sum += weight * (above_horizon(incoming) ? seen : 0.0) *
+                   fresnel_schlick(fetched.filtered.specular, vec3(1.0), cosine) *
+                   sample_radiance(surface, half_vector_sample(normal, weight, solid_angle),
+                                   incoming);
+            weights += weight;
+        }
+    }
+    return sum / (weights * divisor_height(fetched, surface.outgoing));
+}
+
+vec3 reflect_lobe(appearance fetched, surface_point surface, slope_distribution slopes) {
+    if (MODEL == MODEL_MICROFACET && sampled_by_grid())
+        return sampled_lobe(fetched, surface, slopes);
+    half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
+    if (MODEL == MODEL_HALF_VECTOR_LOBES)
+        return lobes_colour() * fetched.filtered.specular *
+               reflect_half_vectors(surface, half_vectors);
+    return reflect_masked_slopes(surface, half_vectors, fetched.filtered.specular);
+}
+
+// Only masking is applied: it is unknown which part of the environment's light is shadowed.
+vec3 lambert_lobe(appearance fetched, surface_point surface, slope_distribution facets) {
+    vec3 sum = vec3(0.0);
+    for (uint j = 0u; j < GRID; ++j) {
+        for (uint k = 0u; k < GRID; ++k) {
+            vec2 position = vec2(grid_position(j), grid_position(k));
+            vec2 slope = slope_at(facets, position);
+            sum += exp(-0.5 * dot(position, position)) *
+                   max(height_above_slope(slope, surface.outgoing), 0.0) *
+                   mean_irradiance(surface, normal_of_slope(slope));
+        }
+    }
+    float row = grid_weight();
+    return sum / (row * row);
+}
+
+vec3 reflect_footprint(appearance fetched, surface_point surface) {
+    vec3 sum = vec3(0.0), diffuse = vec3(0.0);
+    for (uint i = 0u; i < BINS; ++i) {
+        slope_lobe lobe = fetched.lobe.lobes[i];
+        if (lobe.part < 1.0 / 64.0)
+            continue;
+        sum += lobe.part * reflect_lobe(fetched, surface, lobe.slopes);
+        if (DIFFUSE)
+            diffuse += lobe.part * lambert_lobe(fetched, surface, lobe.facets);
+    }
+    if (DIFFUSE && height_above_slope(fetched.moments.mean, surface.outgoing) > 0.0)
+        sum += let_through(surface, fetched.filtered) * diffuse /
+               (area_ratio(fetched, surface.outgoing, true) *
+                divisor_height(fetched, surface.outgoing));
+    return sum;
+}
+#endif
