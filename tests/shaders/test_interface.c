@@ -26,6 +26,7 @@
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/moment_refit.h"
 #include "shaders/interface/motion.h"
+#include "shaders/interface/ocean.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "tests/engine/support/cmocka_all.h"
@@ -156,6 +157,12 @@ static known_member known[] = {
     MEMBER(cell_survey_constants, rows, 3),
     MEMBER(survey_extremes, places, 0),
     MEMBER(survey_extremes, factors, 1),
+    MEMBER(ocean_fft_constants, size, 0),
+    MEMBER(ocean_fft_constants, done, 1),
+    MEMBER(ocean_fft_constants, columns, 2),
+    MEMBER(ocean_spectrum_constants, step, 0),
+    MEMBER(ocean_spectrum_constants, size, 1),
+    MEMBER(ocean_spectrum_constants, time, 2),
     MEMBER(refit_constants, cells, 0),
     MEMBER(refit_constants, lobes, 1),
     MEMBER(refit_constants, points, 2),

@@ -20,6 +20,7 @@
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/maps.h>
+#include <lobe/ocean.h>
 #include <lobe/png.h>
 #include <lobe/profile.h>
 #include <lobe/renderer.h>

@@ -430,6 +430,28 @@ static void maps_of_materials(void **state) {
     lobe_maps_destroy(NULL);
 }
 
+static void oceans(void **state) {
+    fixture *f = *state;
+    lobe_ocean *ocean;
+    lobe_ocean_slopes slopes;
+    const lobe_ocean_parameters parameters = {.wind_speed = NAN};
+    lobe_ocean_default(NULL);
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "parameters must not be NULL",
+            lobe_ocean_measure(NULL, &f->host, &slopes));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "slopes must not be NULL",
+            lobe_ocean_measure(&parameters, &f->host, NULL));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "wind_speed is nan",
+            lobe_ocean_measure(&parameters, &f->host, &slopes));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "device and ocean",
+            lobe_ocean_create(NULL, &parameters, &f->host, &ocean));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "device and ocean",
+            lobe_ocean_create(f->device, &parameters, &f->host, NULL));
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "parameters must not be NULL",
+            lobe_ocean_create(f->device, NULL, &f->host, &ocean));
+    assert_int_equal(lobe_ocean_add(NULL, NULL, NAN).version, 0);
+    lobe_ocean_destroy(NULL);
+}
+
 static void renderers(void **state) {
     fixture *f = *state;
     lobe_renderer *renderer;
@@ -488,6 +510,7 @@ int main(void) {
         cmocka_unit_test(filters),
         cmocka_unit_test(environment_maps),
         cmocka_unit_test(maps_of_materials),
+        cmocka_unit_test(oceans),
         cmocka_unit_test(renderers),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
