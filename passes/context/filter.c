@@ -60,7 +60,21 @@ bool lobe_filter_supersamples(const lobe_filter *filter) {
     return filter->supersamples;
 }
 
+bool lobe_filter_draws_waves(const lobe_filter *filter) {
+    return filter && filter->draws_waves;
+}
+
+static void warn_of_waves(const lobe_filter *filter, const lobe_scene *scene,
+                          const lobe_host *host) {
+    for (size_t i = 0; !filter->draws_waves && i < scene->material_count; i++)
+        if (scene->materials[i].waves.layers > 0)
+            lobe_host_log(host, LOBE_LOG_WARNING,
+                          "%s: material '%s', filter '%s': its waves are not drawn", scene->name,
+                          scene->materials[i].name, filter->name);
+}
+
 void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, const lobe_host *host) {
+    warn_of_waves(filter, scene, host);
     for (size_t i = 0; filter->ignores && i < scene->material_count; i++) {
         const char *limit = filter->ignores(&scene->materials[i]);
         if (limit)

@@ -99,7 +99,34 @@ static void check_vertices(const filter_context *context, uint32_t index) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Both
+// Waves
+
+static void check_waves(const filter_context *context, uint32_t index) {
+    const device_scene *scene = context->scene;
+    const lobe_material *material = &scene->scene->materials[index];
+    const lobe_waves *waves = &material->waves;
+    const lobe_resource given = scene->given_waves[index];
+    if (given.version == 0) {
+        if (waves->layers > 0 && scene->materials[index].first_instance)
+            fail(context, "material", material->name,
+                 "has waves, but the host gave none in this frame");
+        return;
+    }
+    const lobe_image_description image = lobe_graph_describe_image(context->graph, given);
+    if (waves->layers == 0)
+        fail(context, "material", material->name, "has no waves, but the host gave some");
+    else if (image.format != LOBE_FORMAT_RGBA32_FLOAT || image.width != waves->size ||
+             image.height != waves->size || image.layers != 2 * waves->layers || image.levels > 1)
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: the waves of material '%s' are given as %ux%u texels of %s with %u "
+                        "layers and %u levels; expected %ux%u of RGBA32_FLOAT, %u layers, 1 level",
+                        scene->scene->name, material->name, image.width, image.height,
+                        lobe_format_name(image.format), image.layers, image.levels, waves->size,
+                        waves->size, 2 * waves->layers);
+}
+
+// ---------------------------------------------------------------------------------------------
+// All
 
 static void take_images(const filter_context *context, const lobe_given_content *content,
                         lobe_content_giver give, void *giver) {
@@ -120,10 +147,13 @@ void passes_given_content_take(const filter_context *context, lobe_content_giver
     const device_scene *scene = context->scene;
     const size_t meshes = scene->scene->mesh_count;
     const lobe_given_content content = {scene->given, scene->given_vertices,
-                                        scene->previous_vertices};
+                                        scene->previous_vertices, scene->given_waves};
+    memset(scene->given_waves, 0, scene->scene->material_count * sizeof *scene->given_waves);
     memset(scene->given_vertices, 0, meshes * sizeof *scene->given_vertices);
     memset(scene->previous_vertices, 0, meshes * sizeof *scene->previous_vertices);
     take_images(context, &content, give, giver);
     for (uint32_t i = 0; i < scene->scene->mesh_count; i++)
         check_vertices(context, i);
+    for (uint32_t i = 0; i < scene->scene->material_count; i++)
+        check_waves(context, i);
 }

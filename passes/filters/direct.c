@@ -21,4 +21,5 @@ const lobe_filter passes_filter_direct = {
     .paper = "",
     .shading = "direct",
     .knobs = knobs,
+    .draws_waves = true,
 };

@@ -4,6 +4,7 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/maps/slope_moments.h"
+#include "passes/maps/waves.h"
 #include "shaders/interface/slope_moments.h"
 
 static const char *const base_planes[] = {"facets", "surface", NULL};
@@ -40,13 +41,23 @@ static const char *ignores(const lobe_material *material) {
     return NULL;
 }
 
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    const uint32_t material = context->scene->instances[instance].material;
+    if (passes_waves_are_drawn(context, &context->scene->materials[material]))
+        passes_wave_moments_build(context, material, appearance);
+    else
+        passes_slope_moments_build(context, instance, prepared, appearance);
+}
+
 const lobe_filter passes_filter_leadr = {
     .name = "leadr",
     .summary = "one anisotropic Beckmann lobe, masked and lit as displaced facets are",
     .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping",
     .shading = "leadr",
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
+    .draws_waves = true,
     .knobs = knobs,
-    .build = passes_slope_moments_build,
+    .build = build,
     .ignores = ignores,
 };

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "passes/context/knob_values.h"
+#include "passes/maps/waves.h"
 #include "passes/upload/material_maps.h"
 
 static const char *const map_names[MAP_COUNT] = {
@@ -39,6 +40,8 @@ size_t passes_material_shading_bind(const filter_context *context, const environ
             passes_environment_light_slope_albedo(light, context, material->material);
     for (size_t i = 0; i < appearance->binding_count; i++)
         bindings[count++] = appearance->bindings[i];
+    if (passes_waves_are_drawn(context, material))
+        count += passes_waves_bind(context, material, bindings + count);
     return count;
 }
 
@@ -50,6 +53,8 @@ void passes_material_shading_specialise(const filter_context *context,
     passes_material_specialise(material, list);
     passes_environment_light_specialise(light, list);
     passes_knobs_specialise(context, list);
+    if (passes_waves_are_drawn(context, material))
+        passes_waves_specialise(material, list);
     for (size_t i = 0; i < appearance->specialisation_count; i++)
         passes_specialise(list, appearance->specialisation[i].id,
                           appearance->specialisation[i].bits);
@@ -66,7 +71,8 @@ bool passes_material_shading_is_closed(const filter_context *context,
 void passes_material_shading_name(const filter_context *context, const environment_light *light,
                                   const device_material *material, bool aov,
                                   char name[SHADING_NAME_SIZE]) {
-    snprintf(name, SHADING_NAME_SIZE, "shading/shading_%s%s%s%s.frag", context->filter->shading,
+    snprintf(name, SHADING_NAME_SIZE, "shading/shading_%s%s%s%s%s.frag", context->filter->shading,
              light->present ? "_environment" : "", aov ? "_aov" : "",
-             passes_material_shading_is_closed(context, material) ? "_closed_surface" : "");
+             passes_material_shading_is_closed(context, material) ? "_closed_surface" : "",
+             passes_waves_are_drawn(context, material) ? "_waves" : "");
 }

@@ -6,7 +6,7 @@
 /// What shading reads of a material with a filter, whoever draws it.
 
 /// Largest number of bindings of a material.
-#define MATERIAL_SHADING_BINDINGS (3 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS)
+#define MATERIAL_SHADING_BINDINGS (5 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS)
 
 /// All maps of a material, as they are; white where it has none.
 void passes_material_maps_bind(const filter_context *context, const device_material *material,
@@ -31,7 +31,7 @@ void passes_material_shading_specialise(const filter_context *context,
 bool passes_material_shading_is_closed(const filter_context *context,
                                        const device_material *material);
 
-#define SHADING_NAME_SIZE 80
+#define SHADING_NAME_SIZE 96
 /// The variant of the filter's shader that has what the material needs. `aov`: with arbitrary
 /// output variables.
 void passes_material_shading_name(const filter_context *context, const environment_light *light,

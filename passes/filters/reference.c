@@ -10,4 +10,5 @@ const lobe_filter passes_filter_reference = {
     .shading = "direct",
     .knobs = knobs,
     .supersamples = true,
+    .draws_waves = true,
 };

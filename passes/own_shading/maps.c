@@ -34,6 +34,11 @@ static lobe_result check_parameters(const lobe_maps_parameters *parameters, cons
     if (parameters->scene->material_count == 0)
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "lobe_maps_create: the scene has no materials");
+    for (size_t i = 0; parameters->scene->materials && i < parameters->scene->material_count; i++)
+        if (parameters->scene->materials[i].waves.layers > 0)
+            return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
+                                  "lobe_maps_create: material '%s' has waves",
+                                  parameters->scene->materials[i].name);
     if (parameters->lights_at_once > 4)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                               "lobe_maps_create: %u lights at once, more than 4",

@@ -91,6 +91,41 @@ static lobe_result check_model(const number_owner *owner, const lobe_material *m
     return result;
 }
 
+/// What waves exclude; NULL: nothing that the material has.
+static const char *excluded_by_waves(const lobe_material *material) {
+    return material->model != LOBE_MATERIAL_MICROFACET   ? "half-vector lobes"
+           : material->normal_map.image >= 0             ? "a normal map"
+           : material->metallic_roughness_map.image >= 0 ? "a map of roughness"
+           : material->alpha_mask                        ? "a mask"
+                                                         : NULL;
+}
+
+static lobe_result check_waves(const number_owner *owner, const lobe_material *material) {
+    const lobe_waves *waves = &material->waves;
+    char object[OBJECT_SIZE];
+    if (waves->layers == 0)
+        return LOBE_OK;
+    passes_print_owner(owner, object, sizeof object);
+    if (excluded_by_waves(material))
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s has waves and %s, which exclude each other", owner->where,
+                              object, excluded_by_waves(material));
+    lobe_result result =
+        passes_check_number(owner, "layers of waves", waves->layers, 1, LOBE_WAVES_MAXIMUM_LAYERS);
+    if (!result && (waves->size < 8 || waves->size > 4096 || (waves->size & (waves->size - 1))))
+        result = lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                                "%s: %s has waves of %u texels; expected a power of two from 8 to "
+                                "4096",
+                                owner->where, object, waves->size);
+    result = result ? result
+                    : passes_check_numbers(owner, "lengths of waves", waves->lengths, waves->layers,
+                                           1e-6, 1e9);
+    result =
+        result ? result : passes_check_numbers(owner, "rest of waves", waves->rest, 3, -100, 100);
+    return result ? result
+                  : passes_check_numbers(owner, "total of waves", waves->total, 3, -100, 100);
+}
+
 lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
                                         const lobe_host *host) {
     const lobe_material *material = &scene->materials[index];
@@ -101,5 +136,6 @@ lobe_result passes_scene_check_material(const lobe_scene *scene, size_t index,
                                 .index = index};
     lobe_result result = check_textures(&owner, scene, material);
     result = result ? result : check_factors(&owner, material);
-    return result ? result : check_model(&owner, material);
+    result = result ? result : check_model(&owner, material);
+    return result ? result : check_waves(&owner, material);
 }

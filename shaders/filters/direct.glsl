@@ -1,7 +1,13 @@
 // One unfiltered sample of the maps: what every filter should average. The reference averages many
 // of these.
 
-#pragma variants CLOSED_SURFACE
+#pragma variants CLOSED_SURFACE WAVES
+
+#ifdef WAVES
+
+#include "shading/unfiltered_waves.glsl"
+
+#else
 
 #include "shading/unfiltered_maps.glsl"
 
@@ -49,4 +55,6 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
         return sampled_environment(surface, fetched.base);
     return reflect_base_material(surface, fetched.base, fetched.base.normal);
 }
+#endif
+
 #endif

@@ -8,7 +8,13 @@
 // makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees
 // (BASE_PLANE_SURFACE).
 
-#pragma variants CLOSED_SURFACE
+#pragma variants CLOSED_SURFACE WAVES
+
+#ifdef WAVES
+
+#include "shading/filtered_waves.glsl"
+
+#else
 
 #include "shading/slope_maps.glsl"
 #include "lib/microfacet/slope_masking.glsl"
@@ -259,4 +265,6 @@ vec3 reflect_footprint(appearance fetched, surface_point surface) {
         sum += lambert_slopes(fetched, surface);
     return sum;
 }
+#endif
+
 #endif

@@ -37,13 +37,12 @@ bool may_see_level_0(int map) {
     return (MAGNIFIED_MAPS & (1u << map)) != 0u;
 }
 
-// `size`: texels of the base map.
-map_area area_of(int map, vec2 size, surface_point surface) {
-    footprint pixel =
-        footprint_of(map_coordinates(map, surface.coordinates_dx, 0.0) * size,
-                     map_coordinates(map, surface.coordinates_dy, 0.0) * size);
+// Around a point that moves by `dx` and `dy` from side to side of the pixel, in texture coordinates
+// of a map. `size`: its texels. `magnified`: level 0 may be seen.
+map_area area_over(vec2 centre, vec2 dx, vec2 dy, vec2 size, bool magnified) {
+    footprint pixel = footprint_of(dx * size, dy * size);
     map_area area;
-    area.centre = map_coordinates(map, surface.coordinates, 1.0);
+    area.centre = centre;
     area.probes = PROBES > 1u ? probes_needed(pixel) : 1u;
     float probes = float(probes_of(area));
     area.stride = pixel.direction * (pixel.major_axis / probes) / size;
@@ -52,8 +51,16 @@ map_area area_of(int map, vec2 size, surface_point surface) {
     float factor = exp2(knobs.level_bias);
     area.along = max(factor, 1.0) * area.stride;
     area.across = factor * vec2(-pixel.direction.y, pixel.direction.x) * pixel.minor_axis / size;
-    area.level = max(level_of(pixel, probes) + knobs.level_bias, may_see_level_0(map) ? 0.0 : 1.0);
+    area.level = max(level_of(pixel, probes) + knobs.level_bias, magnified ? 0.0 : 1.0);
     return area;
+}
+
+// `size`: texels of the base map.
+map_area area_of(int map, vec2 size, surface_point surface) {
+    return area_over(map_coordinates(map, surface.coordinates, 1.0),
+                     map_coordinates(map, surface.coordinates_dx, 0.0),
+                     map_coordinates(map, surface.coordinates_dy, 0.0), size,
+                     may_see_level_0(map));
 }
 
 // The larger of the maps that lobes come from, in texels.

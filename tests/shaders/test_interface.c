@@ -29,6 +29,7 @@
 #include "shaders/interface/ocean.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
+#include "shaders/interface/waves.h"
 #include "tests/engine/support/cmocka_all.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -169,6 +170,10 @@ static known_member known[] = {
     MEMBER(refit_constants, bins, 3),
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
+    MEMBER(wave_constants, frequency, 0),
+    MEMBER(wave_constants, rest, 1),
+    MEMBER(wave_constants, total, 2),
+    MEMBER(wave_moments_constants, size, 0),
     MEMBER(vertex, position, 0),
     MEMBER(vertex, normal, 1),
     MEMBER(vertex, tangent, 2),

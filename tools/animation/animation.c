@@ -4,7 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <lobe/ocean.h>
+
 #include "engine/shader/shaders.h"
+#include "tools/scenes/ocean_scene.h"
 
 extern const engine_shader_code animation_shaders[];
 extern const size_t animation_shaders_count;
@@ -25,6 +28,9 @@ struct animation {
     uint32_t image;         ///< of the scene
     const char *shader;     ///< NULL: there is none
     uint32_t width, height; ///< texels
+    // Waves.
+    lobe_ocean *ocean;
+    uint32_t material; ///< that has them
     // A rig.
     lobe_scene *scene;
     size_t index; ///< of its animation
@@ -52,7 +58,10 @@ static lobe_resource add_pass(const animation *a, lobe_graph *graph) {
 
 static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
     const animation *a = user;
-    content->images[a->image] = add_pass(a, graph);
+    if (a->ocean)
+        content->waves[a->material] = lobe_ocean_add(a->ocean, graph, a->seconds);
+    else
+        content->images[a->image] = add_pass(a, graph);
 }
 
 /// Takes the texels at time 0.
@@ -120,6 +129,17 @@ static lobe_result create_map(lobe_device *device, lobe_scene *scene, size_t ind
     return prepare(*result, device, scene, generator);
 }
 
+static lobe_result create_waves(lobe_device *device, const lobe_scene *scene, size_t material,
+                                const lobe_host *host, animation **result) {
+    lobe_result status = allocate(scene, host, result);
+    if (status != LOBE_OK)
+        return status;
+    lobe_ocean_parameters sea;
+    ocean_scene_sea(&sea);
+    (*result)->material = (uint32_t)material;
+    return lobe_ocean_create(device, &sea, host, &(*result)->ocean);
+}
+
 static lobe_result create_pose(lobe_scene *scene, const lobe_host *host, animation **result) {
     lobe_result status = allocate(scene, host, result);
     if (status != LOBE_OK)
@@ -134,11 +154,15 @@ lobe_result animation_create(lobe_device *device, lobe_scene *scene, const lobe_
     size_t index = 0;
     while (index < scene->image_count && !find_generator(&scene->images[index]))
         ++index;
-    const bool has_map = index < scene->image_count;
-    if (!has_map && (!scene->rig || scene->rig->animation_count == 0))
+    size_t material = 0;
+    while (material < scene->material_count && scene->materials[material].waves.layers == 0)
+        ++material;
+    const bool has_map = index < scene->image_count, has_waves = material < scene->material_count;
+    if (!has_map && !has_waves && (!scene->rig || scene->rig->animation_count == 0))
         return LOBE_OK;
-    const lobe_result status =
-        has_map ? create_map(device, scene, index, host, result) : create_pose(scene, host, result);
+    const lobe_result status = has_map     ? create_map(device, scene, index, host, result)
+                               : has_waves ? create_waves(device, scene, material, host, result)
+                                           : create_pose(scene, host, result);
     if (status != LOBE_OK)
         animation_destroy(result);
     return status;
@@ -148,12 +172,13 @@ void animation_destroy(animation **animation) {
     if (!*animation)
         return;
     lobe_texture_destroy(&(*animation)->base);
+    lobe_ocean_destroy(&(*animation)->ocean);
     lobe_release(*animation);
     *animation = NULL;
 }
 
 void animation_attach(animation *animation, lobe_renderer *renderer) {
-    const bool gives = animation && animation->shader;
+    const bool gives = animation && (animation->shader || animation->ocean);
     lobe_renderer_set_content_giver(renderer, gives ? give : NULL, animation);
 }
 

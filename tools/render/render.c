@@ -17,6 +17,7 @@
 #include "tools/render/empty_picture.h"
 #include "tools/render/frame_sequence.h"
 #include "tools/render/frame_times.h"
+#include "tools/scenes/scene_list.h"
 
 /// The command line.
 typedef struct render_request {
@@ -130,6 +131,8 @@ static int check_usage(const option_table *table, render_request *request) {
 static int choose_filter(render_request *request, const lobe_host *host) {
     if (budget_options_limit(&request->budget))
         return 0; // picked once scene and device are known
+    if (!request->has_filter)
+        request->filter_name = scene_list_filter(request->scene);
     if (lobe_filter_find(request->filter_name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
@@ -488,7 +491,7 @@ static int run(int argc, char **argv) {
         {.name = "filter",
          .kind = OPTION_TEXT,
          .argument = "NAME",
-         .summary = "the appearance filter, see 'lobe filters'",
+         .summary = "the appearance filter, see 'lobe filters'; of the scene ocean, leadr",
          .target = &request.filter_name,
          .fallback = "moments",
          .values = OPTION_VALUES_FILTER,

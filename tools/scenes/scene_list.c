@@ -4,6 +4,7 @@
 
 #include "tools/scenes/animated_scene.h"
 #include "tools/scenes/asset_scene.h"
+#include "tools/scenes/ocean_scene.h"
 
 typedef struct own_scene {
     listed_scene description;
@@ -11,14 +12,17 @@ typedef struct own_scene {
 } own_scene;
 
 static const own_scene own_scenes[] = {
-    {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true},
+    {{"bunny", "a rabbit covered with bumps of metal and lacquer (its mesh is an asset)", true,
+      NULL},
      asset_scene_bunny},
-    {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true},
+    {{"dragon", "a dragon of patinated bronze with fine scales (its mesh is an asset)", true, NULL},
      asset_scene_dragon},
-    {{"rain", "the hall, with rain on its floor: rings spread with time", false},
+    {{"rain", "the hall, with rain on its floor: rings spread with time", false, NULL},
      animated_scene_rain},
-    {{"cloth", "the tablecloth, whose weave slides and stretches with time", false},
+    {{"cloth", "the tablecloth, whose weave slides and stretches with time", false, NULL},
      animated_scene_cloth},
+    {{"ocean", "a sea to the horizon under a low sun; its waves move with time", false, "leadr"},
+     ocean_scene},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 
@@ -43,6 +47,11 @@ listed_scene scene_list_get(size_t index) {
 bool scene_list_needs_assets(const char *name) {
     const own_scene *own = find(name);
     return own && own->description.needs_assets;
+}
+
+const char *scene_list_filter(const char *name) {
+    const own_scene *own = name ? find(name) : NULL;
+    return own && own->description.filter ? own->description.filter : "moments";
 }
 
 lobe_result scene_list_open(const char *name, const char *assets, bool own_light_only,

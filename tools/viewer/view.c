@@ -5,17 +5,20 @@
 #include "tools/cli/console.h"
 #include "tools/cli/subcommand.h"
 #include "tools/manual/roff.h"
+#include "tools/scenes/scene_list.h"
 #include "tools/viewer/keys.h"
 #include "tools/viewer/viewer.h"
 
 /// Parsed values before they become a request.
 typedef struct view_texts {
     const char *filter_name;
+    bool has_filter;
     option_list assignments; ///< "KNOB=VALUE"
 } view_texts;
 
 static int choose_filter(const view_texts *texts, viewer_request *request, const lobe_host *host) {
-    if (lobe_filter_find(texts->filter_name, host, &request->filter) != LOBE_OK)
+    const char *name = texts->has_filter ? texts->filter_name : scene_list_filter(request->scene);
+    if (lobe_filter_find(name, host, &request->filter) != LOBE_OK)
         return 2;
     lobe_settings_default(request->filter, &request->settings);
     for (size_t i = 0; i < texts->assignments.count; i++)
@@ -61,10 +64,11 @@ static int run(int argc, char **argv) {
         {.name = "filter",
          .kind = OPTION_TEXT,
          .argument = "NAME",
-         .summary = "the initial appearance filter, see 'lobe filters'",
+         .summary = "the initial appearance filter, see 'lobe filters'; of the scene ocean, leadr",
          .target = &texts.filter_name,
          .fallback = "moments",
-         .values = OPTION_VALUES_FILTER},
+         .values = OPTION_VALUES_FILTER,
+         .given = &texts.has_filter},
         {.name = "set",
          .kind = OPTION_LIST,
          .argument = "KNOB=VALUE",

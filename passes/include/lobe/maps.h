@@ -42,7 +42,7 @@ typedef struct lobe_maps_parameters {
 } lobe_maps_parameters;
 
 /// Uploads the images. `host` is copied; NULL: silent. Errors: LOBE_ERROR_INVALID_ARGUMENT,
-/// LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_UNSUPPORTED,
+/// LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_UNSUPPORTED (a material with waves, too),
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, as for lobe_renderer_set_scene and lobe_renderer_render; the
 /// line names the material or image.
 LOBE_API lobe_result lobe_maps_create(lobe_device *device, const lobe_maps_parameters *parameters,

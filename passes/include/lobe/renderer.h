@@ -96,11 +96,15 @@ typedef struct lobe_given_content {
     /// lobe_render_motion). None: those of this frame, so that only transforms and the camera move
     /// them. Ignored where no motion is asked for.
     lobe_resource *previous_vertices;
+    /// One for each material: the maps of its `waves`, an image of RGBA32_FLOAT with one level and
+    /// two layers for each layer of waves, as lobe_ocean_add makes it.
+    lobe_resource *waves;
 } lobe_given_content;
 
 /// Gives the texels of those images of the scene, and the vertices of those meshes, that are
-/// `on_device`: adds passes that write them, or imports images and buffers of the host's Vulkan
-/// (lobe_graph_import_image, lobe_graph_import_host_buffer), and stores the resources in `content`.
+/// `on_device`, and the maps of waves: adds passes that write them, or imports images and buffers
+/// of the host's Vulkan (lobe_graph_import_image, lobe_graph_import_host_buffer), and stores the
+/// resources in `content`.
 /// Each image has its image's extent, one level, one layer, and a format that is read the same way
 /// (linear or sRGB; normals as the scene's image says). A buffer has a lobe_scene_vertex for each
 /// vertex of its mesh. Called while a graph is declared, before anything reads a map. A frame may

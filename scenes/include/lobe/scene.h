@@ -107,6 +107,23 @@ typedef enum lobe_map_space {
     LOBE_SPACE_CAMERA,    ///< the same, seen from the camera; rebuilt when that moves
 } lobe_map_space;
 
+#define LOBE_WAVES_MAXIMUM_LAYERS 3
+
+/// Waves on a surface, whose maps the host gives on the device in every frame (`waves` of
+/// lobe_given_content), for instance with lobe_ocean_add. They lie on the plane of the tangent
+/// frame: x along the tangent, y along the bitangent, at x = u and y = -v of the first set of
+/// texture coordinates, before any transform. Slopes are dh/dx and dh/dy. Only filters that say so
+/// (lobe_filter_draws_waves) draw them; for others the surface is smooth. Covariances are (xx, yy,
+/// xy).
+typedef struct lobe_waves {
+    uint32_t layers; ///< periodic maps that add up, [0, LOBE_WAVES_MAXIMUM_LAYERS]; 0: no waves
+    uint32_t size;   ///< texels along each side of a map: a power of two, [8, 4096]
+    float lengths[LOBE_WAVES_MAXIMUM_LAYERS]; ///< of texture coordinates, that a map spans; above 0
+    bool choppy;                              ///< points move across the plane, too
+    float rest[3];  ///< covariance of slopes that the maps lack: widens all highlights
+    float total[3]; ///< of all slopes, maps included: how far waves mask each other
+} lobe_waves;
+
 typedef struct lobe_material {
     char *name;
     lobe_material_model model;
@@ -145,6 +162,9 @@ typedef struct lobe_material {
     uint32_t lobe_count;           ///< [1, LOBE_MATERIAL_MAXIMUM_LOBES]
     lobe_texture_use width_map;    ///< red multiplies the width of every lobe (float formats)
     lobe_texture_use specular_map; ///< RGB multiplies the colour of every lobe
+
+    /// Of microfacets without a normal map, a map of roughness or a mask.
+    lobe_waves waves;
 } lobe_material;
 
 /// A white microfacet material: GGX, roughness 1, metallic 0, no maps.

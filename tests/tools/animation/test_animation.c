@@ -3,6 +3,7 @@
 
 #include "tests/passes/support/fixture.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "tests/passes/support/picture.h"
@@ -114,6 +115,32 @@ static void rain_falls(void **state) {
     stop(&p);
 }
 
+/// The mean square of the differences between a pixel and its neighbour above, in rows.
+static double roughness(const lobe_image *image, uint32_t first, uint32_t count) {
+    double sum = 0;
+    for (uint32_t y = first; y < first + count; y++)
+        for (uint32_t x = 0; x < image->width; x++)
+            sum += pow(pixel_at(image, x, y)[1] - pixel_at(image, x, y - 1)[1], 2);
+    return sum / (count * image->width);
+}
+
+// It moves, every frame depends on its time alone, and the far sea is smooth where one sample
+// aliases.
+static void the_sea_moves(void **state) {
+    playing p = play(*state, "ocean");
+    lobe_frame first = picture(&p, "leadr", 0), later = picture(&p, "leadr", 1);
+    lobe_frame again = picture(&p, "leadr", 0), direct = picture(&p, "direct", 0);
+    assert_true(image_hash(&first.radiance) == image_hash(&again.radiance));
+    assert_true(relative_l2(&later.radiance, &first.radiance) > 0.1);
+    // The horizon is at a fifth of the picture.
+    assert_true(roughness(&first.radiance, 7, 4) < 0.3 * roughness(&direct.radiance, 7, 4));
+    lobe_frame_free(&first);
+    lobe_frame_free(&later);
+    lobe_frame_free(&again);
+    lobe_frame_free(&direct);
+    stop(&p);
+}
+
 static void other_scenes_stand_still(void **state) {
     playing p = play(*state, "checkerboard");
     assert_null(p.animation);
@@ -217,6 +244,7 @@ int main(void) {
         cmocka_unit_test(an_animation_begins_with_its_example),
         cmocka_unit_test(filters_follow_the_texels),
         cmocka_unit_test(rain_falls),
+        cmocka_unit_test(the_sea_moves),
         cmocka_unit_test(other_scenes_stand_still),
         cmocka_unit_test(rigs_are_posed),
     };

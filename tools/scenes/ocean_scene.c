@@ -1,0 +1,144 @@
+#include "tools/scenes/ocean_scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "scenes/builtin/assembly.h"
+#include "scenes/environment/daylight.h"
+#include "scenes/environment/direction.h"
+#include "scenes/environment/environment.h"
+#include "scenes/mesh/mesh.h"
+#include "scenes/mesh/shape.h"
+#include "scenes/scene/scene.h"
+
+// To the sun, 20 degrees high.
+static const vector3 sun = {0.1288, 0.3420, -0.9308};
+#define TURBIDITY 3.0
+
+void ocean_scene_sea(lobe_ocean_parameters *sea) {
+    lobe_ocean_default(sea);
+    // Towards the viewer, from the left.
+    sea->wind_direction = -1.1f;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Water
+
+/// It reflects 2 % at normal incidence, as a metal of that colour does, and shows some of the light
+/// that it scatters.
+static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
+    static const float colour[4] = {0.02f, 0.02f, 0.02f, 1},
+                       scattered[3] = {0.003f, 0.012f, 0.018f};
+    lobe_material material;
+    lobe_ocean_parameters sea;
+    lobe_ocean_slopes slopes;
+    ocean_scene_sea(&sea);
+    lobe_result result = lobe_ocean_measure(&sea, host, &slopes);
+    if (result != LOBE_OK)
+        return result;
+    lobe_material_default(&material);
+    memcpy(material.base_colour, colour, sizeof colour);
+    memcpy(material.emissive, scattered, sizeof scattered);
+    material.metallic = 1;
+    material.distribution = LOBE_DISTRIBUTION_BECKMANN;
+    material.roughness = 0.05f;
+    material.waves =
+        (lobe_waves){.layers = sea.layers, .size = sea.size, .choppy = sea.choppiness > 0};
+    memcpy(material.waves.lengths, sea.lengths, sizeof sea.lengths);
+    memcpy(material.waves.rest, slopes.rest, sizeof slopes.rest);
+    memcpy(material.waves.total, slopes.total, sizeof slopes.total);
+    return scenes_add_material(scene, "water", &material, host, NULL);
+}
+
+enum { CELLS = 128 };
+
+/// Metres from the middle of the sea for each row and column: a third of a metre from one to the
+/// next there, 40 km in all, so that coordinates that are interpolated near the eye are exact.
+static float line_of_grid(uint32_t index) {
+    return (float)(2 * sinh(10.6 * (2.0 * index / CELLS - 1)));
+}
+
+static lobe_result add_plane(lobe_scene *scene, const lobe_host *host) {
+    lobe_mesh mesh;
+    lobe_result result = scenes_mesh_allocate(&mesh, "sea", (CELLS + 1) * (CELLS + 1),
+                                              (size_t)CELLS * CELLS * 6, host);
+    if (result != LOBE_OK)
+        return result;
+    mesh.has_texture_coordinates[0] = true;
+    for (uint32_t row = 0; row <= CELLS; row++)
+        for (uint32_t column = 0; column <= CELLS; column++) {
+            const float x = line_of_grid(column), z = line_of_grid(row);
+            mesh.vertices[row * (CELLS + 1) + column] =
+                (lobe_scene_vertex){.position = {x, 0, z},
+                                    .normal = {0, 1, 0},
+                                    .tangent = {1, 0, 0, 1},
+                                    .texture_coordinates = {{x, z}},
+                                    .colour = {1, 1, 1, 1}};
+        }
+    scenes_shape_grid_indices(CELLS, CELLS, mesh.indices);
+    return scenes_place_mesh(scene, &mesh, 0, host);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Light
+
+static lobe_result add_sun(lobe_scene *scene, const double irradiance[3], const lobe_host *host) {
+    lobe_light light = {.type = LOBE_LIGHT_DIRECTIONAL};
+    vector3_store(vector3_scale(sun, -1 / vector3_length(sun)), light.direction);
+    for (int i = 0; i < 3; i++)
+        light.intensity[i] = (float)irradiance[i];
+    return scenes_add_light(scene, &light, host);
+}
+
+/// The sky without the sun's disc, and under it what the horizon shows: light from below never
+/// reaches the sea.
+static void paint(lobe_environment *sky, const daylight *light, double factor) {
+    float *texel = sky->image.texels;
+    for (uint32_t y = 0; y < sky->image.height; y++)
+        for (uint32_t x = 0; x < sky->image.width; x++, texel += 4) {
+            const double position[2] = {x + 0.5, y + 0.5};
+            double direction[3], rgb[3];
+            scenes_environment_direction(sky->layout, sky->image.width, sky->image.height, position,
+                                         direction);
+            scenes_daylight_sky(light, (vector3){direction[0], direction[1], direction[2]}, rgb);
+            for (int i = 0; i < 3; i++)
+                texel[i] = (float)fmax(factor * rgb[i], 0);
+            texel[3] = 1;
+        }
+}
+
+/// As bright as the environment "sky": a white level surface has a luminance of 1.
+static lobe_result add_light(lobe_scene *scene, const lobe_host *host) {
+    vector3 direction = sun;
+    vector3_normalise(&direction, 0);
+    const daylight light = scenes_daylight_of(direction, TURBIDITY);
+    double ground[3], irradiance[3];
+    scenes_daylight_ground_irradiance(&light, ground);
+    const double factor = M_PI / scenes_daylight_luminance(ground);
+    lobe_environment *sky;
+    lobe_result result = scenes_environment_allocate("low sun", host, &sky);
+    if (result == LOBE_OK)
+        result = lobe_image_allocate(&sky->image, LOBE_FORMAT_RGBA32_FLOAT, 512, 256, host);
+    if (result != LOBE_OK) {
+        lobe_environment_destroy(&sky);
+        return result;
+    }
+    paint(sky, &light, factor);
+    lobe_scene_set_environment(scene, sky);
+    scene->environment_visible = true;
+    for (int i = 0; i < 3; i++)
+        irradiance[i] = factor * light.sun_irradiance[i];
+    return add_sun(scene, irradiance, host);
+}
+
+static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
+    (void)host;
+    scenes_set_camera(scene, (float[]){0, 6, 0}, (float[]){0, 3.6f, -10}, 40);
+    return LOBE_OK;
+}
+
+lobe_result ocean_scene(const char *assets, const lobe_host *host, lobe_scene **scene) {
+    static const builtin_step steps[] = {add_material, add_plane, add_light, add_view, NULL};
+    (void)assets;
+    return scenes_builtin_assemble("ocean", steps, host, scene);
+}
