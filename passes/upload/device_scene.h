@@ -87,8 +87,9 @@ typedef struct device_scene {
     image_metal *metals;             ///< one for each image
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;
-    lobe_resource *given_waves;    ///< one for each material: the maps of its waves
-    lobe_resource *given_vertices; ///< one for each mesh: its vertices in this frame
+    lobe_resource *given_waves; ///< one for each material: the maps of its waves
+    lobe_resource
+        *given_vertices; ///< one for each mesh: vertices that the host gives in this frame
     /// One for each mesh: its vertices in the previous frame, which the host gave or which were
     /// deformed again for motion; all zero: as in this frame.
     lobe_resource *previous_vertices;
