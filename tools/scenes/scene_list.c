@@ -4,6 +4,7 @@
 
 #include "tools/scenes/animated_scene.h"
 #include "tools/scenes/asset_scene.h"
+#include "tools/scenes/fields_scene.h"
 #include "tools/scenes/ocean_scene.h"
 
 typedef struct own_scene {
@@ -23,6 +24,8 @@ static const own_scene own_scenes[] = {
      animated_scene_cloth},
     {{"ocean", "a sea to the horizon under a low sun; its waves move with time", false, "leadr"},
      ocean_scene},
+    {{"fields", "a dome and a pyramid of metal; zoomed out, two fields of them", false, NULL},
+     fields_scene},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 
