@@ -37,8 +37,8 @@ ROOMS = {"engine/graph/plan": ("engine/graph/plan/", "engine/base/", "engine/inc
 # Folders in which no file may include itself through others. A header and its source count as one.
 ACYCLIC = ("engine/", "passes/", "scenes/", "tools/")
 # Folders of which each may include headers of those before it alone.
-STRATA = ("passes/upload/", "passes/context/", "passes/maps/", "passes/environment/",
-          "passes/filters/", "passes/own_shading/", "passes/renderer/")
+STRATA = ("passes/upload/", "passes/context/", "passes/maps/", "passes/displacement/",
+          "passes/environment/", "passes/filters/", "passes/own_shading/", "passes/renderer/")
 # What a filter has in its own folder is private to it.
 PRIVATE = ("passes/filters/lobes/", "passes/filters/moments/")
 VULKAN = re.compile(r"vulkan/|vk_\w+\.h|volk\.h")

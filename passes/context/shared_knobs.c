@@ -7,6 +7,8 @@ static const char *const views[] = {"radiance", "lobes", "level", "samples", NUL
 static const char *const sample_counts[] = {"1", "2", "4", "8", "auto", NULL};
 static const char *const bases[] = {"exact", "lobe", NULL};
 
+static const char *const displacements[] = {"none", "geometry", NULL};
+
 static const char *const methods[] = {"exact", "mip", "prefiltered", "sampled", NULL};
 static const char *const sizes[] = {"16", "32", "64", "128", "256", "512", "1024", "2048", NULL};
 static const char *const level_blends[] = {"trilinear", "blended", NULL};
@@ -43,6 +45,20 @@ const filter_knob passes_knob_base = {
          .maximum = 1,
          .choices = bases},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_BASE_AS_LOBE),
+};
+
+const filter_knob passes_knob_displacement = {
+    .description = {.name = "displacement",
+                    .summary = "height maps are ignored, or displace the surface's geometry",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = displacements},
+};
+const filter_knob passes_knob_pixels_per_vertex = {
+    .description = {.name = "pixels_per_vertex",
+                    .summary = "of displaced geometry: how far vertices are apart, at least 0.5; "
+                               "0: 8 on CPUs, 3 on GPUs, 0.5 for the reference",
+                    .maximum = 64},
 };
 
 // passes/environment/light.c chooses the shader's method: it also depends on the maps built so far.
@@ -151,6 +167,8 @@ const filter_knob *const passes_shared_knobs[] = {
     &passes_knob_view,
     &passes_knob_samples,
     &passes_knob_base,
+    &passes_knob_displacement,
+    &passes_knob_pixels_per_vertex,
     &passes_knob_environment,
     &passes_knob_environment_size,
     &passes_knob_environment_probes,

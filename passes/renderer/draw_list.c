@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "passes/upload/device_mesh.h"
 #include "passes/upload/transform.h"
 
 /// As many transforms as one buffer of a frame may hold (lobe_graph_upload).
@@ -72,9 +73,13 @@ void passes_draw_list_add(draw_list *list, const device_scene *scene, size_t ind
     const device_instance *instance = &scene->instances[index];
     const bool mirrored =
         passes_transform_determinant(scene->scene->instances[index].transform) < 0;
+    const bool displaced = scene->displaced && scene->displaced[index].vertices.version > 0;
+    shared = shared && !displaced;
     uint32_t number = shared ? find_batch(list, scene, instance, mirrored) : 0;
     if (number == 0) {
         number = add_batch(list, index, mirrored, appearance);
+        if (displaced)
+            list->batches[number - 1].displaced = scene->displaced[index];
         if (shared) {
             list->batches[number - 1].next_of_mesh = list->of_mesh[instance->mesh];
             list->of_mesh[instance->mesh] = number;
@@ -157,6 +162,27 @@ void passes_draw_list_upload_previous(draw_list *list, const filter_context *con
 
 uint32_t passes_batch_index_count(const device_scene *scene, const instance_batch *batch) {
     return (uint32_t)scene->scene->meshes[scene->instances[batch->instance].mesh].index_count;
+}
+
+lobe_resource passes_batch_vertices(const filter_context *context, const instance_batch *batch) {
+    const device_scene *scene = context->scene;
+    if (batch->displaced.vertices.version > 0)
+        return batch->displaced.vertices;
+    return passes_device_mesh_import(context->graph, scene, scene->instances[batch->instance].mesh);
+}
+
+void passes_batch_set_indices(const filter_context *context, const instance_batch *batch,
+                              lobe_draw *draw) {
+    const device_scene *scene = context->scene;
+    draw->instance_count = batch->count;
+    if (batch->displaced.vertices.version > 0) {
+        draw->indices = batch->displaced.indices;
+        draw->indirect = batch->displaced.arguments;
+        return;
+    }
+    draw->indices = lobe_graph_import_buffer(
+        context->graph, scene->indices[scene->instances[batch->instance].mesh]);
+    draw->index_count = passes_batch_index_count(scene, batch);
 }
 
 lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch) {

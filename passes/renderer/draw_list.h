@@ -13,6 +13,7 @@ typedef struct instance_batch {
     uint32_t count;
     bool mirrored; ///< the transforms mirror
     const filtered_appearance *appearance;
+    displaced_geometry displaced;      ///< what is drawn instead of the mesh; all zero: nothing
     lobe_resource transforms;          ///< buffer of struct instance_constants
     lobe_resource previous_transforms; ///< the same of the previous frame; none without motion
     uint32_t first;                    ///< index of the first instance's
@@ -52,6 +53,11 @@ void passes_draw_list_upload_previous(draw_list *list, const filter_context *con
                                       const float (*transforms)[16]);
 
 uint32_t passes_batch_index_count(const device_scene *scene, const instance_batch *batch);
+/// The buffer of struct vertex that a batch draws.
+lobe_resource passes_batch_vertices(const filter_context *context, const instance_batch *batch);
+/// Sets the indices of a draw and how many there are.
+void passes_batch_set_indices(const filter_context *context, const instance_batch *batch,
+                              lobe_draw *draw);
 lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch);
 
 #endif

@@ -38,10 +38,16 @@ static void add_instances(rendering *r, const device_material *material, lobe_fr
     }
 }
 
+static bool is_cpu(const lobe_device *device) {
+    return lobe_device_describe(device)->type == LOBE_DEVICE_CPU;
+}
+
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     passes_given_content_take(&r->context, r->renderer->give_content, r->renderer->giver);
     passes_deform(&r->context);
+    passes_displacement(r->renderer->displacement, &r->context, r->renderer->scene,
+                        is_cpu(r->renderer->device));
     passes_tile_marking(r);
     memset(r->images.resources, 0,
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);

@@ -95,7 +95,10 @@ static lobe_result prepare(rendering *r) {
     if (result != LOBE_OK)
         return result;
     fill_context(r, filter);
-    return passes_environment_light_check(&r->context);
+    result = passes_environment_light_check(&r->context);
+    return result ? result
+                  : passes_displacement_prepare(&r->renderer->displacement, &r->context,
+                                                r->renderer->scene);
 }
 
 /// Saves the cubes that the last submitted frame read back, if that has not been done, and loads

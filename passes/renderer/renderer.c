@@ -25,6 +25,7 @@ lobe_result lobe_renderer_create(lobe_device *device, const lobe_host *host,
 
 static void forget_scene(lobe_renderer *renderer) {
     passes_filter_slots_destroy(&renderer->slots);
+    passes_displacement_destroy(&renderer->displacement);
     passes_device_scene_destroy(&renderer->scene);
     lobe_release(renderer->appearances);
     passes_draw_list_destroy(&renderer->draws);

@@ -3,6 +3,7 @@
 
 #include <lobe/renderer.h>
 
+#include "passes/displacement/displacement.h"
 #include "passes/environment/light.h"
 #include "passes/filters/slots.h"
 #include "passes/maps/seen_tiles.h"
@@ -23,6 +24,7 @@ struct lobe_renderer {
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     environment_state environment;
     motion_history motion;
+    displacement *displacement;      ///< NULL: no frame of this scene has displaced anything
     lobe_content_giver give_content; ///< NULL: nobody does
     void *giver;                     ///< passed to it
 };

@@ -7,11 +7,11 @@
 #include "passes/context/camera.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/displacement/drawn_bounds.h"
 #include "passes/filters/material_shading.h"
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/light_parts.h"
-#include "passes/upload/device_mesh.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/light.h"
@@ -110,11 +110,12 @@ shading_light passes_shading_light_prepare(const filter_context *context,
 struct frame_constants passes_frame_constants(const filter_context *context,
                                               const shading_sample *sample, uint32_t width,
                                               uint32_t height) {
-    const lobe_scene *scene = context->scene->scene;
     struct frame_constants frame = {.footprint = sample->footprint, .dither = sample->dither};
+    float minimum[3], maximum[3];
     mat4 matrix;
-    passes_camera_projection(context->view.camera, width, height, sample->position, scene->minimum,
-                             scene->maximum, matrix);
+    passes_drawn_bounds(context->scene, minimum, maximum);
+    passes_camera_projection(context->view.camera, width, height, sample->position, minimum,
+                             maximum, matrix);
     memcpy(frame.world_to_clip, matrix, sizeof matrix);
     mat3 rotation;
     passes_camera_rotation(context->view.camera, rotation);
@@ -173,6 +174,10 @@ size_t passes_shading_draw_count(const draw_list *draws) {
     return FIRST_INSTANCE_DRAW + draws->batch_count;
 }
 
+const instance_batch *passes_shading_draw_batch(const draw_list *draws, size_t draw) {
+    return draw < FIRST_INSTANCE_DRAW ? NULL : &draws->batches[draw - FIRST_INSTANCE_DRAW];
+}
+
 shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
                                               size_t draw) {
     if (draw < FIRST_INSTANCE_DRAW)
@@ -204,9 +209,8 @@ static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_bind
     const device_scene *scene = d->context->scene;
     const device_instance *drawn = &scene->instances[batch->instance];
     bindings[0] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
-    bindings[1] = (lobe_binding){
-        .name = "vertex_block",
-        .resource = passes_device_mesh_import(d->context->graph, scene, drawn->mesh)};
+    bindings[1] = (lobe_binding){.name = "vertex_block",
+                                 .resource = passes_batch_vertices(d->context, batch)};
     return 2 + passes_material_shading_bind(d->context, d->light,
                                             &scene->materials[drawn->material], batch->appearance,
                                             bindings + 2);
@@ -227,9 +231,6 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
         .fragment_shader = fragment_shader,
-        .indices = lobe_graph_import_buffer(context->graph, context->scene->indices[drawn->mesh]),
-        .index_count = passes_batch_index_count(context->scene, batch),
-        .instance_count = batch->count,
         .cull = passes_batch_cull(context->scene, batch),
         .depth_test = true,
         .depth_write = true,
@@ -240,6 +241,7 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
         .bindings = bindings,
         .binding_count = binding_count,
     };
+    passes_batch_set_indices(context, batch, &draw);
     select_draw(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
     lobe_pass_draw(d->pass, &draw);
 }

@@ -62,6 +62,8 @@ typedef struct shading_draw_count {
 
 /// The number of draws of a shading pass with a selection, and what each draws.
 size_t passes_shading_draw_count(const draw_list *draws);
+/// The batch of a draw; NULL: it has none.
+const instance_batch *passes_shading_draw_batch(const draw_list *draws, size_t draw);
 shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
                                               size_t draw);
 

@@ -4,7 +4,6 @@
 #include "passes/filters/material_shading.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/renderer/shading.h"
-#include "passes/upload/device_mesh.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/map_tiles.h"
@@ -68,7 +67,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     const struct draw_constants constants = {.first_instance = batch->first};
     lobe_binding bindings[4 + MAP_COUNT] = {
         {.name = "instance_block", .resource = batch->transforms},
-        {.name = "vertex_block", .resource = passes_device_mesh_import(graph, scene, drawn->mesh)},
+        {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
          .resource = lobe_graph_import_buffer(graph, material->map_constants)},
         {.name = "tile_block", .resource = upload_map(r, drawn->material)},
@@ -79,23 +78,21 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     passes_knobs_specialise(context, &list);
     passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
     const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
-    lobe_pass_draw(pass,
-                   &(lobe_draw){
-                       .vertex_shader = "shading/shading.vert",
-                       .fragment_shader = "maps/tile_marking.frag",
-                       .indices = lobe_graph_import_buffer(graph, scene->indices[drawn->mesh]),
-                       .index_count = (uint32_t)scene->scene->meshes[drawn->mesh].index_count,
-                       .instance_count = batch->count,
-                       .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
-                       .depth_test = true,
-                       .depth_write = !material->material->alpha_mask,
-                       .constants = &constants,
-                       .constants_size = sizeof constants,
-                       .specialisation = list.items,
-                       .specialisation_count = list.count,
-                       .bindings = bindings,
-                       .binding_count = 4 + MAP_COUNT,
-                   });
+    lobe_draw draw = {
+        .vertex_shader = "shading/shading.vert",
+        .fragment_shader = "maps/tile_marking.frag",
+        .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
+        .depth_test = true,
+        .depth_write = !material->material->alpha_mask,
+        .constants = &constants,
+        .constants_size = sizeof constants,
+        .specialisation = list.items,
+        .specialisation_count = list.count,
+        .bindings = bindings,
+        .binding_count = 4 + MAP_COUNT,
+    };
+    passes_batch_set_indices(context, batch, &draw);
+    lobe_pass_draw(pass, &draw);
 }
 
 static lobe_resource draw_marks(rendering *r, lobe_resource marks) {

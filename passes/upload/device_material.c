@@ -51,7 +51,8 @@ static void fill_constants(const device_material *material, struct material_cons
     }
 }
 
-static lobe_result upload_image(device_scene *result, int32_t index, const lobe_host *host) {
+lobe_result passes_device_scene_upload_image(device_scene *result, int32_t index,
+                                             const lobe_host *host) {
     if (result->images[index])
         return LOBE_OK;
     const lobe_scene_image *image = &result->scene->images[index];
@@ -110,7 +111,7 @@ static lobe_result find_maps(device_scene *result, device_material *material,
             passes_material_map_use(result->scene, material->material, map);
         if (!use)
             continue;
-        lobe_result status = upload_image(result, use->image, host);
+        lobe_result status = passes_device_scene_upload_image(result, use->image, host);
         if (status != LOBE_OK)
             return status;
         const lobe_image *image = &result->scene->images[use->image].image;
@@ -219,6 +220,8 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .constants = before.constants,
         .map_constants = before.map_constants,
         .values = before.values,
+        .height = source->height_map,
+        .height_scale = source->height_scale,
         .version = before.version,
         .parameter_version = before.parameter_version};
     memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);

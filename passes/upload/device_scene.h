@@ -40,8 +40,10 @@ typedef struct device_material {
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
     uint32_t first_instance;     ///< 1 + index of the first that has it; 0: none
-    bool metallic_varies;        ///< the width map determines where the material is metal
-    float metallic;              ///< its metallic factor, times the map's where that is constant
+    lobe_texture_use height;     ///< a copy of the height map's: not read by shading
+    float height_scale;
+    bool metallic_varies; ///< the width map determines where the material is metal
+    float metallic;       ///< its metallic factor, times the map's where that is constant
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
     /// emission or occlusion alone. 0: not on the device.
     uint32_t version;
@@ -64,6 +66,12 @@ typedef struct device_instance {
     bool is_atlas;
     grid_layout layout; ///< for which `is_atlas` was found; all zero: none
 } device_instance;
+
+/// What is drawn in place of an instance's mesh: buffers of struct vertex, uint32 and
+/// lobe_draw_arguments. All zero: the mesh itself.
+typedef struct displaced_geometry {
+    lobe_resource vertices, indices, arguments;
+} displaced_geometry;
 
 typedef struct mesh_measures {
     /// How densely both sets of texture coordinates are laid out: the smallest length in texture
@@ -96,6 +104,9 @@ typedef struct device_scene {
     /// One for each mesh: its vertices in this frame's pose; all zero: it has none, or none that
     /// differs from the mesh.
     lobe_resource *deformed;
+    /// One for each instance, in this frame. NULL: none is displaced.
+    const displaced_geometry *displaced;
+    float displaced_reach;     ///< how far displaced surfaces can be from their meshes, metres
     lobe_texture *environment; ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices;           ///< one for each mesh; NULL: not used, or given by the host

@@ -15,6 +15,10 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
 /// have been checked.
 lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index);
 
+/// Creates the texture of an image, unless there is one or the host gives the texels.
+lobe_result passes_device_scene_upload_image(device_scene *scene, int32_t index,
+                                             const lobe_host *host);
+
 /// Creates the texture of the scene's environment, if it has one.
 lobe_result passes_device_scene_upload_environment(device_scene *scene);
 

@@ -20,3 +20,8 @@ bool passes_transform_keeps_angles(const float transform[16]) {
     return fabs(dot(y, y) - square) <= slack && fabs(dot(z, z) - square) <= slack &&
            fabs(dot(x, y)) <= slack && fabs(dot(y, z)) <= slack && fabs(dot(z, x)) <= slack;
 }
+
+double passes_transform_stretch(const float transform[16]) {
+    const float *x = transform, *y = transform + 4, *z = transform + 8;
+    return sqrt(dot(x, x) + dot(y, y) + dot(z, z));
+}

@@ -11,6 +11,7 @@
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering_atlas.h"
 #include "shaders/interface/deformation.h"
+#include "shaders/interface/displacement.h"
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "shaders/interface/frame.h"
@@ -59,6 +60,46 @@ static known_member known[] = {
     MEMBER(motion_constants, current, 1),
     MEMBER(motion_constants, previous, 2),
     MEMBER(motion_constants, half_extent, 3),
+    MEMBER(base_triangle, charts, 0),
+    MEMBER(base_triangle, edges, 1),
+    MEMBER(base_edge, points, 0),
+    MEMBER(base_edge, first_pair, 1),
+    MEMBER(base_edge, pair_count, 2),
+    MEMBER(base_chart, point, 0),
+    MEMBER(base_chart, vertex, 1),
+    MEMBER(base_point, first_chart, 0),
+    MEMBER(base_point, chart_count, 1),
+    MEMBER(base_point, first_corner, 2),
+    MEMBER(base_point, corner_count, 3),
+    MEMBER(posed_point, position, 0),
+    MEMBER(posed_point, direction, 1),
+    MEMBER(pose_constants, count, 0),
+    MEMBER(pose_constants, second_set, 1),
+    MEMBER(pose_constants, row, 2),
+    MEMBER(pose_constants, map_rows, 4),
+    MEMBER(displacement_constants, rows, 0),
+    MEMBER(displacement_constants, axis, 1),
+    MEMBER(displacement_constants, planes, 2),
+    MEMBER(displacement_constants, map_rows, 3),
+    MEMBER(displacement_constants, pixels, 4),
+    MEMBER(displacement_constants, perspective, 5),
+    MEMBER(displacement_constants, near_plane, 6),
+    MEMBER(displacement_constants, spacing, 7),
+    MEMBER(displacement_constants, relief, 8),
+    MEMBER(displacement_constants, reach, 9),
+    MEMBER(displacement_constants, scale, 10),
+    MEMBER(displacement_constants, least_level, 11),
+    MEMBER(displacement_constants, width, 12),
+    MEMBER(displacement_constants, height, 13),
+    MEMBER(displacement_constants, wrap_u, 14),
+    MEMBER(displacement_constants, wrap_v, 15),
+    MEMBER(displacement_constants, second_set, 16),
+    MEMBER(displacement_constants, levels, 17),
+    MEMBER(displacement_constants, patch_count, 18),
+    MEMBER(displacement_constants, depth, 19),
+    MEMBER(displacement_constants, row, 20),
+    MEMBER(displacement_constants, vertex_room, 21),
+    MEMBER(displacement_constants, triangle_room, 22),
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
     MEMBER(lobe_grid_constants, level, 2),
@@ -210,7 +251,7 @@ enum {
     DECORATION_ARRAY_STRIDE = 6,
     DECORATION_OFFSET = 35,
     HEADER_WORDS = 5,
-    MAXIMUM_MEMBERS = 16,
+    MAXIMUM_MEMBERS = 32,
 };
 
 /// What one module says of an id.

@@ -43,7 +43,7 @@ typedef struct lobe_knob {
 } lobe_knob;
 
 /// Largest number of knobs of a filter, including those that every filter has.
-#define LOBE_MAXIMUM_KNOBS 24
+#define LOBE_MAXIMUM_KNOBS 32
 
 /// The number of filters; their order is fixed.
 LOBE_API size_t lobe_filter_count(void);

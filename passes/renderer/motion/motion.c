@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "passes/context/camera.h"
+#include "passes/displacement/drawn_bounds.h"
 #include "passes/upload/device_mesh.h"
 #include "passes/upload/number_check.h"
 #include "shaders/interface/motion.h"
@@ -46,13 +47,14 @@ static const float centre_of_pixel[2] = {0.5f, 0.5f};
 
 static void project(const filter_context *context, const lobe_camera *camera, bool jittered,
                     float matrix[16]) {
-    const lobe_scene *scene = context->scene->scene;
     lobe_camera still = *camera;
+    float minimum[3], maximum[3];
     mat4 world_to_clip;
+    passes_drawn_bounds(context->scene, minimum, maximum);
     if (!jittered)
         memset(still.jitter, 0, sizeof still.jitter);
     passes_camera_projection(&still, context->view.width, context->view.height, centre_of_pixel,
-                             scene->minimum, scene->maximum, world_to_clip);
+                             minimum, maximum, world_to_clip);
     memcpy(matrix, world_to_clip, sizeof world_to_clip);
 }
 
@@ -79,35 +81,41 @@ static void draw_background(const filter_context *context, lobe_pass *pass) {
                                       .constants_size = sizeof constants});
 }
 
+/// Displaced vertices are others in each frame: their motion is that of the instance and the
+/// camera.
+static lobe_resource import_previous_vertices(const filter_context *context,
+                                              const instance_batch *batch) {
+    const device_scene *scene = context->scene;
+    if (batch->displaced.vertices.version > 0)
+        return batch->displaced.vertices;
+    return passes_device_mesh_import_previous(context->graph, scene,
+                                              scene->instances[batch->instance].mesh);
+}
+
 /// Only where this surface is the one that is seen: masks have cut their holes into the depth.
 static void draw_batch(const filter_context *context, lobe_pass *pass,
                        const instance_batch *batch) {
     const device_scene *scene = context->scene;
-    const device_instance *drawn = &scene->instances[batch->instance];
     const struct draw_constants constants = {.first_instance = batch->first};
     const lobe_binding bindings[] = {
-        {.name = "vertex_block",
-         .resource = passes_device_mesh_import(context->graph, scene, drawn->mesh)},
-        {.name = "previous_vertex_block",
-         .resource = passes_device_mesh_import_previous(context->graph, scene, drawn->mesh)},
+        {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
+        {.name = "previous_vertex_block", .resource = import_previous_vertices(context, batch)},
         {.name = "instance_block", .resource = batch->transforms},
         {.name = "previous_instance_block", .resource = batch->previous_transforms},
     };
-    lobe_pass_draw(
-        pass, &(lobe_draw){
-                  .vertex_shader = "shading/motion/motion.vert",
-                  .fragment_shader = "shading/motion/motion.frag",
-                  .indices = lobe_graph_import_buffer(context->graph, scene->indices[drawn->mesh]),
-                  .index_count = passes_batch_index_count(scene, batch),
-                  .instance_count = batch->count,
-                  .cull = passes_batch_cull(scene, batch),
-                  .depth_test = true,
-                  .depth_equal = true,
-                  .constants = &constants,
-                  .constants_size = sizeof constants,
-                  .bindings = bindings,
-                  .binding_count = sizeof bindings / sizeof *bindings,
-              });
+    lobe_draw draw = {
+        .vertex_shader = "shading/motion/motion.vert",
+        .fragment_shader = "shading/motion/motion.frag",
+        .cull = passes_batch_cull(scene, batch),
+        .depth_test = true,
+        .depth_equal = true,
+        .constants = &constants,
+        .constants_size = sizeof constants,
+        .bindings = bindings,
+        .binding_count = sizeof bindings / sizeof *bindings,
+    };
+    passes_batch_set_indices(context, batch, &draw);
+    lobe_pass_draw(pass, &draw);
 }
 
 void passes_motion(const filter_context *context, draw_list *draws, const motion_start *start,

@@ -2,6 +2,7 @@
 
 #include "passes/context/camera.h"
 #include "passes/context/sample_count.h"
+#include "passes/displacement/drawn_bounds.h"
 #include "passes/renderer/samples/picture_key.h"
 #include "passes/renderer/shading.h"
 #include "shaders/interface/sample_choice.h"
@@ -22,7 +23,7 @@ static lobe_resource declare_list(const filter_context *context) {
 
 static struct sample_choice_constants constants_of(const filter_context *context, bool blended) {
     const filter_view *view = &context->view;
-    const lobe_scene *scene = context->scene->scene;
+    float minimum[3], maximum[3];
     const sample_count count = passes_sample_count(context);
     struct sample_choice_constants constants = {
         .most = count.most,
@@ -30,8 +31,9 @@ static struct sample_choice_constants constants_of(const filter_context *context
         .tiles = passes_picture_key_tiles(view->width, view->height),
         .blended = blended,
     };
-    passes_camera_slope_scale(view->camera, view->height, scene->minimum, scene->maximum,
-                              &constants.depth_scale, &constants.depth_offset);
+    passes_drawn_bounds(context->scene, minimum, maximum);
+    passes_camera_slope_scale(view->camera, view->height, minimum, maximum, &constants.depth_scale,
+                              &constants.depth_offset);
     return constants;
 }
 
@@ -96,10 +98,41 @@ static void write_arguments(const filter_context *context, const draw_list *list
                                               .constants_size = sizeof draws});
 }
 
+static bool is_displaced(const draw_list *list, size_t draw) {
+    const instance_batch *batch = passes_shading_draw_batch(list, draw);
+    return batch && batch->displaced.vertices.version > 0;
+}
+
+/// Only the device knows how many indices displaced geometry has.
+static void write_displaced_counts(const filter_context *context, const draw_list *list,
+                                   sample_choice *choice) {
+    const size_t draws = passes_shading_draw_count(list);
+    lobe_pass *pass = NULL;
+    for (size_t i = 0; i < draws; i++) {
+        if (!is_displaced(list, i))
+            continue;
+        if (!pass)
+            pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "displaced_counts");
+        const uint32_t record = 1 + (uint32_t)i;
+        const lobe_binding counted = {.name = "displaced_argument_block",
+                                      .resource =
+                                          passes_shading_draw_batch(list, i)->displaced.arguments};
+        lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/samples/displaced_count.comp",
+                                                  .constants = &record,
+                                                  .constants_size = sizeof record,
+                                                  .bindings = &counted,
+                                                  .binding_count = 1});
+    }
+    if (pass)
+        choice->arguments = lobe_pass_modify(
+            pass, &(lobe_binding){.name = "argument_block", .resource = choice->arguments});
+}
+
 sample_choice passes_sample_choice(const filter_context *context, const draw_list *draws,
                                    lobe_resource radiance, bool blended) {
     sample_choice choice;
     choose(context, radiance, blended, &choice);
     write_arguments(context, draws, &choice);
+    write_displaced_counts(context, draws, &choice);
     return choice;
 }

@@ -138,11 +138,15 @@ typedef struct lobe_material {
     /// Concentration kappa_N of the normals inside one texel of the normal map; each base lobe is
     /// convolved with it (Xu et al. 2017, Eqs. 11-14). 0: none, the texel's normal is exact.
     float normal_concentration;
-    lobe_texture_use height_map; ///< red: height outwards [0, 1]; imported, but no filter reads it
+    /// Red: height outwards [0, 1]; values beyond that count as its ends. Displaces the surface
+    /// with the knob `displacement`; always interpolated.
+    lobe_texture_use height_map;
     /// What the range [0, 1] of the height map spans, as a fraction of the map's own width in the
     /// world (the length over which u grows by 1), so that the relief scales with the map. With
     /// square texels and a map w texels wide, neighbouring texels that differ by d have a slope of
-    /// height_scale * w * d. Negative: the values are depths. 0: no relief.
+    /// height_scale * w * d. Negative: the values are depths. 0: no relief. Displacement takes the
+    /// map's mean width over the area of the mesh at rest, so that a relief is equally high
+    /// everywhere; transforms scale it with the mesh.
     float height_scale;
     float emissive[3]; ///< linear RGB radiance
     lobe_texture_use emissive_map;

@@ -1,0 +1,252 @@
+#include "passes/displacement/patch_passes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "passes/context/camera.h"
+#include "passes/upload/device_mesh.h"
+#include "passes/upload/transform.h"
+#include "shaders/interface/displacement.h"
+
+/// Threads in a row of a dispatch: groups of 64, within every device's limits.
+#define ROW (1u << 20)
+
+/// Pixels outside of the picture that count as seen: samples of a pixel move the picture.
+#define MARGIN 2
+
+/// What one storage buffer holds on every device, over the size of a vertex.
+enum { MOST_VERTICES = (1 << 27) / sizeof(lobe_scene_vertex), MOST_TRIANGLES = 1 << 22 };
+
+// ---------------------------------------------------------------------------------------------
+// Constants
+
+static void fill_transform(const float transform[16], struct displacement_constants *constants) {
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 4; column++)
+            constants->rows[row][column] = transform[4 * column + row];
+}
+
+/// The plane row[w] * factor + sign * row[axis] of a matrix.
+static void fill_plane(mat4 matrix, int axis, double sign, double factor, float plane[4]) {
+    double values[4], size = 0;
+    for (int i = 0; i < 4; i++)
+        values[i] = factor * (double)matrix[i][3] + sign * (double)matrix[i][axis];
+    for (int i = 0; i < 3; i++)
+        size += values[i] * values[i];
+    size = sqrt(size);
+    for (int i = 0; i < 4; i++)
+        plane[i] = size > 0 ? (float)(values[i] / size) : (i == 3);
+}
+
+/// Independent of the camera's jitter, so that this changes no vertex.
+static void fill_camera(const filter_context *context, struct displacement_constants *constants) {
+    static const float centre[2] = {0.5f, 0.5f};
+    const filter_view *view = &context->view;
+    const lobe_scene *scene = context->scene->scene;
+    const float *jitter = view->camera->jitter;
+    lobe_camera still = *view->camera;
+    memset(still.jitter, 0, sizeof still.jitter);
+    mat4 matrix;
+    vec4 axis;
+    passes_camera_projection(&still, view->width, view->height, centre, scene->minimum,
+                             scene->maximum, matrix);
+    passes_camera_axis(&still, axis);
+    memcpy(constants->axis, axis, sizeof axis);
+    const double margin =
+        2 * (MARGIN + ceil(fmax(fabs((double)jitter[0]), fabs((double)jitter[1]))));
+    for (int i = 0; i < 2; i++) {
+        const double factor = 1 + margin / (i == 0 ? view->width : view->height);
+        fill_plane(matrix, i, 1, factor, constants->planes[2 * i]);
+        fill_plane(matrix, i, -1, factor, constants->planes[2 * i + 1]);
+    }
+    fill_plane(matrix, 2, -1, 1, constants->planes[4]); // near
+    const double angle = view->camera->vertical_field_of_view;
+    constants->perspective = angle > 0;
+    constants->pixels = (float)(view->height / (angle > 0 ? 2 * tan(0.5 * angle)
+                                                          : view->camera->orthographic_height));
+    constants->near_plane = view->camera->near_plane;
+}
+
+/// Room for a surface that fills the picture: up to eight triangles for each square of the spacing,
+/// and as many again for what is seen at an angle.
+static void fill_room(const filter_context *context, const displaced_surface *surface,
+                      struct displacement_constants *constants) {
+    const double pixels = (double)context->view.width * context->view.height;
+    const double wanted = fmin(16 * pixels / (surface->spacing * surface->spacing), MOST_TRIANGLES);
+    const uint32_t patches = surface->layout->patches, usual = 4096 + (uint32_t)wanted;
+    constants->triangle_room = usual > patches ? usual : patches;
+    constants->vertex_room = usual > 3 * patches ? usual : 3 * patches;
+    if (constants->vertex_room > MOST_VERTICES)
+        constants->vertex_room = MOST_VERTICES;
+}
+
+static uint32_t wrap_of(lobe_scene_wrap wrap) {
+    switch (wrap) {
+    case LOBE_SCENE_WRAP_MIRROR:
+        return WRAP_MIRROR;
+    case LOBE_SCENE_WRAP_CLAMP:
+        return WRAP_CLAMP;
+    default:
+        return WRAP_REPEAT;
+    }
+}
+
+static struct displacement_constants constants_of(const filter_context *context,
+                                                  const displaced_surface *surface) {
+    const float *transform = context->scene->scene->instances[surface->instance].transform;
+    const uint32_t patches = surface->layout->patches;
+    struct displacement_constants constants = {
+        .spacing = (float)surface->spacing,
+        .relief = (float)surface->relief,
+        .reach = (float)(fabs(surface->relief) * passes_transform_stretch(transform)),
+        .scale = (float)cbrt(fabs(passes_transform_determinant(transform))),
+        .least_level = surface->layout->level,
+        .width = surface->width,
+        .height = surface->height,
+        .wrap_u = wrap_of(surface->use->wrap_u),
+        .wrap_v = wrap_of(surface->use->wrap_v),
+        .second_set = surface->use->texture_coordinates,
+        .levels = surface->levels,
+        .patch_count = patches,
+        .depth = surface->layout->depth,
+        .row = patches < ROW ? patches : ROW,
+    };
+    for (int row = 0; row < 2; row++)
+        memcpy(constants.map_rows[row], surface->use->transform[row],
+               sizeof surface->use->transform[row]);
+    fill_transform(transform, &constants);
+    fill_camera(context, &constants);
+    fill_room(context, surface, &constants);
+    return constants;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Passes
+
+/// The buffers of one instance.
+typedef struct patch_buffers {
+    lobe_resource constants, sizes, sums, offsets, arguments, vertices, triangles;
+} patch_buffers;
+
+static lobe_resource declare(const filter_context *context, const char *what, size_t instance,
+                             size_t size) {
+    char name[64];
+    snprintf(name, sizeof name, "%s of instance %zu", what, instance);
+    return lobe_graph_buffer(
+        context->graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
+}
+
+static patch_buffers declare_buffers(const filter_context *context, size_t instance,
+                                     const struct displacement_constants *constants) {
+    const size_t patches = constants->patch_count;
+    return (patch_buffers){
+        .constants =
+            lobe_graph_upload(context->graph, "displacement", constants, sizeof *constants),
+        .sizes = declare(context, "patch sizes", instance, patches * 4 * sizeof(float)),
+        .sums = declare(context, "patch sums", instance, PATCH_SUMS * sizeof(uint32_t)),
+        .offsets = declare(context, "patch offsets", instance, patches * 2 * sizeof(uint32_t)),
+        .arguments = declare(context, "patch arguments", instance, PATCH_WORDS * sizeof(uint32_t)),
+        .vertices = declare(context, "displaced vertices", instance,
+                            constants->vertex_room * sizeof(lobe_scene_vertex)),
+        .triangles = declare(context, "displaced triangles", instance,
+                             constants->triangle_room * 3 * sizeof(uint32_t)),
+    };
+}
+
+static void read(lobe_pass *pass, const char *name, lobe_resource resource) {
+    lobe_pass_read(pass, &(lobe_binding){.name = name, .resource = resource});
+}
+
+/// What both passes that look at places on the mesh read.
+static void read_mesh(const filter_context *context, const displaced_surface *surface,
+                      const patch_buffers *buffers, lobe_pass *pass) {
+    lobe_graph *graph = context->graph;
+    const displaced_mesh *mesh = surface->mesh;
+    const uint32_t index = context->scene->instances[surface->instance].mesh;
+    read(pass, "displacement_block", buffers->constants);
+    read(pass, "triangle_block", lobe_graph_import_buffer(graph, mesh->triangles));
+    read(pass, "edge_block", lobe_graph_import_buffer(graph, mesh->edges));
+    read(pass, "chart_block", lobe_graph_import_buffer(graph, mesh->charts));
+    read(pass, "pair_block", lobe_graph_import_buffer(graph, mesh->pairs));
+    read(pass, "point_block", mesh->posed);
+    read(pass, "vertex_block", passes_device_mesh_import(graph, context->scene, index));
+}
+
+static void measure_patches(const filter_context *context, const displaced_surface *surface,
+                            uint32_t row, patch_buffers *buffers) {
+    lobe_pass *clear = lobe_graph_add_pass(context->graph, LOBE_PASS_TRANSFER, "clear");
+    buffers->sums = lobe_pass_fill(clear, buffers->sums, (lobe_range){0}, (float[4]){0});
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_sizes");
+    read_mesh(context, surface, buffers, pass);
+    buffers->sizes =
+        lobe_pass_write(pass, &(lobe_binding){.name = "patch_block", .resource = buffers->sizes});
+    buffers->sums =
+        lobe_pass_modify(pass, &(lobe_binding){.name = "sum_block", .resource = buffers->sums});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "displacement/patch_sizes.comp",
+                               .threads = {row, (surface->layout->patches - 1) / row + 1}});
+}
+
+static void place_patches(const filter_context *context, patch_buffers *buffers) {
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_offsets");
+    read(pass, "displacement_block", buffers->constants);
+    read(pass, "patch_block", buffers->sizes);
+    read(pass, "sum_block", buffers->sums);
+    buffers->offsets = lobe_pass_write(
+        pass, &(lobe_binding){.name = "offset_block", .resource = buffers->offsets});
+    buffers->arguments = lobe_pass_write(
+        pass, &(lobe_binding){.name = "argument_block", .resource = buffers->arguments});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "displacement/patch_offsets.comp",
+                                              .threads = {PATCH_GROUP, 1, 1}});
+}
+
+static void read_patches(const patch_buffers *buffers, lobe_pass *pass) {
+    read(pass, "patch_block", buffers->sizes);
+    read(pass, "offset_block", buffers->offsets);
+    read(pass, "argument_block", buffers->arguments);
+}
+
+static void write_vertices(const filter_context *context, const displaced_surface *surface,
+                           patch_buffers *buffers) {
+    lobe_graph *graph = context->graph;
+    const uint32_t index = context->scene->instances[surface->instance].mesh;
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "displaced_vertices");
+    read_mesh(context, surface, buffers, pass);
+    read_patches(buffers, pass);
+    read(pass, "base_point_block", lobe_graph_import_buffer(graph, surface->mesh->points));
+    read(pass, "length_block", surface->lengths);
+    read(pass, "height_map", surface->heights);
+    read(pass, "height_levels", surface->height_levels);
+    read(pass, "index_block", lobe_graph_import_buffer(graph, context->scene->indices[index]));
+    buffers->vertices = lobe_pass_write(
+        pass, &(lobe_binding){.name = "displaced_block", .resource = buffers->vertices});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "displacement/displaced_vertices.comp",
+                                        .indirect = buffers->arguments,
+                                        .indirect_offset = PATCH_VERTICES * sizeof(uint32_t)});
+}
+
+static void write_triangles(const filter_context *context, patch_buffers *buffers) {
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "displaced_triangles");
+    read(pass, "displacement_block", buffers->constants);
+    read_patches(buffers, pass);
+    buffers->triangles = lobe_pass_write(
+        pass, &(lobe_binding){.name = "index_block", .resource = buffers->triangles});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "displacement/displaced_triangles.comp",
+                                        .indirect = buffers->arguments,
+                                        .indirect_offset = PATCH_TRIANGLES * sizeof(uint32_t)});
+}
+
+displaced_geometry passes_displace_patches(const filter_context *context,
+                                           const displaced_surface *surface) {
+    const struct displacement_constants constants = constants_of(context, surface);
+    patch_buffers buffers = declare_buffers(context, surface->instance, &constants);
+    measure_patches(context, surface, constants.row, &buffers);
+    place_patches(context, &buffers);
+    write_vertices(context, surface, &buffers);
+    write_triangles(context, &buffers);
+    return (displaced_geometry){
+        .vertices = buffers.vertices, .indices = buffers.triangles, .arguments = buffers.arguments};
+}

@@ -1,0 +1,38 @@
+#ifndef DISPLACED_SURFACE_GLSL
+#define DISPLACED_SURFACE_GLSL
+
+// A displaced instance, and how the camera sees it.
+
+#include "interface/displacement.h"
+
+layout(set = 0, binding = 0, std140) uniform displacement_block {
+    displacement_constants constants;
+};
+
+// A place in a triangle: weights of its corners, which add up to place_weight().
+struct base_place {
+    uint triangle;
+    ivec3 weights;
+};
+
+int place_weight() {
+    return (1 << PATCH_MOST) << constants.depth;
+}
+
+vec3 world_position(vec3 position) {
+    precise vec3 result = vec3(dot(constants.rows[0], vec4(position, 1.0)),
+                               dot(constants.rows[1], vec4(position, 1.0)),
+                               dot(constants.rows[2], vec4(position, 1.0)));
+    return result;
+}
+
+// Along the view, metres; not in front of the near plane.
+float view_distance(vec3 world) {
+    return max(dot(constants.axis.xyz, world) - constants.axis.w, constants.near_plane);
+}
+
+float pixels_per_metre(float distance) {
+    return constants.perspective != 0.0 ? constants.pixels / distance : constants.pixels;
+}
+
+#endif

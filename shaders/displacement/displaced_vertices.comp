@@ -1,0 +1,235 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The vertices of a displaced surface, a thread for each: a grid in each patch, with as many
+// segments as the patch's longest edge has. On shorter edges several vertices share a place, and
+// the triangles between them have no area: both patches of an edge have the same vertices there.
+//
+// When the camera comes closer, the number of segments doubles, and vertices with odd numbers
+// appear: inside of a patch halfway between their neighbours, on an edge at the place of the one
+// before. From there they slide to their own places, until the number doubles again. At each moment
+// the new triangles cover the old ones, so that a surface is a function of the camera without a
+// jump.
+
+#include "displacement/height_map.glsl"
+#include "displacement/patch_search.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 14, std430) readonly buffer index_block { uint indices[]; };
+layout(set = 0, binding = 15, std430) writeonly buffer displaced_block { vertex displaced[]; };
+
+// ---------------------------------------------------------------------------------------------
+// Positions
+
+vec3 point_direction(uint point) {
+    return vec3(points[point].direction[0], points[point].direction[1],
+                points[point].direction[2]);
+}
+
+vec3 site_direction(base_site site) {
+    if (site.kind == SITE_POINT)
+        return point_direction(site.index);
+    precise vec3 sum;
+    vec3 first;
+    if (site.kind == SITE_EDGE) {
+        first = point_direction(edges[site.index].points[0]);
+        sum = first + site.part * (point_direction(edges[site.index].points[1]) - first);
+    } else {
+        first = point_direction(point_of_corner(site.index, 0));
+        sum = site.weights.x * first +
+              site.weights.y * point_direction(point_of_corner(site.index, 1)) +
+              site.weights.z * point_direction(point_of_corner(site.index, 2));
+    }
+    return dot(sum, sum) > 1e-8 ? normalize(sum) : first;
+}
+
+// Metres between vertices.
+float vertex_distance(vec3 position) {
+    uint chosen = arguments[PATCH_SPACING];
+    float spacing = constants.spacing * exp2(0.5 * float(chosen));
+    return spacing / pixels_per_metre(view_distance(world_position(position)));
+}
+
+vec3 displaced_place(base_place place) {
+    base_site site = site_of(place);
+    vec3 position = site_position(site);
+    precise vec3 result = position + constants.relief *
+                                         site_height(site, vertex_distance(position)) *
+                                         site_direction(site);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Vertices of a patch
+
+struct patch_grid {
+    base_patch parts;
+    vec4 sizes; // of edges, from each corner to the next; then the largest
+    int segments;
+};
+
+ivec3 unit_weight(int corner) {
+    return ivec3(corner == 0, corner == 1, corner == 2);
+}
+
+// Weights, of sum `segments`, of a point of the edge that begins at a corner.
+ivec3 edge_weights(int edge, int number, int segments) {
+    return (segments - number) * unit_weight(edge) + number * unit_weight((edge + 1) % 3);
+}
+
+// The edge on which a vertex of the grid lies; -1: none.
+int edge_with(ivec3 weights) {
+    return weights.z == 0 ? 0 : weights.x == 0 ? 1 : weights.y == 0 ? 2 : -1;
+}
+
+// Whether an edge of a patch begins, for both of its patches, at the patch's corner `edge`.
+bool begins_at(base_patch parts, int edge) {
+    ivec3 first = parts.corners[edge], second = parts.corners[(edge + 1) % 3];
+    int along = first.z == 0 && second.z == 0   ? 0
+                : first.x == 0 && second.x == 0 ? 1
+                : first.y == 0 && second.y == 0 ? 2
+                                                : -1;
+    if (along < 0) // inside of the mesh's triangle
+        return first.x != second.x ? first.x < second.x : first.y < second.y;
+    uint whole = triangles[parts.triangle].edges[along];
+    int next = (along + 1) % 3;
+    int end = point_of_corner(parts.triangle, next) == edges[whole].points[1] ? next : along;
+    return first[end] < second[end];
+}
+
+// Where a vertex of the grid is: weights, of sum `segments`, of the patch's corners. On an edge it
+// shares the place of one of the edge's points.
+struct grid_point {
+    ivec3 weights;
+    int segments;
+    float grown; // how far it has come to there
+    ivec3 start; // from where, on an edge
+};
+
+grid_point point_of_edge(patch_grid grid, int edge, ivec3 weights) {
+    int segments = segments_of(grid.sizes[edge]), step = grid.segments / segments;
+    bool forwards = begins_at(grid.parts, edge);
+    int number = weights[forwards ? (edge + 1) % 3 : edge] / step, before = max(number - 1, 0);
+    grid_point result;
+    result.segments = segments;
+    result.weights = edge_weights(edge, forwards ? number : segments - number, segments);
+    result.start = edge_weights(edge, forwards ? before : segments - before, segments);
+    result.grown = segments_grown(grid.sizes[edge]);
+    return result;
+}
+
+grid_point point_of_grid(patch_grid grid, ivec3 weights) {
+    int edge = edge_with(weights);
+    grid_point result =
+        grid_point(weights, grid.segments, segments_grown(grid.sizes.w), weights);
+    if (edge >= 0)
+        result = point_of_edge(grid, edge, weights);
+    if (result.segments == 1 || all(equal(result.weights % 2, ivec3(0))))
+        result.grown = 1.0;
+    return result;
+}
+
+// From one neighbour with even numbers to the other.
+ivec3 odd_direction(ivec3 weights) {
+    ivec3 odd = weights % 2;
+    return odd.x == 0 ? ivec3(0, 1, -1) : odd.y == 0 ? ivec3(1, 0, -1) : ivec3(1, -1, 0);
+}
+
+// The position of a vertex on its way.
+vec3 slid(vec3 start, vec3 own, float grown) {
+    precise vec3 result = start + grown * (own - start);
+    return grown < 1.0 ? result : own;
+}
+
+// Neighbours of a vertex inside may be on their way along an edge: one loop over the starts and the
+// places of both neighbours and of the vertex itself, so that the code for a place exists once.
+vec3 grid_position(patch_grid grid, ivec3 weights) {
+    bool inside = edge_with(weights) < 0;
+    float grown = point_of_grid(grid, weights).grown;
+    vec3 start = vec3(0.0), position = vec3(0.0), neighbours = vec3(0.0);
+    for (int i = inside && grown < 1.0 ? 0 : 4; i < 6; ++i) {
+        ivec3 place = weights;
+        if (i < 4)
+            place += (i < 2 ? -1 : 1) * odd_direction(weights);
+        grid_point point = point_of_grid(grid, place);
+        bool slides = edge_with(place) >= 0 && point.grown < 1.0, is_start = i % 2 == 0;
+        if (is_start && !slides)
+            continue;
+        vec3 found = displaced_place(
+            place_in_patch(grid.parts, is_start ? point.start : point.weights, point.segments));
+        if (is_start) {
+            start = found;
+        } else {
+            position = slides ? slid(start, found, point.grown) : found;
+            neighbours += i < 4 ? position : vec3(0.0);
+        }
+    }
+    return inside ? slid(0.5 * neighbours, position, grown) : position;
+}
+
+// Weights of the corners of the mesh's triangle, which add up to 1: where all but the position of a
+// vertex comes from. They move as the position does.
+vec3 edge_or_inner_weights(patch_grid grid, ivec3 weights) {
+    grid_point point = point_of_grid(grid, weights);
+    vec3 own = vec3(place_in_patch(grid.parts, point.weights, point.segments).weights);
+    vec3 start = vec3(place_in_patch(grid.parts, point.start, point.segments).weights);
+    bool slides = edge_with(weights) >= 0 && point.grown < 1.0;
+    return (slides ? mix(start, own, point.grown) : own) / float(place_weight());
+}
+
+vec3 grid_weights(patch_grid grid, ivec3 weights) {
+    vec3 own = edge_or_inner_weights(grid, weights);
+    float grown = point_of_grid(grid, weights).grown;
+    if (edge_with(weights) >= 0 || grown >= 1.0)
+        return own;
+    ivec3 direction = odd_direction(weights);
+    return mix(0.5 * (edge_or_inner_weights(grid, weights - direction) +
+                      edge_or_inner_weights(grid, weights + direction)), own, grown);
+}
+
+// ---------------------------------------------------------------------------------------------
+// What else a vertex has: that of the base mesh
+
+vec3 normal_of(uint index) {
+    return vec3(vertices[index].normal[0], vertices[index].normal[1], vertices[index].normal[2]);
+}
+
+vertex base_vertex(uint triangle, vec3 weights) {
+    uvec3 corner = uvec3(indices[3u * triangle], indices[3u * triangle + 1u],
+                         indices[3u * triangle + 2u]);
+    vec3 normal = weights.x * normal_of(corner.x) + weights.y * normal_of(corner.y) +
+                  weights.z * normal_of(corner.z);
+    normal = dot(normal, normal) > 1e-8 ? normal : normal_of(corner.x);
+    vertex result;
+    for (int i = 0; i < 3; ++i)
+        result.normal[i] = normal[i];
+    for (int i = 0; i < 4; ++i) {
+        result.tangent[i] = weights.x * vertices[corner.x].tangent[i] +
+                            weights.y * vertices[corner.y].tangent[i] +
+                            weights.z * vertices[corner.z].tangent[i];
+        result.texture_coordinates[i] = weights.x * vertices[corner.x].texture_coordinates[i] +
+                                        weights.y * vertices[corner.y].texture_coordinates[i] +
+                                        weights.z * vertices[corner.z].texture_coordinates[i];
+        result.colour[i] = weights.x * vertices[corner.x].colour[i] +
+                           weights.y * vertices[corner.y].colour[i] +
+                           weights.z * vertices[corner.z].colour[i];
+    }
+    return result;
+}
+
+void main() {
+    uint number = thread_number();
+    if (number >= arguments[PATCH_TOTALS])
+        return;
+    uint found = patch_with(number, 0);
+    vec4 sizes = sizes_of_patch(found);
+    patch_grid grid = patch_grid(patch_of(found), sizes, segments_of(sizes.w));
+    ivec2 place = lattice_row_of(number - offsets[found].x);
+    ivec3 weights = lattice_point(grid.segments, place.x, place.y);
+    vertex result = base_vertex(grid.parts.triangle, grid_weights(grid, weights));
+    vec3 position = grid_position(grid, weights);
+    for (int i = 0; i < 3; ++i)
+        result.position[i] = position[i];
+    displaced[number] = result;
+}

@@ -1,0 +1,136 @@
+#ifndef INTERFACE_DISPLACEMENT_H
+#define INTERFACE_DISPLACEMENT_H
+
+#include "types.h"
+
+// Displaced surfaces. The base mesh is welded: vertices at one place are one *point*, whatever
+// their normals and texture coordinates; a *chart* of a point is one set of texture coordinates
+// there. A *patch* is a triangle of the base mesh or, where those are large, one of the 4^depth
+// equal parts of one.
+
+// An edge of a patch has at most 2^PATCH_MOST segments.
+#define PATCH_MOST 6
+// Vertices are counted for distances of k 2^(j/2) pixels, j below this.
+#define PATCH_SPACINGS 8
+// Threads of the group that adds up the counts of all patches.
+#define PATCH_GROUP 256
+
+// The base mesh (std430): written once.
+struct base_triangle {
+    uint charts[3]; // of its corners
+    uint edges[3];  // welded; number i begins at corner i
+};
+INTERFACE_SIZE(base_triangle, 24)
+INTERFACE_OFFSET(base_triangle, edges, 12)
+
+struct base_edge {
+    uint points[2];  // its ends, in ascending order
+    uint first_pair; // of charts at both ends: one for each chart that has the edge
+    uint pair_count;
+};
+INTERFACE_SIZE(base_edge, 16)
+INTERFACE_OFFSET(base_edge, first_pair, 8)
+INTERFACE_OFFSET(base_edge, pair_count, 12)
+
+struct base_chart {
+    uint point;
+    uint vertex; // of the mesh, with the chart's texture coordinates
+};
+INTERFACE_SIZE(base_chart, 8)
+INTERFACE_OFFSET(base_chart, vertex, 4)
+
+struct base_point {
+    uint first_chart, chart_count;
+    uint first_corner, corner_count; // of the mesh that lie here
+};
+INTERFACE_SIZE(base_point, 16)
+INTERFACE_OFFSET(base_point, chart_count, 4)
+INTERFACE_OFFSET(base_point, first_corner, 8)
+INTERFACE_OFFSET(base_point, corner_count, 12)
+
+// A point in the mesh's pose, in object space.
+struct posed_point {
+    float position[3];
+    float direction[3]; // of displacement: unit
+};
+INTERFACE_SIZE(posed_point, 24)
+INTERFACE_OFFSET(posed_point, direction, 12)
+
+// Push constants of the passes that pose points and measure charts.
+struct pose_constants {
+    uint count;      // of points or charts
+    uint second_set; // of texture coordinates
+    uint row;        // threads in a row of the dispatch
+    uint padding_0;
+    float4 map_rows[2]; // of the coordinates' transform
+};
+INTERFACE_SIZE(pose_constants, 48)
+INTERFACE_OFFSET(pose_constants, second_set, 4)
+INTERFACE_OFFSET(pose_constants, row, 8)
+INTERFACE_OFFSET(pose_constants, map_rows, 16)
+
+// One displaced instance, seen by a camera (std140). Lengths are metres in the world unless they
+// are said to be the object's.
+struct displacement_constants {
+    float4 rows[3];     // object to world
+    float4 axis;        // unit view direction; w: its product with the eye's position
+    float4 planes[5];   // of the view's frustum: unit, inwards, at least 0 inside
+    float4 map_rows[2]; // of the transform of the height map's coordinates
+    float pixels;       // per metre: at a distance of one metre, or everywhere
+    float perspective;  // 1: the former
+    float near_plane;
+    float spacing;       // of vertices, pixels
+    float relief;        // of height 1, the object's lengths
+    float reach;         // how far displaced points can be from the base
+    float scale;         // metres per object's length
+    float least_level;   // of the height map
+    uint width, height;  // texels of the height map
+    uint wrap_u, wrap_v; // WRAP_...
+    uint second_set;     // of texture coordinates
+    uint levels;         // of the height map
+    uint patch_count;
+    uint depth; // patches of a triangle: 4^depth
+    uint row;   // threads in a row of the dispatch
+    uint vertex_room, triangle_room;
+    uint padding_0;
+};
+INTERFACE_SIZE(displacement_constants, 256)
+INTERFACE_OFFSET(displacement_constants, axis, 48)
+INTERFACE_OFFSET(displacement_constants, planes, 64)
+INTERFACE_OFFSET(displacement_constants, map_rows, 144)
+INTERFACE_OFFSET(displacement_constants, pixels, 176)
+INTERFACE_OFFSET(displacement_constants, perspective, 180)
+INTERFACE_OFFSET(displacement_constants, near_plane, 184)
+INTERFACE_OFFSET(displacement_constants, spacing, 188)
+INTERFACE_OFFSET(displacement_constants, relief, 192)
+INTERFACE_OFFSET(displacement_constants, reach, 196)
+INTERFACE_OFFSET(displacement_constants, scale, 200)
+INTERFACE_OFFSET(displacement_constants, least_level, 204)
+INTERFACE_OFFSET(displacement_constants, width, 208)
+INTERFACE_OFFSET(displacement_constants, height, 212)
+INTERFACE_OFFSET(displacement_constants, wrap_u, 216)
+INTERFACE_OFFSET(displacement_constants, wrap_v, 220)
+INTERFACE_OFFSET(displacement_constants, second_set, 224)
+INTERFACE_OFFSET(displacement_constants, levels, 228)
+INTERFACE_OFFSET(displacement_constants, patch_count, 232)
+INTERFACE_OFFSET(displacement_constants, depth, 236)
+INTERFACE_OFFSET(displacement_constants, row, 240)
+INTERFACE_OFFSET(displacement_constants, vertex_room, 244)
+INTERFACE_OFFSET(displacement_constants, triangle_room, 248)
+
+#define WRAP_REPEAT 0
+#define WRAP_MIRROR 1
+#define WRAP_CLAMP  2
+
+// What the passes tell each other and the draws (storage buffer of uint).
+#define PATCH_DRAW      0  // lobe_draw_arguments
+#define PATCH_VERTICES  5  // lobe_dispatch_arguments: a thread for each vertex
+#define PATCH_TRIANGLES 8  // lobe_dispatch_arguments: a thread for each triangle
+#define PATCH_SPACING   11 // which of PATCH_SPACINGS; that number: all patches are one triangle
+#define PATCH_TOTALS    12 // vertices, triangles
+#define PATCH_WORDS     14
+
+// The sums for all spacings (storage buffer of uint): vertices, then triangles.
+#define PATCH_SUMS (2 * PATCH_SPACINGS)
+
+#endif
