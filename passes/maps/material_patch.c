@@ -47,15 +47,15 @@ void passes_material_patch_point(const material_patch_place *place, uint32_t i, 
     point[1] = place->top + i / place->columns + 0.5 + TEXEL_POINT;
 }
 
-bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
-                                uint32_t index, material_patch *patch) {
+bool passes_material_patch_read(const device_material *material, uint32_t index,
+                                material_patch *patch) {
     const material_patch_place at = passes_material_patch_place(material, index);
     patch->count = 0;
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
         passes_material_patch_point(&at, i, point);
-        uint32_t count = passes_material_lobes_read(scene, material, point[0], point[1],
-                                                    &patch->lobes[patch->count]);
+        uint32_t count =
+            passes_material_lobes_read(material, point[0], point[1], &patch->lobes[patch->count]);
         if (count == 0)
             return false;
         patch->count += count;

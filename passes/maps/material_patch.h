@@ -24,8 +24,8 @@ material_patch_place passes_material_patch_place(const device_material *material
 void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]);
 
 /// Patch `index` of MATERIAL_PATCHES. False if a map has a format that the host does not read.
-bool passes_material_patch_read(const lobe_scene *scene, const device_material *material,
-                                uint32_t index, material_patch *patch);
+bool passes_material_patch_read(const device_material *material, uint32_t index,
+                                material_patch *patch);
 
 /// The sum of all lobes at a unit direction.
 double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]);

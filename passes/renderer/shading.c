@@ -193,6 +193,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     const device_instance *drawn = &scene->instances[batch->instance];
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
+    passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
     const uint32_t *of_type = d->lights->of_type;
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
     passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/upload/heights/height_normals.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
@@ -104,6 +105,57 @@ static void find_metal(const device_scene *scene, device_material *material) {
         material->metallic *= metal->value;
 }
 
+/// Makes the normals of the material's height map, and their texture.
+static lobe_result make_height_normals(device_scene *scene, device_material *material,
+                                       const lobe_host *host) {
+    const lobe_material *source = material->material;
+    const lobe_scene_image *heights = &scene->scene->images[source->height_map.image];
+    lobe_image_free(&material->height_normal_texels);
+    lobe_result status =
+        passes_scene_check_image(scene->scene, (size_t)source->height_map.image, NULL, host);
+    if (status == LOBE_OK)
+        status = passes_height_normals_make(heights, &source->height_map, source->height_scale,
+                                            host, &material->height_normal_texels);
+    if (status != LOBE_OK)
+        return status;
+    if (lobe_texture_takes(material->height_normals, &material->height_normal_texels))
+        return lobe_texture_update(material->height_normals, &material->height_normal_texels);
+    lobe_texture_destroy(&material->height_normals);
+    return lobe_graph_create_texture(
+        scene->graph,
+        &(lobe_texture_parameters){.name = heights->name, .image = &material->height_normal_texels},
+        &material->height_normals);
+}
+
+static void drop_height_normals(device_material *material) {
+    lobe_texture_destroy(&material->height_normals);
+    lobe_image_free(&material->height_normal_texels);
+}
+
+/// The image of a map on the device, and what is known of it.
+static lobe_result upload_map(device_scene *scene, device_material *material, uint32_t map,
+                              const lobe_texture_use *use, const lobe_host *host) {
+    const bool derived =
+        map == MAP_NORMAL && passes_has_height_normals(scene->scene, material->material);
+    lobe_result status = derived ? make_height_normals(scene, material, host)
+                                 : passes_device_scene_upload_image(scene, use->image, host);
+    if (status != LOBE_OK)
+        return status;
+    const lobe_scene_image *source = &scene->scene->images[use->image];
+    const lobe_image *image = derived ? &material->height_normal_texels : &source->image;
+    float first[4];
+    material->maps[map] =
+        (device_map){.use = use,
+                     .image = use->image,
+                     .width = image->width,
+                     .height = image->height,
+                     .format = image->format,
+                     .normals = derived ? LOBE_NORMALS_SIGNED_XY : source->normals,
+                     .readable = passes_image_texel(image, 0, 0, first),
+                     .texels = image};
+    return LOBE_OK;
+}
+
 static lobe_result find_maps(device_scene *result, device_material *material,
                              const lobe_host *host) {
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
@@ -111,18 +163,9 @@ static lobe_result find_maps(device_scene *result, device_material *material,
             passes_material_map_use(result->scene, material->material, map);
         if (!use)
             continue;
-        lobe_result status = passes_device_scene_upload_image(result, use->image, host);
+        lobe_result status = upload_map(result, material, map, use, host);
         if (status != LOBE_OK)
             return status;
-        const lobe_image *image = &result->scene->images[use->image].image;
-        float first[4];
-        material->maps[map] = (device_map){.use = use,
-                                           .image = use->image,
-                                           .width = image->width,
-                                           .height = image->height,
-                                           .format = image->format,
-                                           .normals = result->scene->images[use->image].normals,
-                                           .readable = passes_image_texel(image, 0, 0, first)};
         material->map_bits |= 1u << map;
         if (use->texture_coordinates)
             material->second_coordinates |= 1u << map;
@@ -196,6 +239,8 @@ static bool is_same_map(const device_map *a, const device_map *b) {
 /// Whether the material has the lobes that it had, apart from other texels in its maps.
 static bool keeps_lobes(const device_scene *scene, const device_material *before,
                         const device_material *after) {
+    if (after->height_normals && before->height_scale != after->height_scale)
+        return false;
     for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (!is_same_map(&before->maps[map], &after->maps[map]))
             return false;
@@ -220,11 +265,15 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .constants = before.constants,
         .map_constants = before.map_constants,
         .values = before.values,
+        .height_normals = before.height_normals,
+        .height_normal_texels = before.height_normal_texels,
         .height = source->height_map,
         .height_scale = source->height_scale,
         .version = before.version,
         .parameter_version = before.parameter_version};
     memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);
+    if (!passes_has_height_normals(scene->scene, source))
+        drop_height_normals(material);
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);

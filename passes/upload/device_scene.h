@@ -16,7 +16,8 @@ typedef struct device_map {
     uint32_t width, height;      ///< texels
     lobe_format format;
     lobe_normal_encoding normals;
-    bool readable; ///< by the host
+    bool readable;            ///< by the host
+    const lobe_image *texels; ///< in host memory, as far as there are any
 } device_map;
 
 /// The third channel of an image's texels: metal, where a material uses it so.
@@ -40,7 +41,11 @@ typedef struct device_material {
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
     uint32_t first_instance;     ///< 1 + index of the first that has it; 0: none
-    lobe_texture_use height;     ///< a copy of the height map's: not read by shading
+    /// Normals made from the height map (passes/upload/heights/), in place of a normal map; NULL:
+    /// none.
+    lobe_texture *height_normals;
+    lobe_image height_normal_texels;
+    lobe_texture_use height; ///< a copy of the height map's: not read by shading
     float height_scale;
     bool metallic_varies; ///< the width map determines where the material is metal
     float metallic;       ///< its metallic factor, times the map's where that is constant

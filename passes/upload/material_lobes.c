@@ -44,9 +44,8 @@ static bool add_texel(const lobe_image *image, const lobe_texture_use *use, int6
 }
 
 /// A map's value at texture coordinates, as its sampler gives it.
-static bool sample_map(const lobe_scene *scene, const device_map *map, double u, double v,
-                       double value[4]) {
-    const lobe_image *image = &scene->images[map->use->image].image;
+static bool sample_map(const device_map *map, double u, double v, double value[4]) {
+    const lobe_image *image = map->texels;
     double x = u * image->width, y = v * image->height;
     memset(value, 0, 4 * sizeof *value);
     if (map->use->nearest)
@@ -71,11 +70,10 @@ static void decode_normal(lobe_normal_encoding encoding, const double value[4], 
         normal[2] = sqrt(fmax(0, 1 - normal[0] * normal[0] - normal[1] * normal[1]));
 }
 
-static bool sample_normal(const lobe_scene *scene, const device_material *material, double u,
-                          double v, double normal[3]) {
+static bool sample_normal(const device_material *material, double u, double v, double normal[3]) {
     double value[4] = {0.5, 0.5, 1, 1};
     const device_map *map = &material->maps[MAP_NORMAL];
-    if (map->use && !sample_map(scene, map, u, v, value))
+    if (map->use && !sample_map(map, u, v, value))
         return false;
     double scale[3] = {(double)material->material->normal_scale,
                        (double)material->material->normal_scale, 1};
@@ -129,16 +127,14 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
     return count;
 }
 
-uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
-                                    double x, double y,
+uint32_t passes_material_lobes_read(const device_material *material, double x, double y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
     bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_grid grid = passes_lobe_grid(material);
     double u = x / grid.width, v = y / grid.height;
     double normal[3], widths[4] = {1, 1, 1, 1};
-    if (!sample_normal(scene, material, u, v, normal) ||
-        (material->maps[MAP_WIDTH].use &&
-         !sample_map(scene, &material->maps[MAP_WIDTH], u, v, widths)))
+    if (!sample_normal(material, u, v, normal) ||
+        (material->maps[MAP_WIDTH].use && !sample_map(&material->maps[MAP_WIDTH], u, v, widths)))
         return 0;
     return passes_material_lobes_of(material->material, normal, widths[microfacet ? 1 : 0], lobes);
 }

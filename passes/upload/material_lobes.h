@@ -23,8 +23,7 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
 /// texels if the maps' samplers do so. Returns their number, at most LOBE_MATERIAL_MAXIMUM_LOBES; 0
 /// if a map has a format that the host does not read. `x`, `y`: texels of the material's lobe_grid,
 /// from its upper left corner; the centre of the first texel is at 0.5.
-uint32_t passes_material_lobes_read(const lobe_scene *scene, const device_material *material,
-                                    double x, double y,
+uint32_t passes_material_lobes_read(const device_material *material, double x, double y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
 
 /// As rotate_from_pole in shaders/lib/lobe/half_vector_lobe.glsl, above the equator.

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/upload/heights/height_normals.h"
+
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
@@ -12,7 +14,8 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
         use = &material->base_colour_map;
         break;
     case MAP_NORMAL:
-        use = &material->normal_map;
+        use = passes_has_height_normals(scene, material) ? &material->height_map
+                                                         : &material->normal_map;
         break;
     case MAP_WIDTH:
         use = microfacet ? &material->metallic_roughness_map : &material->width_map;
@@ -34,6 +37,8 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;
+    if (map == MAP_NORMAL && material->height_normals)
+        return lobe_graph_import_texture(graph, material->height_normals);
     if (use && scene->scene->images[use->image].on_device)
         return scene->given[use->image];
     return lobe_graph_import_texture(graph, use ? scene->images[use->image] : scene->white);

@@ -5,23 +5,21 @@
 
 #include "passes/upload/material_maps.h"
 
-static const lobe_image *image_of(const lobe_scene *scene, const device_material *material,
-                                  uint32_t map) {
-    const lobe_texture_use *use = material->maps[map].use;
-    return use ? &scene->images[use->image].image : NULL;
+static const lobe_image *image_of(const device_material *material, uint32_t map) {
+    return material->maps[map].use ? material->maps[map].texels : NULL;
 }
 
-bool passes_material_rows_are_readable(const lobe_scene *scene, const device_material *material) {
+bool passes_material_rows_are_readable(const device_material *material) {
     float texel[4];
     for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; map++) {
-        const lobe_image *image = image_of(scene, material, map);
+        const lobe_image *image = image_of(material, map);
         if (image && !passes_image_texel(image, 0, 0, texel))
             return false;
     }
     return true;
 }
 
-material_rows *passes_material_rows_create(const lobe_allocator *allocator, const lobe_scene *scene,
+material_rows *passes_material_rows_create(const lobe_allocator *allocator,
                                            const device_material *material) {
     const lobe_grid grid = passes_lobe_grid(material);
     enum { ARRAYS = 5 };
@@ -29,8 +27,8 @@ material_rows *passes_material_rows_create(const lobe_allocator *allocator, cons
         allocator, 1, sizeof *rows + (size_t)ARRAYS * grid.width * sizeof *rows->data);
     if (!rows)
         return NULL;
-    rows->normals = image_of(scene, material, MAP_NORMAL);
-    rows->widths = image_of(scene, material, MAP_WIDTH);
+    rows->normals = image_of(material, MAP_NORMAL);
+    rows->widths = image_of(material, MAP_WIDTH);
     rows->width = grid.width;
     rows->height = grid.height;
     rows->encoding = material->maps[MAP_NORMAL].normals;

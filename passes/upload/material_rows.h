@@ -18,10 +18,10 @@ typedef struct material_rows {
 } material_rows;
 
 /// Whether the host can read the formats of the material's normal and width map.
-bool passes_material_rows_are_readable(const lobe_scene *scene, const device_material *material);
+bool passes_material_rows_are_readable(const device_material *material);
 
 /// For a material whose rows are readable. NULL: out of memory. Freed with lobe_release.
-material_rows *passes_material_rows_create(const lobe_allocator *allocator, const lobe_scene *scene,
+material_rows *passes_material_rows_create(const lobe_allocator *allocator,
                                            const device_material *material);
 
 /// Reads row `y` of the grid: normals and factors as passes_material_lobes_read has them.

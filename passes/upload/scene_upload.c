@@ -113,6 +113,8 @@ void passes_device_scene_destroy(device_scene **scene) {
     for (size_t i = 0; s->materials && i < s->scene->material_count; i++) {
         lobe_buffer_destroy(&s->materials[i].constants);
         lobe_buffer_destroy(&s->materials[i].map_constants);
+        lobe_texture_destroy(&s->materials[i].height_normals);
+        lobe_image_free(&s->materials[i].height_normal_texels);
     }
     for (size_t i = 0; s->vertices && s->indices && i < s->scene->mesh_count; i++) {
         lobe_buffer_destroy(&s->vertices[i]);

@@ -28,6 +28,7 @@
 #define SPECIALISE_INTERPOLATED SPECIALISE(12)
 #define SPECIALISE_MASKING      SPECIALISE(13) // uint, DISTRIBUTION_... whose masking is used
 #define SPECIALISE_NORMALS      SPECIALISE(14) // uint, NORMALS_...: how the normal map has them
+#define SPECIALISE_DISPLACED    SPECIALISE(15) // bool: the geometry is that of a height map
 // The lights.
 #define SPECIALISE_DIRECTIONAL_LIGHTS SPECIALISE(16) // bool
 #define SPECIALISE_POINT_LIGHTS       SPECIALISE(17) // bool

@@ -120,10 +120,15 @@ mapped_facet facet_of_base(base_material base) {
                         widened_width(base), TURN_OF_FACET);
 }
 
-// Reflectance times cosine, for unit directions in the tangent frame. No light arrives from below
-// the macro-surface. `mean_normal` is used for the Lambert part, as in evaluate_microfacets.
+// Whether light from a direction can arrive at all. The plane of the frame is no horizon of
+// displaced triangles, which face any direction.
+bool arrives(vec3 incoming) {
+    return DISPLACED || incoming.z > 0.0;
+}
+
+// Reflectance times cosine, for unit directions in the tangent frame. `mean_normal` is used for the Lambert part, as in evaluate_microfacets.
 vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
-    if (incoming.z <= 0.0)
+    if (!arrives(incoming))
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, outgoing);
     if (MODEL == MODEL_MICROFACET) {

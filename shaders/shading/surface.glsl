@@ -34,6 +34,7 @@ layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 layout(constant_id = SPECIALISE_CURVATURE) const bool CURVATURE = false;
+layout(constant_id = SPECIALISE_DISPLACED) const bool DISPLACED = false;
 
 layout(LOBE_DESCRIPTOR(10), std140) uniform knob_block { shared_knobs knobs; };
 layout(LOBE_DESCRIPTOR(3), std140) uniform material_block { material_constants material; };

@@ -80,12 +80,11 @@ static void add_errors(const material_patch *source, uint32_t clusters, double e
     }
 }
 
-uint32_t passes_subdivision_choose(const lobe_scene *scene, const device_material *material,
-                                   uint32_t clusters) {
+uint32_t passes_subdivision_choose(const device_material *material, uint32_t clusters) {
     double errors[3] = {0};
     material_patch source;
     for (uint32_t i = 0; i < MATERIAL_PATCHES; i++) {
-        if (!passes_material_patch_read(scene, material, i, &source))
+        if (!passes_material_patch_read(material, i, &source))
             return 2;
         add_errors(&source, clusters, errors);
     }

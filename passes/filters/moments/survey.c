@@ -266,9 +266,8 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
     }
 }
 
-static surveying *begin(const lobe_allocator *allocator, const lobe_scene *scene,
-                        const device_material *material) {
-    material_rows *rows = passes_material_rows_create(allocator, scene, material);
+static surveying *begin(const lobe_allocator *allocator, const device_material *material) {
+    material_rows *rows = passes_material_rows_create(allocator, material);
     if (!rows)
         return NULL;
     enum { ARRAYS = 6 };
@@ -299,9 +298,9 @@ lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_mater
     if (!survey)
         return NULL;
     survey->range = everything;
-    if (!passes_material_rows_are_readable(scene, material))
+    if (!passes_material_rows_are_readable(material))
         return survey;
-    surveying *s = begin(allocator, scene, material);
+    surveying *s = begin(allocator, material);
     if (s) {
         read_all(s);
         survey->range = range_of(s);

@@ -568,6 +568,8 @@ static void heights_are_numbers(void **state) {
     fixture *f = *state;
     lobe_scene *scene = plane_scene(1, 1, random_heights(8, 8), 0.1f, 1);
     ((float *)scene->images[0].image.texels)[20] = NAN;
+    // Without a normal map, heights are needed earlier (tests/passes/upload/test_height_normals.c).
+    scene->materials[0].normal_map = scene_add_map(scene, constant_map(1, 1, 0.5f, 0.5f, 1));
     assert_failure(f, try_drawing(f, scene), LOBE_ERROR_MALFORMED, "map");
     lobe_scene_destroy(&scene);
 }
