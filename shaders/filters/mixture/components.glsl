@@ -21,6 +21,11 @@ layout(set = 0, binding = 0) uniform sampler2DArray sample_map;
 
 layout(push_constant) uniform constants_block { mixture_fit_constants constants; };
 
+// Components that are fitted at a time: those of the map, or of which some are merged then.
+#ifndef COMPONENTS
+#define COMPONENTS BINS
+#endif
+
 const int LAYERS = BIN_COLOUR ? 3 : 2;
 
 // Less of all lobes moves no component: it stays at its place, for finer levels.
@@ -96,15 +101,15 @@ float evaluate_density(component_density density, mixture_sample lobe) {
 void find_shares(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixture_sample lobe,
                   out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
     float most = -1e30, sum = 0.0;
-    for (int j = 0; j < BINS; ++j) {
+    for (int j = 0; j < COMPONENTS; ++j) {
         shares[j] = evaluate_density(densities[j], lobe);
         most = max(most, shares[j]);
     }
-    for (int j = 0; j < BINS; ++j) {
+    for (int j = 0; j < COMPONENTS; ++j) {
         shares[j] = exp2(shares[j] - most);
         sum += shares[j];
     }
-    for (int j = 0; j < BINS; ++j)
+    for (int j = 0; j < COMPONENTS; ++j)
         shares[j] /= sum;
 }
 
@@ -113,14 +118,14 @@ void find_nearest(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixtu
                   out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
     int nearest = 0;
     float least = 1e30;
-    for (int j = 0; j < BINS; ++j) {
+    for (int j = 0; j < COMPONENTS; ++j) {
         vec3 d = lobe.place - densities[j].mean;
         if (dot(d, d) < least) {
             least = dot(d, d);
             nearest = j;
         }
     }
-    for (int j = 0; j < BINS; ++j)
+    for (int j = 0; j < COMPONENTS; ++j)
         shares[j] = j == nearest ? 1.0 : 0.0;
 }
 

@@ -23,10 +23,10 @@ const uint FAR_APART = 0, K_MEANS = 1;
 const uint ROUNDS_OF_K_MEANS = 8;
 
 const uint NUMBERS = 8; // of component_sums
-shared float own_numbers[NUMBERS * BINS][THREADS];
-shared float numbers[NUMBERS * BINS];
-shared component_density densities[BINS];
-shared mixture_component components[BINS];
+shared float own_numbers[NUMBERS * COMPONENTS][THREADS];
+shared float numbers[NUMBERS * COMPONENTS];
+shared component_density densities[COMPONENTS];
+shared mixture_component components[COMPONENTS];
 shared float keys[THREADS];
 shared uint key_samples[THREADS];
 
@@ -83,9 +83,9 @@ component_sums merged_sums(uint index) {
 // From the merged sums; a thread for each component.
 void improve_components(mixture_units units) {
     float whole = 0.0;
-    for (int j = 0; j < BINS; ++j)
+    for (int j = 0; j < COMPONENTS; ++j)
         whole += numbers[NUMBERS * j];
-    if (thread() < BINS)
+    if (thread() < COMPONENTS)
         components[thread()] =
             improved(components[thread()], merged_sums(thread()), whole, units);
     barrier();
@@ -93,12 +93,12 @@ void improve_components(mixture_units units) {
 
 // One step, by shares or by distance.
 void take_step(sampled_area area, bool nearest, mixture_units units) {
-    if (thread() < BINS)
+    if (thread() < COMPONENTS)
         densities[thread()] = density_of(components[thread()]);
     barrier();
     component_density own[MIXTURE_MAXIMUM_COMPONENTS];
     component_sums sums[MIXTURE_MAXIMUM_COMPONENTS];
-    for (int j = 0; j < BINS; ++j) {
+    for (int j = 0; j < COMPONENTS; ++j) {
         own[j] = densities[j];
         sums[j] = component_sums(vec4(0.0), vec4(0.0));
     }
@@ -109,16 +109,16 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
             find_nearest(own, lobe, shares);
         else
             find_shares(own, lobe, shares);
-        for (int j = 0; j < BINS; ++j)
+        for (int j = 0; j < COMPONENTS; ++j)
             add_share(sums[j], own[j].mean, lobe, lobe.mass * shares[j]);
     }
-    for (int j = 0; j < BINS; ++j) {
+    for (int j = 0; j < COMPONENTS; ++j) {
         for (int k = 0; k < 4; ++k) {
             own_numbers[NUMBERS * j + k][thread()] = sums[j].first[k];
             own_numbers[NUMBERS * j + 4 + k][thread()] = sums[j].second[k];
         }
     }
-    merge_sums(NUMBERS * BINS);
+    merge_sums(NUMBERS * COMPONENTS);
     improve_components(units);
 }
 
