@@ -3,7 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "passes/upload/heights/height_normals.h"
+bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *material) {
+    const int32_t index = material->height_map.image;
+    float texel[4];
+    if (material->normal_map.image >= 0 || index < 0 || material->height_scale == 0)
+        return false;
+    const lobe_scene_image *image = &scene->images[index];
+    return !image->on_device && image->image.width > 0 && image->image.height > 0 &&
+           passes_image_texel(&image->image, 0, 0, texel);
+}
 
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map) {

@@ -3,6 +3,10 @@
 
 #include "passes/upload/device_scene.h"
 
+/// Whether a material takes its normals from its height map: it has one with a factor, whose texels
+/// the host can read, and no normal map.
+bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *material);
+
 /// How a material uses a map (MAP_...); NULL: it has none, or the scene does not need it.
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map);

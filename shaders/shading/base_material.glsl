@@ -126,7 +126,8 @@ bool arrives(vec3 incoming) {
     return DISPLACED || incoming.z > 0.0;
 }
 
-// Reflectance times cosine, for unit directions in the tangent frame. `mean_normal` is used for the Lambert part, as in evaluate_microfacets.
+// Reflectance times cosine, for unit directions in the tangent frame. `mean_normal` is used for the
+// Lambert part, as in evaluate_microfacets.
 vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing, vec3 incoming) {
     if (!arrives(incoming))
         return vec3(0.0);

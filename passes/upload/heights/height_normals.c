@@ -4,16 +4,6 @@
 
 #include "passes/upload/material_maps.h"
 
-bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *material) {
-    const int32_t index = material->height_map.image;
-    float texel[4];
-    if (material->normal_map.image >= 0 || index < 0 || material->height_scale == 0)
-        return false;
-    const lobe_scene_image *image = &scene->images[index];
-    return !image->on_device && image->image.width > 0 && image->image.height > 0 &&
-           passes_image_texel(&image->image, 0, 0, texel);
-}
-
 static double height_at(const lobe_image *image, uint32_t x, uint32_t y) {
     float texel[4];
     if (!passes_image_texel(image, x, y, texel) || !(texel[0] > 0))

@@ -3,10 +3,6 @@
 
 #include <lobe/scene.h>
 
-/// Whether a material takes its normals from its height map: it has one with a factor, whose texels
-/// the host can read, and no normal map.
-bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *material);
-
 /// The normals of a height map's surface, whose map is as wide in the world as u grows by 1, and
 /// whose texels are square: at each texel those of the mean slope towards both neighbours
 /// (LOBE_NORMALS_SIGNED_XY, RG16_SNORM). The map's own values are read between 0 and 1.
