@@ -269,12 +269,14 @@ void passes_displacement(displacement *state, const filter_context *context, dev
     scene->displaced_reach = 0;
     if (!state || !passes_displacement_wanted(context))
         return;
+    const double spacing = spacing_of(context, cpu);
+    scene->displaced_spacing = (float)spacing;
     memset(state->geometry, 0, state->instance_room * sizeof *state->geometry);
     memset(state->heights, 0, scene->scene->image_count * sizeof *state->heights);
     for (size_t i = 0; i < state->mesh_count; i++)
         state->meshes[i].posed = (lobe_resource){0};
     for (size_t i = 0; i < scene->instance_count; i++)
         if (!scene->scene->instances[i].hidden && state->instances[i].displaced)
-            displace(state, context, scene, i, spacing_of(context, cpu));
+            displace(state, context, scene, i, spacing);
     scene->displaced = state->geometry;
 }

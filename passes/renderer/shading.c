@@ -110,7 +110,9 @@ shading_light passes_shading_light_prepare(const filter_context *context,
 struct frame_constants passes_frame_constants(const filter_context *context,
                                               const shading_sample *sample, uint32_t width,
                                               uint32_t height) {
-    struct frame_constants frame = {.footprint = sample->footprint, .dither = sample->dither};
+    struct frame_constants frame = {.footprint = sample->footprint,
+                                    .dither = sample->dither,
+                                    .vertex_spacing = context->scene->displaced_spacing};
     float minimum[3], maximum[3];
     mat4 matrix;
     passes_drawn_bounds(context->scene, minimum, maximum);

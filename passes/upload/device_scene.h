@@ -112,6 +112,7 @@ typedef struct device_scene {
     /// One for each instance, in this frame. NULL: none is displaced.
     const displaced_geometry *displaced;
     float displaced_reach;     ///< how far displaced surfaces can be from their meshes, metres
+    float displaced_spacing;   ///< of displaced vertices, pixels
     lobe_texture *environment; ///< its image; NULL: none
     device_material *materials;
     lobe_buffer **vertices;           ///< one for each mesh; NULL: not used, or given by the host

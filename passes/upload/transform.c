@@ -23,5 +23,6 @@ bool passes_transform_keeps_angles(const float transform[16]) {
 
 double passes_transform_stretch(const float transform[16]) {
     const float *x = transform, *y = transform + 4, *z = transform + 8;
-    return sqrt(dot(x, x) + dot(y, y) + dot(z, z));
+    return passes_transform_keeps_angles(transform) ? 1.001 * sqrt(dot(x, x))
+                                                    : sqrt(dot(x, x) + dot(y, y) + dot(z, z));
 }

@@ -14,7 +14,8 @@ double passes_transform_determinant(const float transform[16]);
 /// the mesh can be rotated into the world's.
 bool passes_transform_keeps_angles(const float transform[16]);
 
-/// At least the factor by which the linear part stretches any length (its Frobenius norm).
+/// The factor by which the linear part stretches lengths; where they differ, a bound (its Frobenius
+/// norm).
 double passes_transform_stretch(const float transform[16]);
 
 #endif

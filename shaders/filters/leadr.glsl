@@ -33,18 +33,43 @@ float height_scale() {
 struct footprint_lobe {
     slope_distribution facets; // texels' slopes: facets of the Lambert part
     slope_distribution slopes; // base lobes included: facets that mirror
+    // The same, as far as they mask each other and decide how large the surface is that is seen.
+    slope_distribution masking_facets, masking_slopes;
 };
 
 #include "shading/slope_appearance.glsl"
 #include "shading/slope_reflection.glsl"
 
+// Of base lobes, over the surface's plane.
+vec3 base_covariance(slope_moments moments) {
+    return BASE_PLANE == BASE_PLANE_FACETS
+               ? flat_covariance_of_tilted(moments.mean, moments.base_variance)
+               : vec3(moments.base_variance, moments.base_variance, 0.0);
+}
+
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     moments = fetch_moments(area, surface);
-    vec3 base = BASE_PLANE == BASE_PLANE_FACETS
-                    ? flat_covariance_of_tilted(moments.mean, moments.base_variance)
-                    : vec3(moments.base_variance, moments.base_variance, 0.0);
-    return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
-                          slope_distribution_of(moments.mean, moments.covariance + base));
+    slope_distribution facets = slope_distribution_of(moments.mean, moments.covariance);
+    slope_distribution slopes =
+        slope_distribution_of(moments.mean, moments.covariance + base_covariance(moments));
+    return footprint_lobe(facets, slopes, facets, slopes);
+}
+
+// Displaced triangles hide each other by themselves, and what is seen is the area of a triangle.
+// Only the relief between their vertices is left to mask: slopes about the triangle's own, with the
+// covariance of the level whose texels are as large as vertices are apart. The distribution of
+// normals stays the footprint's. (The paper takes the footprint's for both: what is larger than a
+// pixel and smaller than a triangle then masks nothing.) Where a pixel is as large as triangles,
+// the footprint's own mean and covariance hold: blended over one level.
+void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+                       surface_point surface) {
+    float level = level_of_vertices(surface);
+    float share = clamp(level - area.level, 0.0, 1.0);
+    slope_moments between = fetch_level(area.centre, level, surface);
+    vec2 mean = mix(moments.mean, surface.drawn_slope, share);
+    vec3 covariance = mix(moments.covariance, between.covariance, share);
+    lobe.masking_facets = slope_distribution_of(mean, covariance);
+    lobe.masking_slopes = slope_distribution_of(mean, covariance + base_covariance(moments));
 }
 
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
@@ -52,13 +77,13 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!DIFFUSE || CLOSED)
         return;
-    float height = height_above_slope(fetched.moments.mean, surface.outgoing);
+    float height = height_above_slope(fetched.lobe.masking_facets.mean, surface.outgoing);
     fetched.gathered =
         facet_sums(fetched.lobe.facets, surface.outgoing, incoming) / max(height, COSINE_MINIMUM);
 }
 
 vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
-    float visible = masking_shadowing_of_slopes(fetched.lobe.facets, incoming, outgoing);
+    float visible = masking_shadowing_of_slopes(fetched.lobe.masking_facets, incoming, outgoing);
     return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
                               visible * fetched.gathered[light]);
 }
@@ -66,8 +91,8 @@ vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incomi
 // Eq. 17.
 vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
     return microfacet_specular(fresnel, distribution_of_slopes(lobe.slopes, halfway),
-                               masking_shadowing_of_slopes(lobe.slopes, incoming, outgoing),
-                               height_above_slope(lobe.slopes.mean, outgoing));
+                               masking_shadowing_of_slopes(lobe.masking_slopes, incoming, outgoing),
+                               height_above_slope(lobe.masking_slopes.mean, outgoing));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -185,10 +210,11 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
 // Algorithm 1. Each sample reads the mean over as far as neighbours are apart in the direction in
 // which they are furthest apart, so that no light falls between them (section 5.2; the paper takes
 // the larger of the two axes' deviations, which is less where slopes vary most along a diagonal).
-vec3 sampled_slopes(surface_point surface, slope_distribution slopes, vec3 f0) {
+vec3 sampled_slopes(surface_point surface, slope_distribution slopes, slope_distribution masking,
+                    vec3 f0) {
     float spacing = grid_spacing();
     float area = spacing * spacing * largest_variance(slopes);
-    float height = height_above_slope(slopes.mean, surface.outgoing);
+    float height = height_above_slope(masking.mean, surface.outgoing);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
@@ -199,7 +225,7 @@ vec3 sampled_slopes(surface_point surface, slope_distribution slopes, vec3 f0) {
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
             float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
-                         masking_shadowing_of_slopes(slopes, incoming, surface.outgoing);
+                         masking_shadowing_of_slopes(masking, incoming, surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -221,7 +247,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     if (CLOSED)
         return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
-        return sampled_slopes(surface, slopes, frame.specular);
+        return sampled_slopes(surface, slopes, fetched.lobe.masking_slopes, frame.specular);
     return reflect_masked_slopes(surface, half_vectors, frame.specular);
 }
 
@@ -240,8 +266,9 @@ vec3 lambert_slopes(appearance fetched, surface_point surface) {
         }
     }
     float row = grid_weight();
-    float height = height_above_slope(facets.mean, surface.outgoing);
-    float visible = height > 0.0 ? 1.0 / (1.0 + lambda_of_slopes(facets, surface.outgoing)) : 0.0;
+    slope_distribution masking = fetched.lobe.masking_facets;
+    float height = height_above_slope(masking.mean, surface.outgoing);
+    float visible = height > 0.0 ? 1.0 / (1.0 + lambda_of_slopes(masking, surface.outgoing)) : 0.0;
     return let_through(surface, fetched.filtered) * sum *
            (visible / (row * row * max(height, COSINE_MINIMUM)));
 }

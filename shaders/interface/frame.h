@@ -12,10 +12,10 @@ struct frame_constants {
     uint directional_count;   // lights are sorted: directional, point, spot
     uint point_count;
     uint spot_count;
-    float footprint;  // side of the square that a sample stands for, pixels
-    float dither;     // [0, 1): added to the thresholds of masks, another one for each sample
-    uint first_light; // of this pass
-    uint padding_0;
+    float footprint;      // side of the square that a sample stands for, pixels
+    float dither;         // [0, 1): added to the thresholds of masks, another one for each sample
+    uint first_light;     // of this pass
+    float vertex_spacing; // of displaced geometry, pixels
     uint padding_1;
 };
 INTERFACE_SIZE(frame_constants, 192)
@@ -28,5 +28,6 @@ INTERFACE_OFFSET(frame_constants, spot_count, 168)
 INTERFACE_OFFSET(frame_constants, footprint, 172)
 INTERFACE_OFFSET(frame_constants, dither, 176)
 INTERFACE_OFFSET(frame_constants, first_light, 180)
+INTERFACE_OFFSET(frame_constants, vertex_spacing, 184)
 
 #endif

@@ -34,6 +34,15 @@ float view_depth() {
     return dot(frame.axis.xyz, interpolated_position) - frame.axis.w;
 }
 
+// The slope of the triangle, which faces the viewer, over the plane of the tangent frame. A steep
+// triangle of a surface whose normals are interpolated may lean over: it counts as upright.
+vec2 triangle_slope(surface_point surface) {
+    vec3 normal = normalize(cross(dFdx(interpolated_position), dFdy(interpolated_position)) *
+                            surface.world_from_tangent);
+    normal = dot(normal, surface.outgoing) < 0.0 ? -normal : normal;
+    return -normal.xy / max(normal.z, 0.02);
+}
+
 surface_point read_surface() {
     surface_point surface;
     mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
@@ -55,6 +64,12 @@ surface_point read_surface() {
     surface.pixel = uvec2(gl_FragCoord.xy);
     surface.depth = view_depth();
     surface.dither = frame.dither;
+    surface.drawn_slope = vec2(0.0);
+    surface.vertex_spacing = 0.0;
+    if (DISPLACED) {
+        surface.drawn_slope = triangle_slope(surface);
+        surface.vertex_spacing = frame.vertex_spacing / frame.footprint;
+    }
     return surface;
 }
 

@@ -7,6 +7,8 @@
 //   struct footprint_lobe                         what its lobe is made of
 //   footprint_lobe fetch_lobe(map_area, surface_point, out slope_moments)
 //                                                 and the moments of all slopes
+//   void mask_by_triangles(inout footprint_lobe, slope_moments, map_area, surface_point)
+//                                                 for displaced geometry
 //   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
 //                                                 like gather_lights and evaluate_appearance
@@ -29,6 +31,8 @@ struct appearance {
 };
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments);
+void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+                       surface_point surface);
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
@@ -49,6 +53,8 @@ appearance fetch_appearance(surface_point surface) {
         result.level = area.level;
         result.base_share = may_see_level_0(lobe_map()) ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
         result.lobe = fetch_lobe(area, surface, result.moments);
+        if (DISPLACED)
+            mask_by_triangles(result.lobe, result.moments, area, surface);
         result.normal = normal_of_slope(result.moments.mean);
     } else {
         result.normal = scaled_normal(unfiltered_normal(surface));
@@ -75,7 +81,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     if (!FILTERED_LOBES)
         return evaluate_base_material(fetched.filtered, surface.outgoing, incoming);
-    if (incoming.z <= 0.0)
+    if (!arrives(incoming))
         return vec3(0.0);
     vec3 sum = evaluate_footprint(fetched, surface.outgoing, incoming, light);
     if (may_see_level_0(lobe_map()))

@@ -40,9 +40,7 @@ vec3 scaled_normal(vec3 normal) {
 //
 // The covariance of the surface's own curvature is added: slopes about the normal are differences
 // of normals.
-slope_moments fetch_moments(map_area area, surface_point surface) {
-    vec4 first = filtered_layer(moment_map, area, SLOPE_LAYER_FIRST);
-    vec4 second = filtered_layer(moment_map, area, SLOPE_LAYER_SECOND);
+slope_moments moments_of_layers(vec4 first, vec4 second, surface_point surface) {
     float height = height_scale();
     slope_moments result;
     result.mean = height * first.xy;
@@ -51,6 +49,29 @@ slope_moments fetch_moments(map_area area, surface_point surface) {
     result.mean_cosine = first.z;
     result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
     return result;
+}
+
+slope_moments fetch_moments(map_area area, surface_point surface) {
+    return moments_of_layers(filtered_layer(moment_map, area, SLOPE_LAYER_FIRST),
+                             filtered_layer(moment_map, area, SLOPE_LAYER_SECOND), surface);
+}
+
+// The level whose texels are as large as vertices of displaced geometry are apart: of the pixel's
+// width, as its length is that of the triangle's tilt.
+float level_of_vertices(surface_point surface) {
+    int map = lobe_map();
+    vec2 size = lobe_map_size();
+    footprint pixel = footprint_of(map_coordinates(map, surface.coordinates_dx, 0.0) * size,
+                                   map_coordinates(map, surface.coordinates_dy, 0.0) * size);
+    return max(log2(max(surface.vertex_spacing * pixel.minor_axis, 1.0)), 0.0);
+}
+
+// Moments over a square of a level.
+slope_moments fetch_level(vec2 centre, float level, surface_point surface) {
+    float fetched = max(level - 1.0, 0.0);
+    return moments_of_layers(textureLod(moment_map, vec3(centre, SLOPE_LAYER_FIRST), fetched),
+                             textureLod(moment_map, vec3(centre, SLOPE_LAYER_SECOND), fetched),
+                             surface);
 }
 
 #endif

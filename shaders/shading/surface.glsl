@@ -61,6 +61,9 @@ struct surface_point {
     // Of masked materials, which keep a share of the pixels that see them:
     float depth;  // along the view, metres
     float dither; // [0, 1): another one for each sample of the pixel
+    // Of displaced geometry (DISPLACED):
+    vec2 drawn_slope;     // of the triangle that is seen, over the plane of the frame
+    float vertex_spacing; // how far vertices are apart, in widths of the sample
 };
 
 bool has_map(int map) {

@@ -144,6 +144,7 @@ static known_member known[] = {
     MEMBER(frame_constants, footprint, 7),
     MEMBER(frame_constants, dither, 8),
     MEMBER(frame_constants, first_light, 9),
+    MEMBER(frame_constants, vertex_spacing, 10),
     MEMBER(joint_influence, joint, 0),
     MEMBER(joint_influence, weight, 1),
     MEMBER(morph_delta, target, 0),
