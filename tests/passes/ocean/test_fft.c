@@ -115,6 +115,7 @@ static void check(fixture *f, fft_form form) {
             compare(values, found, size, i / 2, i % 2);
         free(values);
     }
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
 }
 
 static void steps_through_memory_are_exact(void **state) {
@@ -151,5 +152,5 @@ int main(void) {
         cmocka_unit_test(steps_through_memory_are_exact),
         cmocka_unit_test(steps_in_groups_are_exact),
     };
-    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }

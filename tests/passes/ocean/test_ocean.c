@@ -198,7 +198,7 @@ static void slopes_of(const float *maps, uint32_t size, uint32_t layer, double c
 }
 
 // Of four seas; Parseval's theorem says that texels have what amplitudes have (see test_layer.c).
-static void slopes_are_those_of_the_amplitudes(void **state) {
+static void variances_are_those_of_the_amplitudes(void **state) {
     lobe_ocean_parameters parameters = parameters_of(128);
     const sea sea = passes_sea(&parameters);
     float *amplitudes = calloc((size_t)2 * 128 * 128, sizeof *amplitudes);
@@ -207,21 +207,49 @@ static void slopes_are_those_of_the_amplitudes(void **state) {
         for (uint32_t i = 0; i < parameters.layers; i++) {
             const ocean_layer layer = passes_ocean_layer(&parameters, i);
             passes_ocean_layer_amplitudes(&layer, &sea, amplitudes);
-            double found[3], heights = 0, expected = 0;
+            double found[3], heights = 0, expected = 0, slopes = 0;
             slopes_of(maps, 128, i, found);
             for (uint32_t y = 0; y < 128; y++)
                 for (uint32_t x = 0; x < 128; x++) {
                     heights += pow(channel(maps, 128, i, x, y, 0), 2) / 128 / 128;
                     const size_t at = 2 * (y * 128 + x);
-                    expected += 2 * (pow(amplitudes[at], 2) + pow(amplitudes[at + 1], 2));
+                    const double n = x < 64 ? x : x - 128.0, m = y < 64 ? y : y - 128.0;
+                    const double part = 2 * (pow(amplitudes[at], 2) + pow(amplitudes[at + 1], 2));
+                    expected += part;
+                    slopes += part * (n * n + m * m) * pow(2 * PI / layer.length, 2);
                 }
-            // Waves of opposite directions interfere, though those against the wind have no height.
             assert_true(fabs(heights / expected - 1) < 1e-5);
-            assert_true(found[0] > 0 && found[1] > 0);
+            assert_true(fabs((found[0] + found[1]) / slopes - 1) < 1e-5);
         }
         free(maps);
     }
     free(amplitudes);
+}
+
+// lobe_ocean_measure says what linear waves have: the slopes of the moved surface, each as often as
+// its place is seen, have nearly the same variance.
+static void choppiness_hardly_changes_slopes(void **state) {
+    const lobe_ocean_parameters parameters = parameters_of(256);
+    float *maps = maps_of(*state, &parameters, 3);
+    for (uint32_t layer = 0; layer < parameters.layers; layer++) {
+        double moved = 0, linear = 0, total = 0;
+        for (uint32_t y = 0; y < 256; y++)
+            for (uint32_t x = 0; x < 256; x++) {
+                double v[CHANNELS];
+                for (uint32_t i = 0; i < CHANNELS; i++)
+                    v[i] = channel(maps, 256, layer, x, y, i);
+                const double area = (1 + v[6]) * (1 + v[7]) - v[3] * v[3];
+                const double sx = (1 + v[7]) * v[4] - v[3] * v[5],
+                             sy = (1 + v[6]) * v[5] - v[3] * v[4];
+                assert_true(area > 0);
+                moved += (sx * sx + sy * sy) / area;
+                linear += v[4] * v[4] + v[5] * v[5];
+                total += area;
+            }
+        if (!(fabs(moved / total / (linear / 65536) - 1) < 0.05))
+            fail_msg("layer %u: %g of %g", layer, moved / total, linear / 65536);
+    }
+    free(maps);
 }
 
 // Points move towards crests, and are closer together there; choppiness scales how far.
@@ -302,7 +330,8 @@ int main(void) {
         cmocka_unit_test(waves_travel_as_they_should),
         cmocka_unit_test(waves_repeat_to_the_bit),
         cmocka_unit_test(same_time_runs_nothing),
-        cmocka_unit_test(slopes_are_those_of_the_amplitudes),
+        cmocka_unit_test(variances_are_those_of_the_amplitudes),
+        cmocka_unit_test(choppiness_hardly_changes_slopes),
         cmocka_unit_test(crests_are_sharp),
         cmocka_unit_test(extremes_have_numbers),
         cmocka_unit_test(nonsense_fails_in_one_line),
