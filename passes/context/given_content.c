@@ -128,18 +128,24 @@ static void check_waves(const filter_context *context, uint32_t index) {
 // ---------------------------------------------------------------------------------------------
 // All
 
-static void take_images(const filter_context *context, const lobe_given_content *content,
-                        lobe_content_giver give, void *giver) {
+/// Those of images and waves.
+static void take_maps(const filter_context *context, const lobe_given_content *content,
+                      lobe_content_giver give, void *giver) {
     const device_scene *scene = context->scene;
     memset(scene->given, 0, scene->scene->image_count * sizeof *scene->given);
+    memset(scene->given_waves, 0, scene->scene->material_count * sizeof *scene->given_waves);
     if (give)
         give(giver, context->graph, content);
     for (uint32_t i = 0; i < scene->scene->image_count; i++)
         check_image(context, i);
+    for (uint32_t i = 0; i < scene->scene->material_count; i++)
+        check_waves(context, i);
 }
 
-void passes_given_images_take(const filter_context *context, lobe_content_giver give, void *giver) {
-    take_images(context, &(lobe_given_content){.images = context->scene->given}, give, giver);
+void passes_given_maps_take(const filter_context *context, lobe_content_giver give, void *giver) {
+    const lobe_given_content content = {.images = context->scene->given,
+                                        .waves = context->scene->given_waves};
+    take_maps(context, &content, give, giver);
 }
 
 void passes_given_content_take(const filter_context *context, lobe_content_giver give,
@@ -148,12 +154,9 @@ void passes_given_content_take(const filter_context *context, lobe_content_giver
     const size_t meshes = scene->scene->mesh_count;
     const lobe_given_content content = {scene->given, scene->given_vertices,
                                         scene->previous_vertices, scene->given_waves};
-    memset(scene->given_waves, 0, scene->scene->material_count * sizeof *scene->given_waves);
     memset(scene->given_vertices, 0, meshes * sizeof *scene->given_vertices);
     memset(scene->previous_vertices, 0, meshes * sizeof *scene->previous_vertices);
-    take_images(context, &content, give, giver);
+    take_maps(context, &content, give, giver);
     for (uint32_t i = 0; i < scene->scene->mesh_count; i++)
         check_vertices(context, i);
-    for (uint32_t i = 0; i < scene->scene->material_count; i++)
-        check_waves(context, i);
 }

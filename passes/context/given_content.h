@@ -3,10 +3,10 @@
 
 #include "passes/context/filter.h"
 
-/// Lets the host give the texels of images and the vertices of meshes that are on the device; fails
-/// the frame if it does not. `give`: NULL: nobody does.
+/// Lets the host give the texels of images and the vertices of meshes that are on the device, and
+/// the maps of waves; fails the frame if it does not. `give`: NULL: nobody does.
 void passes_given_content_take(const filter_context *context, lobe_content_giver give, void *giver);
-/// The same of images alone.
-void passes_given_images_take(const filter_context *context, lobe_content_giver give, void *giver);
+/// The same without vertices.
+void passes_given_maps_take(const filter_context *context, lobe_content_giver give, void *giver);
 
 #endif

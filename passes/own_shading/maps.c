@@ -7,6 +7,7 @@
 #include "passes/filters/material_shading.h"
 #include "passes/filters/settings.h"
 #include "passes/filters/slots.h"
+#include "passes/maps/waves.h"
 #include "passes/own_shading/material_scene.h"
 #include "passes/upload/frame_check.h"
 #include "passes/upload/scene_upload.h"
@@ -23,7 +24,7 @@ struct lobe_maps {
     environment_state environment;
     lobe_resource *filtered;        ///< one per image of the scene, then one per material
     specialisation_list *constants; ///< one per material
-    bool *closed;                   ///< the same
+    bool *closed, *waves;           ///< the same
     bool changed;                   ///< since the last recording
 };
 
@@ -34,11 +35,6 @@ static lobe_result check_parameters(const lobe_maps_parameters *parameters, cons
     if (parameters->scene->material_count == 0)
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "lobe_maps_create: the scene has no materials");
-    for (size_t i = 0; parameters->scene->materials && i < parameters->scene->material_count; i++)
-        if (parameters->scene->materials[i].waves.layers > 0)
-            return lobe_host_fail(host, LOBE_ERROR_UNSUPPORTED,
-                                  "lobe_maps_create: material '%s' has waves",
-                                  parameters->scene->materials[i].name);
     if (parameters->lights_at_once > 4)
         return lobe_host_fail(host, LOBE_ERROR_INVALID_ARGUMENT,
                               "lobe_maps_create: %u lights at once, more than 4",
@@ -60,7 +56,8 @@ static bool allocate_tables(lobe_maps *maps) {
         lobe_allocate(allocator, scene->image_count + materials + 1, sizeof *maps->filtered);
     maps->constants = lobe_allocate(allocator, materials + 1, sizeof *maps->constants);
     maps->closed = lobe_allocate(allocator, materials + 1, sizeof *maps->closed);
-    return maps->materials && maps->filtered && maps->constants && maps->closed;
+    maps->waves = lobe_allocate(allocator, materials + 1, sizeof *maps->waves);
+    return maps->materials && maps->filtered && maps->constants && maps->closed && maps->waves;
 }
 
 /// Points into the object and to `images`.
@@ -143,6 +140,7 @@ void lobe_maps_destroy(lobe_maps **maps) {
     lobe_release(gone->filtered);
     lobe_release(gone->constants);
     lobe_release(gone->closed);
+    lobe_release(gone->waves);
     lobe_release(gone);
     *maps = NULL;
 }
@@ -198,6 +196,7 @@ static void export_material(lobe_maps *maps, const filter_context *context,
                       passes_environment_light_lights_at_once(light, lights));
     passes_material_shading_specialise(context, light, material, &appearance, list);
     maps->closed[index] = passes_material_shading_is_closed(context, material);
+    maps->waves[index] = passes_waves_are_drawn(context, material);
     lobe_binding bindings[MATERIAL_SHADING_BINDINGS];
     char shader[SHADING_NAME_SIZE];
     passes_material_shading_name(context, light, material, false, shader);
@@ -214,7 +213,7 @@ static void declare(lobe_maps *maps) {
     const environment_work work = {.state = &maps->environment};
     memset(maps->filtered, 0,
            (scene->image_count + scene->material_count) * sizeof *maps->filtered);
-    passes_given_images_take(&context, maps->parameters.give_content, maps->parameters.user);
+    passes_given_maps_take(&context, maps->parameters.give_content, maps->parameters.user);
     const environment_light light = passes_environment_light_build(&context, &work);
     lobe_pass *pass = lobe_graph_add_pass(maps->graph, LOBE_PASS_EXPORT, "maps");
     passes_knobs_bind(&context, pass);
@@ -229,6 +228,8 @@ static bool may_have_changed(const lobe_maps *maps) {
     bool changed = maps->changed;
     for (size_t i = 0; i < scene->image_count; i++)
         changed |= scene->images[i].on_device;
+    for (size_t i = 0; i < scene->material_count; i++)
+        changed |= scene->materials[i].waves.layers > 0;
     return changed;
 }
 
@@ -272,6 +273,7 @@ lobe_result lobe_maps_get(const lobe_maps *maps, uint32_t material, lobe_materia
     result->constants = maps->constants[material].items;
     result->constant_count = maps->constants[material].count;
     result->closed_surface = maps->closed[material];
+    result->waves = maps->waves[material];
     return LOBE_OK;
 }
 

@@ -9,12 +9,17 @@
 //   LOBE_CONSTANT_BASE   added to the identifier of each specialisation constant; 0
 //   LOBE_ENVIRONMENT     the scene has an environment
 //   LOBE_CLOSED_SURFACE  lobe_material_maps.closed_surface
+//   LOBE_WAVES           lobe_material_maps.waves
 
 #ifdef LOBE_ENVIRONMENT
 #define ENVIRONMENT
 #endif
 #ifdef LOBE_CLOSED_SURFACE
 #define CLOSED_SURFACE
+#endif
+
+#ifdef LOBE_WAVES
+#define WAVES
 #endif
 
 #include "shading/surface.glsl"

@@ -35,14 +35,15 @@ typedef struct lobe_maps_parameters {
     /// For how many lights the host's shader fetches at once, [1, 4]; 0: 1.
     uint32_t lights_at_once;
     uint32_t frames_in_flight; ///< see lobe_graph_set_frames_in_flight; 0: 1
-    /// Gives the texels of images that are `on_device`, in every recording, as for a renderer:
-    /// retained resources, or images of the host with a view. `vertices` is NULL.
+    /// Gives the texels of images that are `on_device`, and the maps of waves, in every recording,
+    /// as for a renderer: retained resources, or images of the host with a view. `vertices` is
+    /// NULL.
     lobe_content_giver give_content;
     void *user; ///< passed to it
 } lobe_maps_parameters;
 
 /// Uploads the images. `host` is copied; NULL: silent. Errors: LOBE_ERROR_INVALID_ARGUMENT,
-/// LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_UNSUPPORTED (a material with waves, too),
+/// LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_UNSUPPORTED,
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, as for lobe_renderer_set_scene and lobe_renderer_render; the
 /// line names the material or image.
 LOBE_API lobe_result lobe_maps_create(lobe_device *device, const lobe_maps_parameters *parameters,
@@ -59,8 +60,9 @@ LOBE_API lobe_result lobe_maps_update(lobe_maps *maps, const lobe_scene_changes 
 
 /// Records what must be built into the host's command buffer, or submits it, as for
 /// lobe_graph_submit. Nothing is recorded (or submitted) if nothing has changed since the last
-/// recording and no image is on the device. Whatever the host records or submits later may read the
-/// maps. Errors: as lobe_renderer_render; the command buffer must not be submitted then.
+/// recording, no image is on the device and no material has waves. Whatever the host records or
+/// submits later may read the maps. Errors: as lobe_renderer_render; the command buffer must not be
+/// submitted then.
 LOBE_API lobe_result lobe_maps_record(lobe_maps *maps, const lobe_vulkan_submission *submission);
 
 /// What the host's shader reads of a material.
@@ -75,6 +77,7 @@ typedef struct lobe_material_maps {
     const lobe_specialisation *constants;
     size_t constant_count;
     bool closed_surface; ///< the shader is to be compiled with LOBE_CLOSED_SURFACE
+    bool waves;          ///< the same with LOBE_WAVES
 } lobe_material_maps;
 
 /// What was recorded last; valid until the next recording. Handles and constants then stay the same

@@ -119,7 +119,9 @@ typedef struct lobe_waves {
     uint32_t layers; ///< periodic maps that add up, [0, LOBE_WAVES_MAXIMUM_LAYERS]; 0: no waves
     uint32_t size;   ///< texels along each side of a map: a power of two, [8, 4096]
     float lengths[LOBE_WAVES_MAXIMUM_LAYERS]; ///< of texture coordinates, that a map spans; above 0
-    bool choppy;                              ///< points move across the plane, too
+    /// Points move across the plane, and the mesh does not move with them: what has moved to a
+    /// point is found. False where the host's mesh is displaced.
+    bool choppy;
     float rest[3];  ///< covariance of slopes that the maps lack: widens all highlights
     float total[3]; ///< of all slopes, maps included: how far waves mask each other
 } lobe_waves;

@@ -6,7 +6,10 @@
 #define LOBE_SET           1
 #define LOBE_CONSTANT_BASE 7
 
-#ifdef MOMENTS
+#ifdef LEADR
+#define LOBE_WAVES
+#include "lobe/leadr.glsl"
+#elif defined(MOMENTS)
 #include "lobe/moments.glsl"
 #else
 #include "lobe/lean.glsl"

@@ -8,7 +8,9 @@
 #include <string.h>
 
 #include <lobe/maps.h>
+#include <lobe/ocean.h>
 
+#include "evaluation_leadr.h"
 #include "evaluation_lean.h"
 #include "evaluation_moments.h"
 #include "tests/engine/support/host_device.h"
@@ -357,12 +359,105 @@ static void encodings_reach_the_hosts_shader(void **state) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------
+// Waves
+
+typedef struct sea {
+    lobe_ocean *ocean;
+    double seconds;
+} sea;
+
+static void give_waves(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    const sea *s = user;
+    content->waves[0] = lobe_ocean_add(s->ocean, graph, s->seconds);
+}
+
+/// Smith's Lambda of slopes of this variance each way.
+static double lambda(const double direction[3], double variance) {
+    const double sine = hypot(direction[0], direction[1]);
+    if (sine == 0)
+        return 0;
+    const double a = direction[2] / (sine * sqrt(2 * variance));
+    return 0.5 * (exp(-a * a) / (a * sqrt(M_PI)) - erfc(a));
+}
+
+/// The sum over the lights of evaluation.comp, of a white metal with slopes of this variance.
+static double white_metal(double variance) {
+    static const double lights[4][3] = {
+        {0, 0, 1}, {0.6, 0, 0.8}, {0, -0.6, 0.8}, {-0.48, 0.64, 0.6}};
+    const double length = sqrt(0.3 * 0.3 + 0.1 * 0.1 + 1);
+    const double o[3] = {0.3 / length, -0.1 / length, 1 / length};
+    double sum = 0;
+    for (int k = 0; k < 4; k++) {
+        const double *i = lights[k];
+        const double h[3] = {o[0] + i[0], o[1] + i[1], o[2] + i[2]};
+        const double square = (h[0] * h[0] + h[1] * h[1]) / (h[2] * h[2]);
+        const double density = exp(-square / (2 * variance)) / (2 * M_PI * variance);
+        sum += (1 + k) * density * pow(1 + square, 2) /
+               (4 * o[2] * (1 + lambda(o, variance) + lambda(i, variance)));
+    }
+    return sum;
+}
+
+/// What the host's shader sees of a calm sea is what its waves are said to have, and of another,
+/// other waves at each time.
+static void waves_reach_the_hosts_shader(void **state) {
+    (void)state;
+    const double variance = 0.04;
+    for (int windy = 0; windy < 2; windy++) {
+        subject s;
+        evaluation e = {0};
+        result results[POINTS], later[POINTS];
+        lobe_ocean_parameters parameters;
+        lobe_ocean_default(&parameters);
+        parameters.size = MAP;
+        parameters.layers = 1;
+        parameters.lengths[0] = 8;
+        parameters.wind_speed = windy ? 8 : 0;
+        open_subject(&s, "leadr", evaluation_leadr, sizeof evaluation_leadr);
+        lobe_material *material = &s.scene->materials[0];
+        *material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.05, 1);
+        material->waves = (lobe_waves){.layers = 1,
+                                       .size = MAP,
+                                       .lengths = {8},
+                                       .choppy = true,
+                                       .rest = {(float)variance, (float)variance},
+                                       .total = {(float)variance, (float)variance}};
+        sea sea = {.seconds = 1};
+        assert_int_equal(
+            lobe_ocean_create(s.device, &parameters, &s.host.recorder.host, &sea.ocean), LOBE_OK);
+        const lobe_maps_parameters making = {.scene = s.scene,
+                                             .filter = filter_named("leadr"),
+                                             .lights_at_once = 4,
+                                             .give_content = give_waves,
+                                             .user = &sea};
+        lobe_maps *maps;
+        lobe_material_maps got;
+        assert_int_equal(lobe_maps_create(s.device, &making, &s.host.recorder.host, &maps),
+                         LOBE_OK);
+        evaluate(&s, maps, &e, results);
+        assert_int_equal(lobe_maps_get(maps, 0, &got), LOBE_OK);
+        assert_true(got.waves && !got.closed_surface);
+        const double expected = white_metal(variance + 0.5 * pow(0.05, 4));
+        for (int i = 0; i < POINTS && !windy; i++)
+            assert_float_equal(results[i].one_by_one[1], expected, 1e-3 * expected);
+        sea.seconds = 2;
+        evaluate(&s, maps, &e, later);
+        assert_true((memcmp(results, later, sizeof results) != 0) == windy);
+        end_evaluation(&e);
+        lobe_maps_destroy(&maps);
+        lobe_ocean_destroy(&sea.ocean);
+        close_subject(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lights_at_once_are_as_one_by_one),
         cmocka_unit_test(changed_texels_reach_the_same_pipeline),
         cmocka_unit_test(an_image_of_the_host_is_read_in_place),
         cmocka_unit_test(encodings_reach_the_hosts_shader),
+        cmocka_unit_test(waves_reach_the_hosts_shader),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

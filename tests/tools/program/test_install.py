@@ -147,7 +147,8 @@ def test_shading_is_installed():
                       PKG_CONFIG_SYSROOT_DIR=str(TARGET)).strip())
     compiler = shutil.which("glslangValidator")
     for name in sorted(path.stem for path in (ROOT / "shaders/filters").glob("*.glsl")):
-        for options in ([], ["-DLOBE_ENVIRONMENT"], ["-DLOBE_CLOSED_SURFACE"]):
+        for options in ([], ["-DLOBE_ENVIRONMENT"], ["-DLOBE_CLOSED_SURFACE"],
+                        ["-DLOBE_WAVES", "-DLOBE_ENVIRONMENT"]):
             source = FOLDER / f"{name}.frag"
             source.write_text(HOST_SHADER.replace("FILTER", name))
             run([compiler, "-V", "--target-env", "vulkan1.3", f"-I{folder}", *options, source,
