@@ -95,6 +95,7 @@ static lobe_result check_model(const number_owner *owner, const lobe_material *m
 static const char *excluded_by_waves(const lobe_material *material) {
     return material->model != LOBE_MATERIAL_MICROFACET   ? "half-vector lobes"
            : material->normal_map.image >= 0             ? "a normal map"
+           : material->height_map.image >= 0             ? "a map of heights"
            : material->metallic_roughness_map.image >= 0 ? "a map of roughness"
            : material->alpha_mask                        ? "a mask"
                                                          : NULL;

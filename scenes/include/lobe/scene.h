@@ -170,7 +170,7 @@ typedef struct lobe_material {
     lobe_texture_use width_map;    ///< red multiplies the width of every lobe (float formats)
     lobe_texture_use specular_map; ///< RGB multiplies the colour of every lobe
 
-    /// Of microfacets without a normal map, a map of roughness or a mask.
+    /// Of microfacets without a map of normals, heights or roughness, and without a mask.
     lobe_waves waves;
 } lobe_material;
 

@@ -332,6 +332,7 @@ static void moments_are_those_of_the_surface(void **state) {
 
 static void refuse(fixture *f, const lobe_material *material, const char *words) {
     lobe_scene *scene = scene_begin();
+    scene_add_map(scene, constant_map(1, 1, 1, 1, 1));
     scene_add_square(scene, material, 1, NULL);
     scene_look_down(scene, 2);
     scene_end(scene);
@@ -361,6 +362,12 @@ static void nonsense_is_refused(void **state) {
     bad = good;
     bad.alpha_mask = true;
     refuse(*state, &bad, "waves and a mask");
+    bad = good;
+    bad.normal_map.image = 0;
+    refuse(*state, &bad, "waves and a normal map");
+    bad = good;
+    bad.height_map.image = 0;
+    refuse(*state, &bad, "waves and a map of heights");
 }
 
 static void missing_and_wrong_maps_fail_in_one_line(void **state) {
