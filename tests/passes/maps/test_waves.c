@@ -10,6 +10,7 @@
 #include <lobe/ocean.h>
 
 #include "shaders/interface/waves.h"
+#include "tests/passes/maps/wave_fields.h"
 #include "tests/passes/support/misuse.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -188,49 +189,12 @@ static void fill_fields(lobe_image *image, uint64_t seed, double amplitude) {
     lobe_image_free(&random);
 }
 
-typedef struct fields {
-    lobe_texture *textures[2];
-} fields;
-
-static void give_fields(void *user, lobe_graph *graph, const lobe_given_content *content) {
-    const fields *given = user;
-    lobe_resource image =
-        lobe_graph_image(graph, &(lobe_image_description){.name = "fields",
-                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
-                                                          .width = SIZE,
-                                                          .height = SIZE,
-                                                          .layers = 2,
-                                                          .retained = true});
-    for (uint32_t i = 0; i < 2; i++) {
-        lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "give");
-        image = lobe_pass_copy(pass, lobe_graph_import_texture(graph, given->textures[i]),
-                               (lobe_range){0}, image, (lobe_range){0, 1, i, 1});
-    }
-    content->waves[0] = image;
-}
-
-/// Between the centres of texels, repeated.
-static void interpolate(const lobe_image *image, double x, double y, double value[4]) {
-    const double column = floor(x - 0.5), row = floor(y - 0.5);
-    for (int c = 0; c < 4; c++)
-        value[c] = 0;
-    for (int i = 0; i < 4; i++) {
-        const int dx = i & 1, dy = i >> 1;
-        const double weight =
-            (dx ? x - 0.5 - column : column + 1.5 - x) * (dy ? y - 0.5 - row : row + 1.5 - y);
-        const size_t at = (size_t)(((int)row + dy) & (SIZE - 1)) * SIZE +
-                          (size_t)(((int)column + dx) & (SIZE - 1));
-        for (int c = 0; c < 4; c++)
-            value[c] += weight * ((const float *)image->texels)[4 * at + c];
-    }
-}
-
 /// Of the surface's normal, the cross product of its tangents: its height over the plane is the
 /// area, its tilt the slope.
 static void add_moments(const lobe_image images[2], double x, double y, double moments[6]) {
     double place[4], gradients[4];
-    interpolate(&images[0], x, y, place);
-    interpolate(&images[1], x, y, gradients);
+    wave_field_at(&images[0], x, y, place);
+    wave_field_at(&images[1], x, y, gradients);
     const double a[3] = {1 + gradients[2], place[3], gradients[0]},
                  b[3] = {place[3], 1 + gradients[3], gradients[1]};
     const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
@@ -260,47 +224,18 @@ static void integrate(const lobe_image images[2], double mean[2], double covaria
     covariance[2] = moments[5] / moments[0] - mean[0] * mean[1];
 }
 
-/// What the reflection of a sun tells of a map seen from far away: at the half vector's slope, the
-/// logarithm of a Gaussian's density.
-static double density_at(const double half[2], const double mean[2], const double c[3]) {
-    const double x = half[0] - mean[0], y = half[1] - mean[1];
-    const double determinant = c[0] * c[1] - c[2] * c[2];
-    return exp(-0.5 * (c[1] * x * x - 2 * c[2] * x * y + c[0] * y * y) / determinant) /
-           (2 * M_PI * sqrt(determinant));
-}
-
-/// A picture of the map from above, each pixel of which sees many copies of it.
-static double seen_from_above(fixture *f, const lobe_material *material, fields *given,
-                              const double towards[3]) {
-    lobe_scene *scene = scene_begin();
-    scene_add_square(scene, material, 4000, NULL);
-    scene_add_sun(scene, towards, 1);
-    scene_look_down(scene, 2);
-    scene_end(scene);
-    lobe_renderer_set_content_giver(f->renderer, give_fields, given);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    const picture_request request = {"leadr", {NULL}, 4, 4, 1, false};
-    lobe_frame frame = draw(f, &request);
-    const double seen = pixel_at(&frame.radiance, 1, 2)[1];
-    lobe_frame_free(&frame);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
-    lobe_renderer_set_content_giver(f->renderer, NULL, NULL);
-    lobe_scene_destroy(&scene);
-    return seen;
-}
-
 // From straight above nothing is masked: what is seen of a sun is F D/4 of it.
 static void moments_are_those_of_the_surface(void **state) {
-    static const double suns[][3] = {{0.2, 1, -0.1}, {-0.3, 1, 0.2}, {0.1, 1, 0.4}};
+    static const double suns[][3] = {{0.2, 1, -0.1}, {-0.3, 1, 0.2}, {0.1, 1, 0.4}},
+                        above[3] = {0, 1, 0};
     fixture *f = *state;
     lobe_image images[2];
-    fields given;
+    wave_fields given;
     for (uint32_t i = 0; i < 2; i++) {
         images[i] = map_image(LOBE_FORMAT_RGBA32_FLOAT, SIZE, SIZE);
         fill_fields(&images[i], 7 + i, i == 0 ? 0.1 : 0.3);
-        const lobe_texture_parameters parameters = {.image = &images[i]};
-        assert_int_equal(lobe_texture_create(f->device, &parameters, &given.textures[i]), LOBE_OK);
     }
+    wave_fields_upload(f, images, &given);
     double mean[2], covariance[3];
     integrate(images, mean, covariance);
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.05, 1);
@@ -316,15 +251,14 @@ static void moments_are_those_of_the_surface(void **state) {
         const double half[2] = {-h[0] / h[2], -h[1] / h[2]};
         const double cosine = h[2] / sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
         // Of a white metal.
-        const double expected = density_at(half, mean, covariance) / (4 * pow(cosine, 4));
-        const double seen = seen_from_above(f, &material, &given, suns[i]);
+        const double expected = slope_density_at(half, mean, covariance) / (4 * pow(cosine, 4));
+        const double seen = wave_fields_seen_from(f, &material, &given, above, suns[i]);
         if (!(fabs(seen / expected - 1) < 0.02))
             fail_msg("%g, expected %g", seen, expected);
     }
-    for (uint32_t i = 0; i < 2; i++) {
-        lobe_texture_destroy(&given.textures[i]);
+    wave_fields_free(&given);
+    for (uint32_t i = 0; i < 2; i++)
         lobe_image_free(&images[i]);
-    }
 }
 
 // ---------------------------------------------------------------------------------------------
