@@ -6,7 +6,7 @@
 #include "passes/maps/waves.h"
 #include "passes/upload/material_maps.h"
 
-static const char *const map_names[MAP_COUNT] = {
+static const char *const map_names[MAP_SHADING] = {
     [MAP_BASE_COLOUR] = "base_colour_map",
     [MAP_NORMAL] = "normal_map",
     [MAP_WIDTH] = "width_map",
@@ -16,8 +16,8 @@ static const char *const map_names[MAP_COUNT] = {
 };
 
 void passes_material_maps_bind(const filter_context *context, const device_material *material,
-                               lobe_binding bindings[MAP_COUNT]) {
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
+                               lobe_binding bindings[MAP_SHADING]) {
+    for (uint32_t map = 0; map < MAP_SHADING; map++)
         bindings[map] = (lobe_binding){
             .name = map_names[map],
             .resource = passes_device_map_import(context->graph, context->scene, material, map),
@@ -33,7 +33,7 @@ size_t passes_material_shading_bind(const filter_context *context, const environ
     bindings[count++] = (lobe_binding){
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
     passes_material_maps_bind(context, material, bindings + count);
-    count += MAP_COUNT;
+    count += MAP_SHADING;
     bindings[count++] = passes_environment_light_albedo(light, context, material->material);
     if (context->filter->slopes)
         bindings[count++] =

@@ -6,11 +6,11 @@
 /// What shading reads of a material with a filter, whoever draws it.
 
 /// Largest number of bindings of a material.
-#define MATERIAL_SHADING_BINDINGS (5 + MAP_COUNT + FILTER_MAXIMUM_BINDINGS)
+#define MATERIAL_SHADING_BINDINGS (5 + MAP_SHADING + FILTER_MAXIMUM_BINDINGS)
 
-/// All maps of a material, as they are; white where it has none.
+/// All maps that shading reads of a material, as they are; white where it has none.
 void passes_material_maps_bind(const filter_context *context, const device_material *material,
-                               lobe_binding bindings[MAP_COUNT]);
+                               lobe_binding bindings[MAP_SHADING]);
 
 /// Stores the material's constants, maps and tables, and what the filter built for it; returns
 /// their number.

@@ -13,7 +13,8 @@
     FILTER(tan)                                                                                    \
     FILTER(mixture)                                                                                \
     FILTER(fournier)                                                                               \
-    FILTER(reference)
+    FILTER(reference)                                                                              \
+    FILTER(displaced_reference)
 
 #define FILTER(name) extern const lobe_filter passes_filter_##name;
 FILTERS

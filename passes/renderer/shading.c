@@ -112,6 +112,7 @@ struct frame_constants passes_frame_constants(const filter_context *context,
                                               uint32_t height) {
     struct frame_constants frame = {.footprint = sample->footprint,
                                     .dither = sample->dither,
+                                    .seed = sample->number + 0x9e3779b9u * sample->pattern,
                                     .vertex_spacing = context->scene->displaced_spacing};
     float minimum[3], maximum[3];
     mat4 matrix;

@@ -65,7 +65,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     const device_material *material = &scene->materials[drawn->material];
     lobe_graph *graph = context->graph;
     const struct draw_constants constants = {.first_instance = batch->first};
-    lobe_binding bindings[4 + MAP_COUNT] = {
+    lobe_binding bindings[4 + MAP_SHADING] = {
         {.name = "instance_block", .resource = batch->transforms},
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
@@ -89,7 +89,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         .specialisation = list.items,
         .specialisation_count = list.count,
         .bindings = bindings,
-        .binding_count = 4 + MAP_COUNT,
+        .binding_count = 4 + MAP_SHADING,
     };
     passes_batch_set_indices(context, batch, &draw);
     lobe_pass_draw(pass, &draw);

@@ -38,6 +38,9 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
         use = scene->environment && material->occlusion_strength > 0 ? &material->occlusion_map
                                                                      : NULL;
         break;
+    case MAP_HEIGHT:
+        use = material->height_scale != 0 ? &material->height_map : NULL;
+        break;
     }
     return use && use->image >= 0 ? use : NULL;
 }

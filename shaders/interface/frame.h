@@ -16,7 +16,7 @@ struct frame_constants {
     float dither;         // [0, 1): added to the thresholds of masks, another one for each sample
     uint first_light;     // of this pass
     float vertex_spacing; // of displaced geometry, pixels
-    uint padding_1;
+    uint seed;            // of random numbers, another one for each sample
 };
 INTERFACE_SIZE(frame_constants, 192)
 INTERFACE_OFFSET(frame_constants, world_to_camera, 64)
@@ -29,5 +29,6 @@ INTERFACE_OFFSET(frame_constants, footprint, 172)
 INTERFACE_OFFSET(frame_constants, dither, 176)
 INTERFACE_OFFSET(frame_constants, first_light, 180)
 INTERFACE_OFFSET(frame_constants, vertex_spacing, 184)
+INTERFACE_OFFSET(frame_constants, seed, 188)
 
 #endif

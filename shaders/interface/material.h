@@ -12,7 +12,9 @@
 #define MAP_SPECULAR    3
 #define MAP_EMISSIVE    4
 #define MAP_OCCLUSION   5 // used with light from an environment
-#define MAP_COUNT       6
+#define MAP_HEIGHT      6 // read by passes only, not by every shading
+#define MAP_COUNT       7
+#define MAP_SHADING     6 // the first of them: every shading binds these
 
 // A material's constants (uniform block, std140). Which parts are read depends on the
 // specialisation of the shader.
@@ -33,7 +35,7 @@ struct material_constants {
     // Where each map is read: two rows (u, v) of an affine transform of the texture coordinates.
     float4 transforms[2 * MAP_COUNT];
 };
-INTERFACE_SIZE(material_constants, 384)
+INTERFACE_SIZE(material_constants, 416)
 INTERFACE_OFFSET(material_constants, emissive, 16)
 INTERFACE_OFFSET(material_constants, metallic, 32)
 INTERFACE_OFFSET(material_constants, roughness, 36)

@@ -11,7 +11,11 @@
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering_atlas.h"
 #include "shaders/interface/deformation.h"
+<<<<<<< HEAD
 #include "shaders/interface/displacement.h"
+=======
+#include "shaders/interface/relief.h"
+>>>>>>> a4030a0 (passes: trace paths of light over the relief of height maps)
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "shaders/interface/frame.h"
@@ -134,6 +138,14 @@ static known_member known[] = {
     MEMBER(environment_constants, intensity, 1),
     MEMBER(environment_constants, sample_number, 2),
     MEMBER(environment_constants, pattern, 3),
+    MEMBER(height_level, offset, 0),
+    MEMBER(height_level, width, 1),
+    MEMBER(height_level, height, 2),
+    MEMBER(height_field_constants, width, 0),
+    MEMBER(height_field_constants, height, 1),
+    MEMBER(height_field_constants, last_level, 2),
+    MEMBER(height_field_constants, scale, 3),
+    MEMBER(height_field_constants, levels, 4),
     MEMBER(frame_constants, world_to_clip, 0),
     MEMBER(frame_constants, world_to_camera, 1),
     MEMBER(frame_constants, eye, 2),
@@ -144,7 +156,11 @@ static known_member known[] = {
     MEMBER(frame_constants, footprint, 7),
     MEMBER(frame_constants, dither, 8),
     MEMBER(frame_constants, first_light, 9),
+<<<<<<< HEAD
     MEMBER(frame_constants, vertex_spacing, 10),
+=======
+    MEMBER(frame_constants, seed, 10),
+>>>>>>> a4030a0 (passes: trace paths of light over the relief of height maps)
     MEMBER(joint_influence, joint, 0),
     MEMBER(joint_influence, weight, 1),
     MEMBER(morph_delta, target, 0),

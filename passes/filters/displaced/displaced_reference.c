@@ -1,0 +1,61 @@
+#include "passes/context/filter.h"
+#include "passes/context/shared_knobs.h"
+#include "passes/filters/displaced/relief.h"
+
+static const filter_knob bounces_knob = {
+    .description = {.name = "bounces",
+                    .summary = "facets that a path of light meets at most; 1: no light between "
+                               "facets",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 64,
+                    .initial = 32},
+    .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_PATH_VERTICES),
+};
+static const filter_knob *const knobs[] = {&bounces_knob, NULL};
+
+/// What a shader that reads no relief has bound.
+static void bind_nothing(lobe_graph *graph, filtered_appearance *appearance) {
+    static const struct height_field_constants none;
+    const lobe_resource nothing = lobe_graph_upload(graph, "no relief", &none, sizeof none);
+    static const char *const names[] = {"height_field_block", "height_block",
+                                        "height_extent_block"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        passes_appearance_bind(appearance, names[i], nothing, (lobe_sampler){0});
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    (void)prepared;
+    const uint32_t index = context->scene->instances[instance].material;
+    const bool has_relief = passes_has_relief(&context->scene->materials[index]);
+    passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
+    if (!has_relief) {
+        bind_nothing(context->graph, appearance);
+        return;
+    }
+    const relief relief = passes_relief(context, index, true);
+    passes_appearance_bind(appearance, "height_field_block", relief.block, (lobe_sampler){0});
+    passes_appearance_bind(appearance, "height_block", relief.heights, (lobe_sampler){0});
+    passes_appearance_bind(appearance, "height_extent_block", relief.extent, (lobe_sampler){0});
+    appearance->bytes = relief.bytes;
+    appearance->base_texels = (uint64_t)relief.constants.width * relief.constants.height;
+}
+
+static const char *ignores(const lobe_material *material) {
+    if (material->height_map.image >= 0 && material->height_scale != 0 &&
+        material->normal_map.image >= 0)
+        return "normals are those of its heights, not of its normal map";
+    return NULL;
+}
+
+const lobe_filter passes_filter_displaced_reference = {
+    .name = "displaced-reference",
+    .summary = "the mean of many paths of light over the relief of height maps: the truth, slowly",
+    .paper = "",
+    .shading = "displaced_reference",
+    .knobs = knobs,
+    .supersamples = true,
+    .build = build,
+    .ignores = ignores,
+};
