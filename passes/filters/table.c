@@ -13,6 +13,7 @@
     FILTER(tan)                                                                                    \
     FILTER(mixture)                                                                                \
     FILTER(fournier)                                                                               \
+    FILTER(displaced)                                                                              \
     FILTER(reference)                                                                              \
     FILTER(displaced_reference)
 

@@ -52,6 +52,7 @@ INTERFACE_OFFSET(height_field_constants, levels, 16)
 // [0, n (n + 1) / 2)   C = mean a b b^T / pi, lower triangle, row by row; n: order
 // then 10              N = mean a (b o^T + o b^T) / (2 pi), of the first four functions
 // then                 mean of what the facets reflect of light that has met one other facet
+// then n               mean a b: the area that is seen from each direction, over that of the cell
 #define TRANSFER_MAXIMUM_ORDER  9
 #define TRANSFER_INDIRECT       4
 #define TRANSFER_INDIRECT_COUNT 10
@@ -62,14 +63,16 @@ INTERFACE_OFFSET(height_field_constants, levels, 16)
 struct transfer_closure_constants {
     // What the mean of C and N lacks, so that a white relief reflects all light.
     float4 lacking[3]; // the last is 0, but for x
+    float4 visible[3]; // mean a b, likewise
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
     float padding_0;
     float padding_1;
 };
-INTERFACE_SIZE(transfer_closure_constants, 64)
-INTERFACE_OFFSET(transfer_closure_constants, persistence, 48)
-INTERFACE_OFFSET(transfer_closure_constants, direct, 52)
+INTERFACE_SIZE(transfer_closure_constants, 112)
+INTERFACE_OFFSET(transfer_closure_constants, visible, 48)
+INTERFACE_OFFSET(transfer_closure_constants, persistence, 96)
+INTERFACE_OFFSET(transfer_closure_constants, direct, 100)
 
 // Push constants of the passes between.
 struct transfer_constants {

@@ -11,11 +11,7 @@
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering_atlas.h"
 #include "shaders/interface/deformation.h"
-<<<<<<< HEAD
 #include "shaders/interface/displacement.h"
-=======
-#include "shaders/interface/relief.h"
->>>>>>> a4030a0 (passes: trace paths of light over the relief of height maps)
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "shaders/interface/frame.h"
@@ -32,6 +28,7 @@
 #include "shaders/interface/moment_refit.h"
 #include "shaders/interface/motion.h"
 #include "shaders/interface/ocean.h"
+#include "shaders/interface/relief.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "shaders/interface/waves.h"
@@ -146,6 +143,14 @@ static known_member known[] = {
     MEMBER(height_field_constants, last_level, 2),
     MEMBER(height_field_constants, scale, 3),
     MEMBER(height_field_constants, levels, 4),
+    MEMBER(transfer_closure_constants, lacking, 0),
+    MEMBER(transfer_closure_constants, visible, 1),
+    MEMBER(transfer_closure_constants, persistence, 2),
+    MEMBER(transfer_closure_constants, direct, 3),
+    MEMBER(transfer_constants, width, 0),
+    MEMBER(transfer_constants, height, 1),
+    MEMBER(transfer_constants, azimuths, 2),
+    MEMBER(transfer_constants, first, 3),
     MEMBER(frame_constants, world_to_clip, 0),
     MEMBER(frame_constants, world_to_camera, 1),
     MEMBER(frame_constants, eye, 2),
@@ -156,11 +161,8 @@ static known_member known[] = {
     MEMBER(frame_constants, footprint, 7),
     MEMBER(frame_constants, dither, 8),
     MEMBER(frame_constants, first_light, 9),
-<<<<<<< HEAD
     MEMBER(frame_constants, vertex_spacing, 10),
-=======
-    MEMBER(frame_constants, seed, 10),
->>>>>>> a4030a0 (passes: trace paths of light over the relief of height maps)
+    MEMBER(frame_constants, seed, 11),
     MEMBER(joint_influence, joint, 0),
     MEMBER(joint_influence, weight, 1),
     MEMBER(morph_delta, target, 0),

@@ -1,0 +1,118 @@
+#include "passes/context/filter.h"
+#include "passes/context/knob_values.h"
+#include "passes/filters/displaced/relief.h"
+#include "passes/filters/displaced/transfer_map.h"
+#include "passes/maps/filtered_maps.h"
+#include "passes/maps/parameter_averaging.h"
+#include "passes/upload/material_maps.h"
+
+static const char *const orders[] = {"4", "9", NULL};
+static const char *const storages[] = {"float16", "float32", NULL};
+
+static const filter_knob order_knob = {
+    .description = {.name = "order",
+                    .summary = "functions of direction that direct light is filtered in: "
+                               "polynomials of degree 1 or 2",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .initial = 1,
+                    .choices = orders,
+                    .sweep = "4"},
+};
+static const filter_knob azimuths_knob = {
+    .description = {.name = "azimuths",
+                    .summary = "directions in which each facet's horizon is found",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 4,
+                    .maximum = 64,
+                    .initial = 16},
+};
+static const filter_knob bounces_knob = {
+    .description = {.name = "bounces",
+                    .summary = "steps of light from facet to facet; what they leave out is added "
+                               "evenly, so that no light is lost",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 32,
+                    .initial = 8},
+};
+static const filter_knob transfer_storage_knob = {
+    .description = {.name = "transfer_storage",
+                    .summary = "format of the map of transfer",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = storages},
+};
+static const filter_knob *const knobs[] = {
+    &order_knob,          &azimuths_knob,
+    &bounces_knob,        &transfer_storage_knob,
+    &passes_knob_probes,  &passes_knob_anisotropy,
+    &passes_knob_bias,    &passes_knob_curvature,
+    &passes_knob_storage, NULL,
+};
+
+static uint32_t order_of(const filter_context *context) {
+    return passes_knob_choice(context, &order_knob) == 0 ? 4 : TRANSFER_MAXIMUM_ORDER;
+}
+
+static transfer_map make_transfer(const filter_context *context, uint32_t index,
+                                  filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const transfer_kind kind = {
+        .order = order_of(context),
+        .azimuths = (uint32_t)passes_knob_value(context, &azimuths_knob),
+        .bounces = (uint32_t)passes_knob_value(context, &bounces_knob),
+        .format = passes_knob_choice(context, &transfer_storage_knob) == 0
+                      ? LOBE_FORMAT_RGBA16_FLOAT
+                      : LOBE_FORMAT_RGBA32_FLOAT,
+    };
+    const transfer_map transfer = passes_transfer_map(context, index, &kind);
+    appearance->bytes += passes_reduced_map_bytes(&transfer.map, kind.format);
+    appearance->base_texels +=
+        (uint64_t)material->maps[MAP_HEIGHT].width * material->maps[MAP_HEIGHT].height;
+    return transfer;
+}
+
+static transfer_map no_transfer(const filter_context *context) {
+    static const struct transfer_closure_constants none;
+    return (transfer_map){
+        .map = {.resource = lobe_graph_import_texture(context->graph, context->scene->white)},
+        .closure = lobe_graph_upload(context->graph, "no transfer", &none, sizeof none)};
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    passes_parameter_averaging_build(context, instance, prepared, appearance);
+    const uint32_t index = context->scene->instances[instance].material;
+    const device_material *material = &context->scene->materials[index];
+    const bool has_relief = passes_has_relief(material);
+    const transfer_map transfer =
+        has_relief ? make_transfer(context, index, appearance) : no_transfer(context);
+    passes_appearance_bind(appearance, "transfer_map", transfer.map.resource,
+                           (lobe_sampler){.texels = LOBE_SAMPLE_LINEAR,
+                                          .levels = LOBE_SAMPLE_LINEAR,
+                                          .maximum_anisotropy = (float)passes_knob_value(
+                                              context, &passes_knob_anisotropy)});
+    passes_appearance_bind(appearance, "closure_block", transfer.closure, (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
+    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
+}
+
+static const char *ignores(const lobe_material *material) {
+    if (material->height_map.image < 0 || material->height_scale == 0)
+        return NULL;
+    return "lobes are those of its normal map, and neither masked nor shadowed by its heights; "
+           "colours do not vary with heights";
+}
+
+const lobe_filter passes_filter_displaced = {
+    .name = "displaced",
+    .summary = "diffuse light of the relief of height maps, with its shadows and the light between "
+               "its facets",
+    .paper = "after Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
+             "Displacement-Mapped Surfaces",
+    .shading = "displaced",
+    .knobs = knobs,
+    .build = build,
+    .ignores = ignores,
+};

@@ -1,0 +1,56 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// What the mean of a whole map of transfer lacks of reflecting all light, if it were white, and how
+// much of the light between facets goes on. One thread.
+
+#include "interface/relief.h"
+#include "lib/displacement/transfer_basis.glsl"
+
+layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
+
+layout(local_size_x = 1) in;
+
+layout(set = 0, binding = 0) uniform sampler2DArray transfer_map;
+layout(set = 0, binding = 1, std430) writeonly buffer closure_block {
+    transfer_closure_constants closure;
+};
+
+const uint DIRECT = ORDER * (ORDER + 1u) / 2u;
+
+float entry(uint i) {
+    return texelFetch(transfer_map, ivec3(0, 0, i / 4u), 0)[i % 4u];
+}
+
+float of_matrix(uint first, uint i, uint j) {
+    uint row = max(i, j), column = min(i, j);
+    return entry(first + row * (row + 1u) / 2u + column);
+}
+
+void main() {
+    float lacking[12], visible[12];
+    float direct = 0.0;
+    for (uint i = 0u; i < 12u; ++i)
+        lacking[i] = visible[i] = 0.0;
+    for (uint i = 0u; i < ORDER; ++i) {
+        float at_once = 0.0, later = 0.0;
+        for (uint j = 0u; j < ORDER; ++j) {
+            at_once += of_matrix(0u, i, j) * TRANSFER_INTEGRAL[j];
+            if (i < TRANSFER_INDIRECT && j < TRANSFER_INDIRECT)
+                later += of_matrix(DIRECT, i, j) * TRANSFER_INTEGRAL[j];
+        }
+        lacking[i] = (i == 0u ? TRANSFER_COSINE : 0.0) - at_once - later;
+        visible[i] = entry(DIRECT + TRANSFER_INDIRECT_COUNT + 1u + i);
+        direct += INVERSE_PI * TRANSFER_INTEGRAL[i] * at_once;
+    }
+    for (int i = 0; i < 3; ++i) {
+        closure.lacking[i] =
+            vec4(lacking[4 * i], lacking[4 * i + 1], lacking[4 * i + 2], lacking[4 * i + 3]);
+        closure.visible[i] =
+            vec4(visible[4 * i], visible[4 * i + 1], visible[4 * i + 2], visible[4 * i + 3]);
+    }
+    float rest = 1.0 - direct, next = entry(DIRECT + TRANSFER_INDIRECT_COUNT);
+    closure.persistence = rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
+    closure.direct = direct;
+    closure.padding_0 = closure.padding_1 = 0.0;
+}
