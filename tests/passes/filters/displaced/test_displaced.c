@@ -162,6 +162,49 @@ static void means_are_close_to_the_reference(void **state) {
     }
 }
 
+/// Of a map of 128 texels whose waves are wider than a pixel, drawn with `texels` a pixel.
+static double broad_waves(uint32_t column, uint32_t row) {
+    const double x = 2 * M_PI * column / 128, y = 2 * M_PI * row / 128;
+    return 9 * sin(x) * cos(y) + 0.5 * sin(19 * x + 7 * y);
+}
+
+static lobe_frame draw_waves(fixture *f, const char *filter, uint32_t texels, uint32_t samples) {
+    double outgoing[3];
+    const double incoming[3] = {0.6, 0.3, 0.742};
+    slope_plane_direction(30, 0.9, outgoing);
+    const lobe_material material = relief_material(0.8);
+    lobe_scene *scene =
+        relief_plane(&material, relief_map(128, 128, broad_waves), outgoing, texels / 8.0);
+    relief_plane_add_sun(scene, incoming, 1);
+    scene_end(scene);
+    const picture_request request = {
+        .filter = filter, .settings = {NULL}, .width = 16, .height = 16, .samples = samples};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    lobe_scene_destroy(&scene);
+    return frame;
+}
+
+/// Waves are where the reference has them. Bounds are a fifth above what was measured: 0.047, 0.035
+/// and 0.029, of a flat carrier 0.171, 0.160 and 0.056.
+static void pictures_are_close_to_the_reference(void **state) {
+    static const struct {
+        uint32_t texels;
+        double bound;
+    } cases[] = {{8, 0.06}, {16, 0.045}, {64, 0.037}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        lobe_frame reference = draw_waves(*state, "displaced-reference", cases[i].texels, 256);
+        lobe_frame found = draw_waves(*state, "displaced", cases[i].texels, 1);
+        lobe_frame flat = draw_waves(*state, "mipmap", cases[i].texels, 1);
+        const double error = relative_l2(&found.radiance, &reference.radiance),
+                     of_flat = relative_l2(&flat.radiance, &reference.radiance);
+        lobe_frame_free(&reference);
+        lobe_frame_free(&found);
+        lobe_frame_free(&flat);
+        if (!(error <= cases[i].bound && error < of_flat))
+            fail_msg("%u texels a pixel: %.4f, flat %.4f", cases[i].texels, error, of_flat);
+    }
+}
+
 /// Of odd sizes and of one texel; whatever the scale, also negative.
 static void odd_maps_are_finite(void **state) {
     static const uint32_t sizes[][2] = {{1, 1}, {1, 9}, {7, 5}, {3, 64}};
@@ -176,6 +219,36 @@ static void odd_maps_are_finite(void **state) {
     }
 }
 
+static void every_run_makes_the_same(void **state) {
+    double outgoing[3], incoming[3];
+    slope_plane_direction(50, 0.3, outgoing);
+    slope_plane_direction(30, 2.2, incoming);
+    double found[2];
+    for (int i = 0; i < 2; i++)
+        found[i] = under_sun(*state, "displaced", NULL, 0.9, relief_map(WIDTH, HEIGHT, steep),
+                             outgoing, incoming, 64);
+    assert_true(found[0] == found[1]);
+}
+
+static void maps_that_no_buffer_holds_are_refused(void **state) {
+    fixture *f = *state;
+    const lobe_material material = relief_material(1);
+    lobe_scene *scene = relief_plane(&material, map_image(LOBE_FORMAT_R8_UNORM, 4096, 1024),
+                                     (double[]){0, 0, 1}, 4);
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    const lobe_settings settings =
+        settings_of(filter_named("displaced"), (const char *const[]){NULL});
+    const lobe_render_parameters parameters = {
+        .filter = filter_named("displaced"), .settings = &settings, .width = 8, .height = 8};
+    lobe_frame frame = {0};
+    fixture_forget_messages(f);
+    assert_failure(f, lobe_renderer_render(f->renderer, &parameters, &frame), LOBE_ERROR_LIMIT,
+                   "too large for filter 'displaced'");
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_level_map_is_lambertian),
@@ -183,7 +256,10 @@ int main(void) {
         cmocka_unit_test(environments_are_close_to_the_reference),
         cmocka_unit_test(light_and_viewer_may_change_places),
         cmocka_unit_test(means_are_close_to_the_reference),
+        cmocka_unit_test(pictures_are_close_to_the_reference),
         cmocka_unit_test(odd_maps_are_finite),
+        cmocka_unit_test(every_run_makes_the_same),
+        cmocka_unit_test(maps_that_no_buffer_holds_are_refused),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
