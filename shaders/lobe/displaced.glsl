@@ -1,0 +1,5 @@
+// The filter "displaced", for shaders of hosts.
+
+#include "lobe/surface.glsl"
+#include "filters/displaced.glsl"
+#include "lobe/shading.glsl"
