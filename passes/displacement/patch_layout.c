@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "shaders/interface/displacement.h"
+#include "shaders/interface/displacement/displacement.h"
 
 enum { MOST_PATCHES = 1 << 16, MOST_DEPTH = 8 };
 

@@ -7,7 +7,7 @@
 #include "passes/context/camera.h"
 #include "passes/upload/device_mesh.h"
 #include "passes/upload/transform.h"
-#include "shaders/interface/displacement.h"
+#include "shaders/interface/displacement/displacement.h"
 
 /// Threads in a row of a dispatch: groups of 64, within every device's limits.
 #define ROW (1u << 20)

@@ -3,11 +3,11 @@
 
 #include <lobe/scene.h>
 
-#include "shaders/interface/displacement.h"
+#include "shaders/interface/displacement/displacement.h"
 
 /// A mesh whose vertices are welded, so that it is displaced without cracks: see
-/// shaders/interface/displacement.h. Vertices are at one point if their positions are equal and
-/// joints and morph targets move them alike.
+/// shaders/interface/displacement/displacement.h. Vertices are at one point if their positions are
+/// equal and joints and morph targets move them alike.
 typedef struct welded_mesh {
     struct base_triangle *triangles;
     struct base_edge *edges;

@@ -10,7 +10,7 @@
 bool passes_waves_are_drawn(const filter_context *context, const device_material *material);
 
 #define WAVES_BINDINGS 2
-/// Stores what shaders/shading/waves.glsl reads, the maps as they are; returns their number.
+/// Stores what shaders/shading/waves/waves.glsl reads, the maps as they are; returns their number.
 size_t passes_waves_bind(const filter_context *context, const device_material *material,
                          lobe_binding bindings[WAVES_BINDINGS]);
 void passes_waves_specialise(const device_material *material, specialisation_list *list);

@@ -4,7 +4,7 @@
 // What the passes that pose points and measure charts read of a mesh, and the angles of its
 // triangles, by which both weight them.
 
-#include "interface/displacement.h"
+#include "interface/displacement/displacement.h"
 #include "interface/vertex.h"
 
 layout(set = 0, binding = 0, std430) readonly buffer base_point_block {

@@ -3,7 +3,7 @@
 
 // A displaced instance, and how the camera sees it.
 
-#include "interface/displacement.h"
+#include "interface/displacement/displacement.h"
 
 layout(set = 0, binding = 0, std140) uniform displacement_block {
     displacement_constants constants;

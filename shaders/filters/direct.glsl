@@ -5,7 +5,7 @@
 
 #ifdef WAVES
 
-#include "shading/unfiltered_waves.glsl"
+#include "shading/waves/unfiltered_waves.glsl"
 
 #else
 

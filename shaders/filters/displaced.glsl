@@ -1,5 +1,5 @@
 // The diffuse light of a material's relief, with its shadows and the light between its facets, from
-// a map of transfer (interface/relief.h): radiance is a form of two directions, whose
+// a map of transfer (interface/displacement/relief.h): radiance is a form of two directions, whose
 // coefficients are means over facets and may be averaged like colours. After Wu, Zhao, Yan,
 // Ramamoorthi, 2019, Accurate Appearance Preserving Prefiltering for Rendering Displacement-Mapped
 // Surfaces, whose scaling functions it replaces.
@@ -7,7 +7,7 @@
 // Lobes, and materials without a relief, are shaded as by `toksvig`.
 
 #include "shading/averaged_maps.glsl"
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/light/cube_texel.glsl"
 

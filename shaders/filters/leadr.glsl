@@ -12,7 +12,7 @@
 
 #ifdef WAVES
 
-#include "shading/filtered_waves.glsl"
+#include "shading/waves/filtered_waves.glsl"
 
 #else
 

@@ -2,9 +2,9 @@
 #define PASSES_FILTERS_DISPLACED_RELIEF_H
 
 #include "passes/context/filter.h"
-#include "shaders/interface/relief.h"
+#include "shaders/interface/displacement/relief.h"
 
-/// The relief of a material with a height map, see shaders/interface/relief.h.
+/// The relief of a material with a height map, see shaders/interface/displacement/relief.h.
 typedef struct relief {
     struct height_field_constants constants;
     lobe_resource block; ///< of the constants

@@ -12,7 +12,7 @@ typedef struct transfer_kind {
     lobe_format format;
 } transfer_kind;
 
-/// The transfer of light by a relief, of each cell, see shaders/interface/relief.h.
+/// The transfer of light by a relief, of each cell, see shaders/interface/displacement/relief.h.
 typedef struct transfer_map {
     reduced_map map;
     lobe_resource closure; ///< struct transfer_closure_constants

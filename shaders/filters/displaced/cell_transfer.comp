@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The first level of the map of transfer (interface/relief.h): means over the facets under
-// each texel, of half the size of the relief. A thread a texel.
+// The first level of the map of transfer (interface/displacement/relief.h): means over the facets
+// under each texel, of half the size of the relief. A thread a texel.
 
 #include "filters/displaced/facets.glsl"
 #include "lib/displacement/transfer_basis.glsl"

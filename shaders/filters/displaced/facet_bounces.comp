@@ -4,7 +4,7 @@
 // One step of the light between facets: o = mean over links of b + o, of the first four functions.
 // In the first step o is 0, and what results is also kept as its integral with diffuse light.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// What each facet sees of the sky: the coefficients b (interface/relief.h), by the horizon of
-// the middle of its quad in each azimuth. One thread a quad.
+// What each facet sees of the sky: the coefficients b (interface/displacement/relief.h), by the
+// horizon of the middle of its quad in each azimuth. One thread a quad.
 
 #include "filters/displaced/facets.glsl"
 #include "lib/displacement/transfer_basis.glsl"

@@ -3,7 +3,7 @@
 
 // The heights of a material's relief, in widths of a texel. What is no number is 0.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 #include "lib/number/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,7 +3,7 @@
 
 // Mean and largest height of a relief, from those of its rows. One thread.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 
 layout(local_size_x = 1) in;
 

@@ -1,9 +1,9 @@
 #ifndef HEIGHT_FIELD_GLSL
 #define HEIGHT_FIELD_GLSL
 
-// A material's relief (interface/relief.h), and rays through it.
+// A material's relief (interface/displacement/relief.h), and rays through it.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 
 #ifndef LOBE_DESCRIPTOR
 #define LOBE_DESCRIPTOR(number) set = 0, binding = number

@@ -3,7 +3,7 @@
 
 // A level of maxima of a relief, from the level before.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -3,7 +3,7 @@
 
 // Mean and largest height of each row of a relief.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 
 layout(local_size_x = 64) in;
 

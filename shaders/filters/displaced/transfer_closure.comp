@@ -4,7 +4,7 @@
 // What the mean of a whole map of transfer lacks of reflecting all light, if it were white, and how
 // much of the light between facets goes on. One thread.
 
-#include "interface/relief.h"
+#include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;

@@ -18,8 +18,8 @@ layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
     moment_binning_constants binning;
 };
 
-// Along each side: of all texels, so many are sampled. lavapipe leaves all loops of a thread when it
-// has gone through them 65535 times in all.
+// Along each side: of all texels, so many are sampled. lavapipe leaves all loops of a thread when
+// it has gone through them 65535 times in all.
 const uint CELLS = LOBE_COUNT > 2u ? 32u : 64u;
 const uint ROUNDS = 25;
 const uint MERGED = 2; // the third start

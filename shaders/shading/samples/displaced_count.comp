@@ -4,7 +4,7 @@
 // How many indices a draw of displaced geometry has, which only the device knows: written into the
 // arguments of a pass that takes further samples.
 
-#include "interface/displacement.h"
+#include "interface/displacement/displacement.h"
 
 layout(local_size_x = 1) in;
 

@@ -12,7 +12,7 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "shaders/interface/displacement.h"
+#include "shaders/interface/displacement/displacement.h"
 #include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"

@@ -1,8 +1,8 @@
 #ifndef INTERFACE_RELIEF_H
 #define INTERFACE_RELIEF_H
 
-#include "specialisation.h"
-#include "types.h"
+#include "../specialisation.h"
+#include "../types.h"
 
 // The relief of a material with a height map: a surface of two triangles for each square between
 // the centres of four neighbouring texels, repeated without end. Lengths are in widths of a texel.

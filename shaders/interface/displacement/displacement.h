@@ -1,7 +1,7 @@
 #ifndef INTERFACE_DISPLACEMENT_H
 #define INTERFACE_DISPLACEMENT_H
 
-#include "types.h"
+#include "../types.h"
 
 // Displaced surfaces. The base mesh is welded: vertices at one place are one *point*, whatever
 // their normals and texture coordinates; a *chart* of a point is one set of texture coordinates

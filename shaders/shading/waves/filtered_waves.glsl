@@ -8,7 +8,7 @@
 #define SLOPE_FILTER
 
 #include "shading/filtered_maps.glsl"
-#include "shading/waves.glsl"
+#include "shading/waves/waves.glsl"
 #include "lib/microfacet/slope_distribution.glsl"
 
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {

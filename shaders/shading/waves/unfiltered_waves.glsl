@@ -4,7 +4,7 @@
 // One point of the waves: all layers together move the point and tilt its surface.
 
 #include "shading/unfiltered_maps.glsl"
-#include "shading/waves.glsl"
+#include "shading/waves/waves.glsl"
 
 vec2 displacement(vec2 point) {
     vec2 sum = vec2(0.0);
