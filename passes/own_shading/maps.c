@@ -9,6 +9,7 @@
 #include "passes/filters/slots.h"
 #include "passes/maps/waves.h"
 #include "passes/own_shading/material_scene.h"
+#include "passes/upload/device_scene_parts.h"
 #include "passes/upload/frame_check.h"
 #include "passes/upload/scene_upload.h"
 
@@ -241,6 +242,8 @@ lobe_result lobe_maps_record(lobe_maps *maps, const lobe_vulkan_submission *subm
     lobe_result result = check_changes(maps, &nothing);
     if (result == LOBE_OK)
         result = passes_check_frame(&maps->materials->scene, &maps->host);
+    if (result == LOBE_OK && maps->filter->reads_heights)
+        result = passes_device_scene_upload_heights(maps->uploaded, &maps->host);
     if (result != LOBE_OK || !may_have_changed(maps))
         return result;
     lobe_graph_set_frames_in_flight(maps->graph, maps->parameters.frames_in_flight);

@@ -3,6 +3,7 @@
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/motion/motion.h"
 #include "passes/renderer/shading.h"
+#include "passes/upload/device_scene_parts.h"
 #include "passes/upload/frame_check.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -96,6 +97,8 @@ static lobe_result prepare(rendering *r) {
         return result;
     fill_context(r, filter);
     result = passes_environment_light_check(&r->context);
+    if (result == LOBE_OK && filter->reads_heights)
+        result = passes_device_scene_upload_heights(r->renderer->scene, &r->renderer->host);
     return result ? result
                   : passes_displacement_prepare(&r->renderer->displacement, &r->context,
                                                 r->renderer->scene);

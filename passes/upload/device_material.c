@@ -65,6 +65,16 @@ lobe_result passes_device_scene_upload_image(device_scene *result, int32_t index
         &result->images[index]);
 }
 
+lobe_result passes_device_scene_upload_heights(device_scene *scene, const lobe_host *host) {
+    lobe_result status = LOBE_OK;
+    for (size_t i = 0; status == LOBE_OK && i < scene->scene->material_count; i++) {
+        const lobe_texture_use *use = scene->materials[i].maps[MAP_HEIGHT].use;
+        if (use)
+            status = passes_device_scene_upload_image(scene, use->image, host);
+    }
+    return status;
+}
+
 /// Whether a row has the same bytes in a channel as another texel. Without branches, for compilers
 /// to vectorise.
 static bool row_equals(const unsigned char *row, uint32_t width, size_t texel, size_t channel,
@@ -137,8 +147,11 @@ static lobe_result upload_map(device_scene *scene, device_material *material, ui
                               const lobe_texture_use *use, const lobe_host *host) {
     const bool derived =
         map == MAP_NORMAL && passes_has_height_normals(scene->scene, material->material);
-    lobe_result status = derived ? make_height_normals(scene, material, host)
-                                 : passes_device_scene_upload_image(scene, use->image, host);
+    lobe_result status = LOBE_OK;
+    if (derived)
+        status = make_height_normals(scene, material, host);
+    else if (map != MAP_HEIGHT) // what reads heights uploads them
+        status = passes_device_scene_upload_image(scene, use->image, host);
     if (status != LOBE_OK)
         return status;
     const lobe_scene_image *source = &scene->scene->images[use->image];
@@ -241,7 +254,7 @@ static bool keeps_lobes(const device_scene *scene, const device_material *before
                         const device_material *after) {
     if (after->height_normals && before->height_scale != after->height_scale)
         return false;
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
+    for (uint32_t map = 0; map < MAP_HEIGHT; map++)
         if (!is_same_map(&before->maps[map], &after->maps[map]))
             return false;
     return before->model == after->model && before->distribution == after->distribution &&

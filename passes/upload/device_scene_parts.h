@@ -19,6 +19,9 @@ lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index)
 lobe_result passes_device_scene_upload_image(device_scene *scene, int32_t index,
                                              const lobe_host *host);
 
+/// Creates the textures of all height maps, for a filter that reads them.
+lobe_result passes_device_scene_upload_heights(device_scene *scene, const lobe_host *host);
+
 /// Creates the texture of the scene's environment, if it has one.
 lobe_result passes_device_scene_upload_environment(device_scene *scene);
 

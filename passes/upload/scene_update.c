@@ -56,7 +56,7 @@ static lobe_result check_all_indices(const scene_update *update) {
 static lobe_result check_material(const scene_update *update, uint32_t index) {
     const lobe_scene *scene = update->scene->scene;
     lobe_result result = passes_scene_check_material(scene, index, update->host);
-    for (uint32_t map = 0; result == LOBE_OK && map < MAP_COUNT; map++) {
+    for (uint32_t map = 0; result == LOBE_OK && map < MAP_HEIGHT; map++) {
         const lobe_texture_use *use = passes_material_map_use(scene, &scene->materials[index], map);
         if (use && !update->scene->images[use->image])
             result = passes_scene_check_image(scene, (size_t)use->image, NULL, update->host);
@@ -90,8 +90,9 @@ static bool reads_image(const device_material *material, uint32_t map, uint32_t 
     return use && (uint32_t)use->image == image;
 }
 
+/// Except for heights: no lobe depends on them, and who reads them uploads them.
 static bool uses_image(const device_material *material, uint32_t image) {
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
+    for (uint32_t map = 0; map < MAP_HEIGHT; map++)
         if (reads_image(material, map, image))
             return true;
     return false;
@@ -164,7 +165,9 @@ static void mark_materials(scene_update *update) {
         update->materials[m] = scene->materials[m].constants != NULL;
     for (size_t m = 0; m < scene->scene->material_count; m++)
         for (size_t i = 0; i < changes->image_count; i++)
-            update->materials[m] |= uses_image(&scene->materials[m], changes->images[i]);
+            update->materials[m] |=
+                uses_image(&scene->materials[m], changes->images[i]) ||
+                reads_image(&scene->materials[m], MAP_HEIGHT, changes->images[i]);
     // A material that no instance uses is not on the device.
     for (size_t i = 0; i < changes->material_count; i++)
         if (scene->materials[changes->materials[i]].constants)

@@ -113,6 +113,7 @@ const lobe_filter passes_filter_displaced = {
              "Displacement-Mapped Surfaces",
     .shading = "displaced",
     .knobs = knobs,
+    .reads_heights = true,
     .build = build,
     .ignores = ignores,
 };

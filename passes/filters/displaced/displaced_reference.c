@@ -56,6 +56,7 @@ const lobe_filter passes_filter_displaced_reference = {
     .shading = "displaced_reference",
     .knobs = knobs,
     .supersamples = true,
+    .reads_heights = true,
     .build = build,
     .ignores = ignores,
 };

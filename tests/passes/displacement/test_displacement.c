@@ -571,6 +571,11 @@ static void heights_are_numbers(void **state) {
     // Without a normal map, heights are needed earlier (tests/passes/upload/test_height_normals.c).
     scene->materials[0].normal_map = scene_add_map(scene, constant_map(1, 1, 0.5f, 0.5f, 1));
     assert_failure(f, try_drawing(f, scene), LOBE_ERROR_MALFORMED, "map");
+    // Nobody reads heights where nothing is displaced.
+    lobe_frame frame =
+        draw_scene(f, scene, &(picture_request){.filter = "direct", .width = 16, .height = 16});
+    assert_true(all_finite(&frame.radiance));
+    lobe_frame_free(&frame);
     lobe_scene_destroy(&scene);
 }
 
