@@ -85,9 +85,6 @@ uint64_t engine_device_finished(lobe_device *device) {
 }
 
 lobe_result engine_device_wait(lobe_device *device, uint64_t value) {
-    // A host with several frames in flight has waited already.
-    if (engine_device_finished(device) >= value)
-        return LOBE_OK;
     const VkSemaphoreWaitInfo wait = {
         .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
         .semaphoreCount = 1,

@@ -49,6 +49,12 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
     flight->submission = 0;
 }
 
+/// A host with several frames in flight may have waited already.
+static lobe_result wait_unless_finished(lobe_device *device, uint64_t submission) {
+    return engine_device_finished(device) >= submission ? LOBE_OK
+                                                        : engine_device_wait(device, submission);
+}
+
 lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
     if (graph->frame.flight->busy) {
@@ -58,7 +64,7 @@ lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     }
     // If the host submitted the frame itself, it guarantees that the frame has finished.
     if (graph->frame.flight->submission)
-        result = engine_device_wait(graph->device, graph->frame.flight->submission);
+        result = wait_unless_finished(graph->device, graph->frame.flight->submission);
     if (result != LOBE_OK)
         return result;
     engine_graph_retire_flight(graph, graph->frame.flight);
@@ -87,7 +93,7 @@ lobe_result engine_graph_finish_frames(lobe_graph *graph) {
             last = flight->submission;
     }
     const lobe_result result = recorded   ? engine_device_wait_queue(graph->device)
-                               : last > 0 ? engine_device_wait(graph->device, last)
+                               : last > 0 ? wait_unless_finished(graph->device, last)
                                           : LOBE_OK;
     for (uint32_t i = 0; result == LOBE_OK && i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
         if (graph->kept.flights[i].busy)
