@@ -416,6 +416,7 @@ static void waves_reach_the_hosts_shader(void **state) {
         parameters.wind_speed = windy ? 8 : 0;
         open_subject(&s, "leadr", evaluation_leadr, sizeof evaluation_leadr);
         lobe_material *material = &s.scene->materials[0];
+        lobe_release(material->name);
         *material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.05, 1);
         material->waves = (lobe_waves){.layers = 1,
                                        .size = MAP,
