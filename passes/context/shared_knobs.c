@@ -9,6 +9,8 @@ static const char *const bases[] = {"exact", "lobe", NULL};
 
 static const char *const displacements[] = {"none", "geometry", NULL};
 
+static const char *const shadow_extents[] = {"none", "512", "1024", "2048", "4096", NULL};
+
 static const char *const methods[] = {"exact", "mip", "prefiltered", "sampled", NULL};
 static const char *const sizes[] = {"16", "32", "64", "128", "256", "512", "1024", "2048", NULL};
 static const char *const level_blends[] = {"trilinear", "blended", NULL};
@@ -59,6 +61,15 @@ const filter_knob passes_knob_pixels_per_vertex = {
                     .summary = "of displaced geometry: how far vertices are apart, at least 0.5; "
                                "0: 8 on CPUs, 3 on GPUs, 0.5 for the reference",
                     .maximum = 64},
+};
+
+const filter_knob passes_knob_shadows = {
+    .description = {.name = "shadows",
+                    .summary = "texels a side of the maps by which surfaces shadow each other from "
+                               "lights; none: they do not",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 4,
+                    .choices = shadow_extents},
 };
 
 // passes/environment/light.c chooses the shader's method: it also depends on the maps built so far.
@@ -169,6 +180,7 @@ const filter_knob *const passes_shared_knobs[] = {
     &passes_knob_base,
     &passes_knob_displacement,
     &passes_knob_pixels_per_vertex,
+    &passes_knob_shadows,
     &passes_knob_environment,
     &passes_knob_environment_size,
     &passes_knob_environment_probes,

@@ -9,6 +9,8 @@ extern const filter_knob *const passes_shared_knobs[];
 extern const filter_knob passes_knob_view, passes_knob_samples, passes_knob_base;
 /// Whether height maps displace geometry, and how finely.
 extern const filter_knob passes_knob_displacement, passes_knob_pixels_per_vertex;
+/// Whether lights have shadow maps, and of how many texels.
+extern const filter_knob passes_knob_shadows;
 /// Knobs of environment light.
 extern const filter_knob passes_knob_environment, passes_knob_environment_size,
     passes_knob_environment_probes, passes_knob_environment_levels, passes_knob_environment_grid,

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "passes/context/camera.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/upload/device_mesh.h"
 #include "passes/upload/transform.h"
 #include "shaders/interface/displacement/displacement.h"
@@ -39,6 +41,20 @@ static void fill_plane(mat4 matrix, int axis, double sign, double factor, float 
         plane[i] = size > 0 ? (float)(values[i] / size) : (i == 3);
 }
 
+/// From where shadows may come into the picture. More lights than there is room for: from anywhere.
+static void fill_casters(const filter_context *context, struct displacement_constants *constants) {
+    const lobe_scene *scene = context->scene->scene;
+    if (passes_knob_choice(context, &passes_knob_shadows) == 0)
+        return;
+    constants->caster_count = (uint32_t)scene->light_count;
+    for (size_t i = 0; i < scene->light_count && i < PATCH_CASTERS; i++) {
+        const lobe_light *light = &scene->lights[i];
+        const bool far = light->type == LOBE_LIGHT_DIRECTIONAL;
+        memcpy(constants->casters[i], far ? light->direction : light->position, 3 * sizeof(float));
+        constants->casters[i][3] = far ? 0 : 1;
+    }
+}
+
 /// Independent of the camera's jitter, so that this changes no vertex.
 static void fill_camera(const filter_context *context, struct displacement_constants *constants) {
     static const float centre[2] = {0.5f, 0.5f};
@@ -66,15 +82,20 @@ static void fill_camera(const filter_context *context, struct displacement_const
     constants->pixels = (float)(view->height / (angle > 0 ? 2 * tan(0.5 * angle)
                                                           : view->camera->orthographic_height));
     constants->near_plane = view->camera->near_plane;
+    vec4 eye;
+    passes_camera_eye(view->camera, eye);
+    memcpy(constants->eye, eye, sizeof eye);
+    fill_casters(context, constants);
 }
 
 /// Room for a surface that fills the picture: up to eight triangles for each square of the spacing,
-/// and as many again for what is seen at an angle.
+/// and as many again for what is seen at an angle; and some for shadows from outside.
 static void fill_room(const filter_context *context, const displaced_surface *surface,
                       struct displacement_constants *constants) {
     const double pixels = (double)context->view.width * context->view.height;
     const double wanted = fmin(16 * pixels / (surface->spacing * surface->spacing), MOST_TRIANGLES);
-    const uint32_t patches = surface->layout->patches, usual = 4096 + (uint32_t)wanted;
+    const uint32_t least = constants->caster_count > 0 ? 16384 : 4096;
+    const uint32_t patches = surface->layout->patches, usual = least + (uint32_t)wanted;
     constants->triangle_room = usual > patches ? usual : patches;
     constants->vertex_room = usual > 3 * patches ? usual : 3 * patches;
     if (constants->vertex_room > MOST_VERTICES)

@@ -3,7 +3,10 @@
 #include <string.h>
 
 #include "passes/context/given_content.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
 #include "passes/renderer/deform.h"
+#include "passes/renderer/shadows/shadow_maps.h"
 #include "passes/renderer/tile_marking.h"
 
 static bool has_own_maps(const filter_context *context, size_t instance) {
@@ -65,4 +68,8 @@ void passes_instance_maps_warn(const rendering *r) {
     if (r->renderer->reported_filter != filter)
         passes_filter_warn(filter, r->context.scene->scene, &r->renderer->host);
     r->renderer->reported_filter = filter;
+    const uint32_t choice = passes_knob_choice(&r->context, &passes_knob_shadows);
+    if (choice != r->renderer->reported_shadows)
+        passes_shadow_maps_warn(&r->context);
+    r->renderer->reported_shadows = choice;
 }

@@ -39,6 +39,7 @@ static lobe_resource declare_samples(rendering *r, const sample_sum *sum, uint32
         shading_sample sample = {.footprint = 1, .number = first + i, .pattern = sum->pattern};
         passes_sample_position(sample.number, sum->samples, sample.position);
         passes_sample_position_in_pattern(sum->pattern, sample.position);
+        light.shadows = passes_shadow_maps(&r->context, &r->renderer->draws, &sample);
         passes_shading(&r->context, &r->renderer->draws, &light, &sample, NULL, &targets);
         resource = passes_accumulation(graph, targets.radiance, resource, r->width, r->height);
     }

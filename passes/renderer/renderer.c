@@ -35,6 +35,7 @@ static void forget_scene(lobe_renderer *renderer) {
     renderer->filtered_images = NULL;
     renderer->first_marks = NULL;
     renderer->reported_filter = NULL;
+    renderer->reported_shadows = 0;
     passes_motion_history_forget(&renderer->motion);
     passes_environment_light_forget(&renderer->environment);
 }

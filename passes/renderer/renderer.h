@@ -22,6 +22,7 @@ struct lobe_renderer {
     lobe_resource *filtered_images;     ///< one per image of the scene, then one per material
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
+    uint32_t reported_shadows;          ///< the knob `shadows` when lights were last counted for it
     environment_state environment;
     motion_history motion;
     displacement *displacement;      ///< NULL: no frame of this scene has displaced anything

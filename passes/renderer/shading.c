@@ -36,6 +36,7 @@ typedef struct drawing {
     const light_counts *lights;         ///< of the scene
     const shading_selection *selection; ///< NULL: all pixels
     bool depth_as_coverage;
+    bool shadows;
     bool aov;
     lobe_pass *pass;
 } drawing;
@@ -90,10 +91,14 @@ static lobe_resource upload_lights(const filter_context *context) {
         return (lobe_resource){0};
     }
     size_t next = 0;
+    shadow_plan plan = passes_shadow_plan(context);
     for (size_t type = 0; type < 3; type++) {
         for (size_t i = 0; i < scene->light_count; i++) {
-            if (scene->lights[i].type == order[type])
-                fill_light(&scene->lights[i], &lights[next++]);
+            if (scene->lights[i].type != order[type])
+                continue;
+            fill_light(&scene->lights[i], &lights[next]);
+            lights[next].cone[2] = (float)plan.layers;
+            lights[next++].cone[3] = (float)passes_shadow_plan_take(&plan, &scene->lights[i]);
         }
     }
     lobe_resource resource = lobe_graph_upload(context->graph, "lights", lights, size);
@@ -204,6 +209,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     uint32_t lights = (uint32_t)scene->scene->light_count;
     passes_specialise(list, SPECIALISE_LIGHTS_AT_ONCE,
                       passes_environment_light_lights_at_once(d->light, lights));
+    passes_specialise(list, SPECIALISE_SHADOWS, d->shadows);
     passes_specialise(list, SPECIALISE_DEPTH_AS_COVERAGE, d->depth_as_coverage);
     passes_material_shading_specialise(d->context, d->light, &scene->materials[drawn->material],
                                        batch->appearance, list);
@@ -286,6 +292,8 @@ static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
     lobe_resource frame = upload_frame(s, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    lobe_pass_read(pass, &(lobe_binding){.name = "shadow_maps", .resource = light->shadows.maps});
+    lobe_pass_read(pass, &(lobe_binding){.name = "shadow_block", .resource = light->shadows.views});
     passes_knobs_bind(s->context, pass);
     passes_environment_light_bind(&light->environment, s->context, pass, s->sample);
 }
@@ -304,6 +312,7 @@ static void draw_part(const shading *s, light_part lights, const shading_light *
                  .lights = &s->lights,
                  .selection = s->selection,
                  .depth_as_coverage = targets->depth_as_coverage,
+                 .shadows = light->shadows.present,
                  .aov = aov,
                  .pass = pass};
     if (s->selection)

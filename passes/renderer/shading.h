@@ -4,6 +4,7 @@
 #include "passes/context/filter.h"
 #include "passes/environment/light.h"
 #include "passes/renderer/draw_list.h"
+#include "passes/renderer/shadows/shadow_maps.h"
 
 /// What the shading pass draws into. passes_shading_targets_declare declares the images; each
 /// shading pass clears them and stores their new versions here.
@@ -37,8 +38,10 @@ shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width
 typedef struct shading_light {
     lobe_resource punctual; ///< lights, sorted by type
     environment_light environment;
+    shadow_maps shadows; ///< of the sample that is drawn next
 } shading_light;
 
+/// Without shadows: these need the draws (passes_shadow_maps).
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 

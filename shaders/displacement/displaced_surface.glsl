@@ -26,9 +26,12 @@ vec3 world_position(vec3 position) {
     return result;
 }
 
-// Along the view, metres; not in front of the near plane.
+// Along the view, metres; not in front of the near plane. What no picture shows may throw shadows
+// into it: beside and behind the camera, the distance to the eye counts.
 float view_distance(vec3 world) {
-    return max(dot(constants.axis.xyz, world) - constants.axis.w, constants.near_plane);
+    float along = dot(constants.axis.xyz, world) - constants.axis.w;
+    float beside = 0.25 * constants.eye.w * length(world - constants.eye.xyz);
+    return max(max(along, beside), constants.near_plane);
 }
 
 float pixels_per_metre(float distance) {

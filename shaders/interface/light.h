@@ -8,7 +8,9 @@ struct light {
     float4 position;  // world; w: 1 / range^2, 0 for unlimited
     float4 direction; // unit, towards the light for directional ones, else where a spot points
     float4 intensity; // linear RGB, candela or lux
-    float4 cone;      // spot: x scale, y offset of the angular attenuation
+    // Spot: x scale, y offset of the angular attenuation. With a shadow: z its first view, w how
+    // many views (0: none).
+    float4 cone;
 };
 INTERFACE_SIZE(light, 64)
 INTERFACE_OFFSET(light, direction, 16)

@@ -34,6 +34,7 @@
 #define SPECIALISE_POINT_LIGHTS       SPECIALISE(17) // bool
 #define SPECIALISE_SPOT_LIGHTS        SPECIALISE(18) // bool
 #define SPECIALISE_LIGHTS_AT_ONCE     SPECIALISE(19) // uint, [1, 4]: lights that filters take together
+#define SPECIALISE_SHADOWS            SPECIALISE(31) // bool: there are shadow maps
 // The knobs of all filters.
 #define SPECIALISE_VIEW              SPECIALISE(24) // uint, VIEW_...
 #define SPECIALISE_BASE_AS_LOBE      SPECIALISE(25) // bool: base lobes become von Mises-Fisher lobes

@@ -21,6 +21,7 @@
 #include "shading/pixel.glsl"
 #include "filter.glsl"
 #include "shading/lights/punctual_lights.glsl"
+#include "shading/shadows/shadow_maps.glsl"
 #ifdef ENVIRONMENT
 #include "environment/integral.glsl"
 #endif
@@ -36,7 +37,7 @@ vec3 incoming_direction(uint i, surface_point surface) {
 }
 
 // Radiance from all lights, LIGHTS_AT_ONCE at a time.
-vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
+vec3 reflected_radiance(inout appearance fetched, surface_point surface, drawn_plane plane) {
     vec3 sum = vec3(0.0);
     uint count = light_count();
     for (uint first = 0u; first < count; first += LIGHTS_AT_ONCE) {
@@ -51,7 +52,10 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
         gather_lights(fetched, surface, incoming);
         for (uint i = 0u; i < LIGHTS_AT_ONCE && first + i < count; ++i) {
             vec3 direction = light_direction(first + i, interpolated_position);
-            sum += light_irradiance(first + i, interpolated_position, direction) *
+            vec3 irradiance = light_irradiance(first + i, interpolated_position, direction);
+            if (SHADOWS)
+                irradiance *= light_visibility(first + i, interpolated_position, direction, plane);
+            sum += irradiance *
                    evaluate_appearance(fetched, surface, direction * surface.world_from_tangent, i);
         }
     }
@@ -60,6 +64,9 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface) {
 
 void main() {
     surface_point surface = read_surface();
+    drawn_plane plane;
+    if (SHADOWS)
+        plane = plane_of_triangle();
     appearance fetched = fetch_appearance(surface);
     if (ALPHA_MASK && !fetched.kept)
         discard;
@@ -67,7 +74,7 @@ void main() {
     // Shades even for the views of lobes and levels, which count what shading used.
     vec3 value = vec3(0.0);
     if (DIRECTIONAL_LIGHTS || POINT_LIGHTS || SPOT_LIGHTS)
-        value = reflected_radiance(fetched, surface);
+        value = reflected_radiance(fetched, surface, plane);
 #ifdef ENVIRONMENT
     value += environment_light(fetched, surface);
 #endif

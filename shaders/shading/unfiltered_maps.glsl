@@ -4,26 +4,13 @@
 // One sample of the maps as they are, without any filtering over the pixel.
 
 #include "shading/base_material.glsl"
-
-vec4 unfiltered_texel(int map, sampler2D image, surface_point surface) {
-    return has_map(map) ? textureLod(image, map_coordinates(map, surface.coordinates, 1.0), 0.0)
-                        : vec4(1.0);
-}
+#include "shading/unfiltered_texel.glsl"
 
 vec3 unfiltered_normal(surface_point surface) {
     if (!has_map(MAP_NORMAL))
         return vec3(0.0, 0.0, 1.0);
     return decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
                          material.normal_scale, NORMALS);
-}
-
-vec4 unfiltered_base_colour(surface_point surface) {
-    return unfiltered_texel(MAP_BASE_COLOUR, base_colour_map, surface);
-}
-
-// Whether the mask keeps a texel with this alpha: glTF 2.0, section 3.9.4.
-bool is_kept(float alpha, surface_point surface) {
-    return !(alpha * material.base_colour.a * surface.colour.a < material.emissive.w);
 }
 
 // glTF 2.0, section 3.9.3, for a texel of the occlusion map or a mean of texels.

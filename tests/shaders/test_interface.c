@@ -29,6 +29,7 @@
 #include "shaders/interface/moment_refit.h"
 #include "shaders/interface/motion.h"
 #include "shaders/interface/ocean.h"
+#include "shaders/interface/shadow.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
 #include "shaders/interface/waves.h"
@@ -101,6 +102,9 @@ static known_member known[] = {
     MEMBER(displacement_constants, row, 20),
     MEMBER(displacement_constants, vertex_room, 21),
     MEMBER(displacement_constants, triangle_room, 22),
+    MEMBER(displacement_constants, caster_count, 23),
+    MEMBER(displacement_constants, eye, 24),
+    MEMBER(displacement_constants, casters, 25),
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
     MEMBER(lobe_grid_constants, level, 2),
@@ -188,6 +192,8 @@ static known_member known[] = {
     MEMBER(lobes_knobs, epsilon0, 0),
     MEMBER(lobes_knobs, epsilon1, 1),
     MEMBER(lobes_knobs, blend, 2),
+    MEMBER(shadow_view, world_to_clip, 0),
+    MEMBER(shadow_view, tolerance, 1),
     MEMBER(material_constants, base_colour, 0),
     MEMBER(material_constants, emissive, 1),
     MEMBER(material_constants, metallic, 2),

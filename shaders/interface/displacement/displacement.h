@@ -12,6 +12,11 @@
 #define PATCH_MOST 6
 // Vertices are counted for distances of k 2^(j/2) pixels, j below this.
 #define PATCH_SPACINGS 8
+// Lights whose shadows decide what is not culled.
+#define PATCH_CASTERS 4
+// What the picture does not show, but whose shadow may fall into it, has vertices 2^this times as
+// far apart.
+#define PATCH_UNSEEN 2
 // Threads of the group that adds up the counts of all patches.
 #define PATCH_GROUP 256
 
@@ -92,9 +97,12 @@ struct displacement_constants {
     uint depth; // patches of a triangle: 4^depth
     uint row;   // threads in a row of the dispatch
     uint vertex_room, triangle_room;
-    uint padding_0;
+    uint caster_count; // lights that cast shadows; above PATCH_CASTERS: only some are listed
+    float4 eye;        // w: 0: no place
+    // Where a light is (w: 1), or which way it shines (w: 0).
+    float4 casters[PATCH_CASTERS];
 };
-INTERFACE_SIZE(displacement_constants, 256)
+INTERFACE_SIZE(displacement_constants, 336)
 INTERFACE_OFFSET(displacement_constants, axis, 48)
 INTERFACE_OFFSET(displacement_constants, planes, 64)
 INTERFACE_OFFSET(displacement_constants, map_rows, 144)
@@ -117,6 +125,9 @@ INTERFACE_OFFSET(displacement_constants, depth, 236)
 INTERFACE_OFFSET(displacement_constants, row, 240)
 INTERFACE_OFFSET(displacement_constants, vertex_room, 244)
 INTERFACE_OFFSET(displacement_constants, triangle_room, 248)
+INTERFACE_OFFSET(displacement_constants, caster_count, 252)
+INTERFACE_OFFSET(displacement_constants, eye, 256)
+INTERFACE_OFFSET(displacement_constants, casters, 272)
 
 #define WRAP_REPEAT 0
 #define WRAP_MIRROR 1
