@@ -42,6 +42,7 @@ typedef struct filter_context {
     const lobe_filter *filter;
     const lobe_settings *settings; ///< of that filter
     filtered_images *images;
+    struct fit_work *work; ///< NULL: fitted maps are made whole (passes/context/fit_work.h)
     const struct tile_marks *marks; ///< NULL: maps are made whole (passes/maps/seen_tiles.h)
     const lobe_host *host;          ///< log and memory
 } filter_context;
@@ -80,6 +81,9 @@ struct lobe_filter {
     /// What is kept of a material serves other texels in the same maps, too: `build` adds passes
     /// that adapt it. The slot then stays valid when nothing but texels has changed.
     bool adapts_to_texels;
+    /// Saves in a folder what `build` read back of the last frame, whose execution was waited for;
+    /// NULL: drops it. The function itself may be NULL: the filter reads nothing back.
+    void (*save)(void *slot, const lobe_graph *graph, const char *folder, const lobe_host *host);
     /// Frees what `prepare` put into a slot; never called with NULL. Required if there is a
     /// `prepare`.
     void (*forget)(void *slot);

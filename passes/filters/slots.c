@@ -84,6 +84,14 @@ void passes_filter_slots_build(filter_slots **slots, const filter_context *conte
                         lobe_result_message(result));
 }
 
+void passes_filter_slots_save(filter_slots *slots, const lobe_graph *graph, const char *folder,
+                              const lobe_host *host) {
+    for (; slots; slots = slots->next)
+        for (size_t i = 0; slots->filter->save && i < slots->count; i++)
+            if (slots->slots[i].prepared)
+                slots->filter->save(slots->slots[i].prepared, graph, folder, host);
+}
+
 void passes_filter_slots_update(filter_slots *slots, const device_scene *scene) {
     for (; slots; slots = slots->next)
         for (size_t i = 0; i < slots->count; i++)

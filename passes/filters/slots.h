@@ -13,6 +13,11 @@ typedef struct filter_slots filter_slots;
 void passes_filter_slots_build(filter_slots **slots, const filter_context *context, size_t instance,
                                filtered_appearance *appearance);
 
+/// Lets filters save in a folder what the last frame read back, which has been waited for. NULL:
+/// drops it.
+void passes_filter_slots_save(filter_slots *slots, const lobe_graph *graph, const char *folder,
+                              const lobe_host *host);
+
 /// Forgets what was prepared for materials that have changed since. `scene` is the one they were
 /// prepared for.
 void passes_filter_slots_update(filter_slots *slots, const device_scene *scene);

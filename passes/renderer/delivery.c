@@ -84,11 +84,13 @@ lobe_result passes_delivery_run(rendering *r, const frame_delivery *delivery, lo
                                               : lobe_graph_execute(graph);
     if (result != LOBE_OK)
         return result;
+    r->renderer->fits_are_read_back = r->fits.reads_back;
     if (delivery->submission) {
         passes_pass_times_add_submission(frame, lobe_graph_describe(graph));
         return LOBE_OK;
     }
     passes_environment_light_save(&r->environment, graph, r->context.host);
+    passes_fits_save(r);
     if (passes_pass_times_add(frame, lobe_graph_describe(graph), r->context.host->allocator))
         return LOBE_OK;
     return lobe_host_fail(r->context.host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",

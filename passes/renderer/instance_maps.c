@@ -41,6 +41,13 @@ static void add_instances(rendering *r, const device_material *material, lobe_fr
     }
 }
 
+void passes_fits_save(rendering *r) {
+    if (r->renderer->fits_are_read_back)
+        passes_filter_slots_save(r->renderer->slots, r->renderer->graph,
+                                 r->fits.saves ? r->fits.cache : NULL, r->context.host);
+    r->renderer->fits_are_read_back = r->fits.reads_back = false;
+}
+
 static bool is_cpu(const lobe_device *device) {
     return lobe_device_describe(device)->type == LOBE_DEVICE_CPU;
 }
@@ -56,6 +63,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
            (scene->image_count + scene->material_count) * sizeof *r->images.resources);
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
+    r->fits.parts_left = 0;
     passes_draw_list_begin(&r->renderer->draws, r->context.scene);
     for (size_t i = 0; i < scene->material_count; i++)
         add_instances(r, &r->context.scene->materials[i], frame);

@@ -56,11 +56,20 @@ static lobe_result check(const rendering *r) {
 // ---------------------------------------------------------------------------------------------
 // Preparation
 
-/// Cubes that a frame reads back can be saved when the next one begins, unless several frames are
-/// in flight: only the host knows when commands of its own have finished.
-static bool saves_environment(const lobe_render_parameters *parameters) {
-    return parameters->environment.cache &&
-           (!parameters->host.submission || parameters->host.frames_in_flight <= 1);
+/// What a frame reads back can be saved when the next one begins, unless several frames are in
+/// flight: only the host knows when commands of its own have finished.
+static bool may_save(const lobe_render_parameters *parameters) {
+    return !parameters->host.submission || parameters->host.frames_in_flight <= 1;
+}
+
+static fit_work fits_of(const rendering *r) {
+    const lobe_render_fits *fits = &r->parameters->fits;
+    return (fit_work){
+        .parts = fits->parts ? fits->parts : UINT32_MAX,
+        .cache = fits->cache,
+        .saves = fits->cache && may_save(r->parameters),
+        .most_texels = lobe_device_describe(r->renderer->device)->maximum_image_extent,
+    };
 }
 
 static void fill_context(rendering *r, const lobe_filter *filter) {
@@ -76,14 +85,16 @@ static void fill_context(rendering *r, const lobe_filter *filter) {
         .filter = filter,
         .settings = &r->settings,
         .images = &r->images,
+        .work = &r->fits,
         .host = &renderer->host,
     };
     r->environment = (environment_work){
         .state = &renderer->environment,
         .parts = parameters->environment.parts,
         .cache = parameters->environment.cache,
-        .saves = saves_environment(parameters),
+        .saves = parameters->environment.cache && may_save(parameters),
     };
+    r->fits = fits_of(r);
 }
 
 static lobe_result prepare(rendering *r) {
@@ -104,13 +115,15 @@ static lobe_result prepare(rendering *r) {
                                                 r->renderer->scene);
 }
 
-/// Saves the cubes that the last submitted frame read back, if that has not been done, and loads
-/// those that this frame needs.
-static lobe_result update_environment(rendering *r) {
+/// Saves the cubes and fitted maps that the last submitted frame read back, if that has not been
+/// done, and loads the cubes that this frame needs.
+static lobe_result update_caches(rendering *r) {
     environment_state *state = r->environment.state;
     lobe_result result = LOBE_OK;
-    if (state->reads_back)
+    if (state->reads_back || r->renderer->fits_are_read_back)
         result = lobe_graph_wait(r->context.graph);
+    if (result == LOBE_OK)
+        passes_fits_save(r);
     if (result == LOBE_OK && r->environment.saves)
         passes_environment_light_save(&r->environment, r->context.graph, r->context.host);
     state->reads_back = false;
@@ -126,7 +139,9 @@ static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *st
     const lobe_render_host *host = &r->parameters->host;
     const uint32_t count = passes_environment_light_parts_left(&r->context, &r->environment);
     lobe_result result = LOBE_OK;
+    const uint32_t fits = r->fits.parts;
     r->environment.parts = 1;
+    r->fits.parts = 0;
     for (uint32_t done = 1; result == LOBE_OK && !*stopped && done <= count; done++) {
         lobe_graph_begin(r->renderer->graph);
         passes_instance_maps_build(r, frame);
@@ -136,12 +151,43 @@ static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *st
             result == LOBE_OK && !host->environment_progress(host->user, done / (double)count);
     }
     r->environment.parts = 0;
+    r->fits.parts = fits;
+    return result;
+}
+
+/// One submission for each part of the maps that are fitted to materials, as above. How many there
+/// are shows when they are declared.
+static lobe_result prepare_fits(rendering *r, lobe_frame *frame, bool *stopped) {
+    static const frame_delivery none = {0};
+    const lobe_render_host *host = &r->parameters->host;
+    lobe_result result = LOBE_OK;
+    uint32_t count = 0;
+    while (result == LOBE_OK && !*stopped) {
+        lobe_graph_begin(r->renderer->graph);
+        r->fits.parts = 1;
+        passes_instance_maps_build(r, frame);
+        const uint32_t left = r->fits.parts_left + (r->fits.parts == 0);
+        if (left == 0)
+            break;
+        count = count > 0 ? count : left;
+        (void)passes_shading_light_prepare(&r->context, &r->environment);
+        result = passes_delivery_run(r, &none, frame);
+        *stopped = result == LOBE_OK &&
+                   !host->fits_progress(host->user, (count - r->fits.parts_left) / (double)count);
+    }
+    r->fits.parts = UINT32_MAX;
     return result;
 }
 
 static bool prepares_environment(const lobe_render_parameters *parameters) {
     return parameters->host.environment_progress && !parameters->host.submission &&
            parameters->environment.parts == 0;
+}
+
+static bool prepares_fits(const rendering *r) {
+    const lobe_render_parameters *parameters = r->parameters;
+    return r->context.filter->save && parameters->host.fits_progress &&
+           !parameters->host.submission && parameters->fits.parts == 0;
 }
 
 static void invalidate_maps(const rendering *r) {
@@ -157,8 +203,10 @@ static void invalidate_maps(const rendering *r) {
 static lobe_result draw(rendering *r, lobe_frame *frame) {
     const frame_delivery delivery = passes_delivery_of(r->parameters);
     bool stopped = false;
-    const lobe_result result =
+    lobe_result result =
         prepares_environment(r->parameters) ? prepare_environment(r, frame, &stopped) : LOBE_OK;
+    if (result == LOBE_OK && !stopped && prepares_fits(r))
+        result = prepare_fits(r, frame, &stopped);
     if (stopped)
         lobe_frame_free(frame);
     if (result != LOBE_OK || stopped)
@@ -183,7 +231,7 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     };
     lobe_result result = prepare(&r);
     if (result == LOBE_OK)
-        result = update_environment(&r);
+        result = update_caches(&r);
     if (result != LOBE_OK)
         return result;
     passes_instance_maps_warn(&r);
@@ -191,7 +239,9 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
     result = draw(&r, frame);
     const environment_maps *maps = &renderer->environment.last;
     frame->environment_parts_left = maps->part_count - maps->parts_done;
+    frame->fit_parts_left = r.fits.parts_left;
     if (result != LOBE_OK) {
+        renderer->fits_are_read_back = false;
         renderer->environment.reads_back = false;
         lobe_frame_free(frame);
     }
@@ -231,6 +281,7 @@ static lobe_result prepare_frame(rendering *r, environment_state *environment, l
         return result;
     r->environment.state = environment;
     r->environment.saves = false;
+    r->fits.is_dry = true;
     result = passes_environment_light_load(&r->context, &r->environment, r->renderer->device);
     if (result != LOBE_OK)
         return result;

@@ -36,6 +36,7 @@ static void forget_scene(lobe_renderer *renderer) {
     renderer->first_marks = NULL;
     renderer->reported_filter = NULL;
     renderer->reported_shadows = 0;
+    renderer->fits_are_read_back = false;
     passes_motion_history_forget(&renderer->motion);
     passes_environment_light_forget(&renderer->environment);
 }

@@ -3,6 +3,7 @@
 
 #include <lobe/renderer.h>
 
+#include "passes/context/fit_work.h"
 #include "passes/displacement/displacement.h"
 #include "passes/environment/light.h"
 #include "passes/filters/slots.h"
@@ -24,6 +25,7 @@ struct lobe_renderer {
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     uint32_t reported_shadows;          ///< the knob `shadows` when lights were last counted for it
     environment_state environment;
+    bool fits_are_read_back; ///< by a frame that was not waited for
     motion_history motion;
     displacement *displacement;      ///< NULL: no frame of this scene has displaced anything
     lobe_content_giver give_content; ///< NULL: nobody does
@@ -36,6 +38,7 @@ typedef struct rendering {
     const lobe_render_parameters *parameters;
     filter_context context;
     environment_work environment;
+    fit_work fits;
     lobe_settings settings;
     filtered_images images;
     tile_marks tile_marks;
@@ -48,6 +51,9 @@ void passes_instance_maps_warn(const rendering *r);
 /// Adds the passes that build the filter's maps for every instance; instances share maps where the
 /// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.
 void passes_instance_maps_build(rendering *r, lobe_frame *frame);
+
+/// Saves the fitted maps that the last frame read back. It must have been waited for.
+void passes_fits_save(rendering *r);
 
 /// See passes/renderer/delivery.h.
 typedef struct frame_delivery frame_delivery;

@@ -200,8 +200,7 @@ static void forget_paint_and_metal(struct material_constants *constants) {
     constants->metallic = 0;
 }
 
-/// What neither the directions nor the widths of lobes depend on.
-static void forget_colours(struct material_constants *constants) {
+void passes_device_material_forget_colours(struct material_constants *constants) {
     forget_paint_and_metal(constants);
     for (uint32_t i = 0; i < MATERIAL_MAXIMUM_LOBES; i++)
         memset(constants->lobe_colour[i], 0, 3 * sizeof constants->lobe_colour[i][0]);
@@ -238,9 +237,10 @@ static lobe_result store_constants(lobe_graph *graph, device_material *material)
     if (status != LOBE_OK)
         return status;
     material->values = constants;
-    if (material->map_constants && are_equal(&constants, &before, forget_colours))
+    if (material->map_constants &&
+        are_equal(&constants, &before, passes_device_material_forget_colours))
         return LOBE_OK;
-    forget_colours(&constants);
+    passes_device_material_forget_colours(&constants);
     return store(graph, name, &constants, &material->map_constants);
 }
 

@@ -11,6 +11,9 @@
 lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t index,
                                                 const lobe_host *host);
 
+/// Clears what neither the directions nor the widths of lobes depend on.
+void passes_device_material_forget_colours(struct material_constants *constants);
+
 /// Fills the buffers of a mesh, which are created where it has none of that size. The mesh must
 /// have been checked.
 lobe_result passes_device_scene_upload_mesh(device_scene *scene, uint32_t index);

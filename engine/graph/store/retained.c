@@ -71,8 +71,9 @@ lobe_result engine_graph_release_retained(lobe_graph *graph) {
 static VkFlags lasting_usage(const lobe_graph *graph, const engine_graph_resource *resource) {
     if (!resource->is_image)
         return resource->usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-               VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkFormatProperties properties;
     graph->device->instance.api.vkGetPhysicalDeviceFormatProperties(
         graph->device->physical, engine_format_vulkan(resource->format), &properties);

@@ -1,9 +1,10 @@
 #include "passes/environment/cache/cube_file.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "passes/context/digest.h"
 
 /// Increment it whenever the same environment is filtered differently: old files are then no longer
 /// found.
@@ -15,46 +16,20 @@ static const char checksum_attribute[] = "texelChecksum";
 // ---------------------------------------------------------------------------------------------
 // Hashes
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
-/// generators", Fig. 5): every input bit moves every output bit.
-static uint64_t mix(uint64_t hash, uint64_t value) {
-    uint64_t z = (hash ^ value) + 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31) ^ (hash << 17 | hash >> 47);
-}
-
-static uint64_t mix_texels(uint64_t hash, const float *texels, size_t count) {
-    for (size_t texel = 0; texel < count; texel++) {
-        uint64_t words[2];
-        memcpy(words, texels + 4 * texel, sizeof words);
-        hash = mix(mix(hash, words[0]), words[1]);
-    }
-    return hash;
-}
-
 uint64_t passes_cube_file_key(const lobe_environment *environment, uint32_t size,
                               lobe_environment_map map) {
     const lobe_image *image = &environment->image;
-    uint64_t hash = mix(CACHE_VERSION, size);
-    hash = mix(hash, (uint64_t)map);
-    hash = mix(hash, (uint64_t)environment->layout);
-    hash = mix(hash, (uint64_t)image->width << 32 | image->height);
-    return mix_texels(hash, image->texels, (size_t)image->width * image->height);
+    uint64_t hash = passes_digest(CACHE_VERSION, size);
+    hash = passes_digest(hash, (uint64_t)map);
+    hash = passes_digest(hash, (uint64_t)environment->layout);
+    hash = passes_digest(hash, (uint64_t)image->width << 32 | image->height);
+    return passes_digest_bytes(hash, image->texels,
+                               4 * sizeof(float) * image->width * image->height);
 }
 
 static uint64_t checksum_of(const cube_image *cube) {
-    return mix_texels(0, cube->texels, passes_cube_image_texels(cube));
-}
-
-typedef struct number_as_text {
-    char text[17];
-} number_as_text;
-
-static number_as_text hexadecimal(uint64_t number) {
-    number_as_text result;
-    snprintf(result.text, sizeof result.text, "%016" PRIx64, number);
-    return result;
+    return passes_digest_bytes(0, cube->texels,
+                               4 * sizeof *cube->texels * passes_cube_image_texels(cube));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -65,13 +40,13 @@ static char *path_of(const lobe_allocator *allocator, const char *folder, uint64
     size_t size = strlen(folder) + 32;
     char *path = lobe_allocate(allocator, size, 1);
     if (path)
-        snprintf(path, size, "%s/%s.exr", folder, hexadecimal(key).text);
+        snprintf(path, size, "%s/%s.exr", folder, passes_digest_print(key).text);
     return path;
 }
 
 static bool has_number(const lobe_exr_contents *contents, const char *name, uint64_t number) {
     const lobe_exr_attribute *attribute = lobe_exr_find_attribute(contents, name, LOBE_EXR_TEXT);
-    return attribute && strcmp(attribute->text, hexadecimal(number).text) == 0;
+    return attribute && strcmp(attribute->text, passes_digest_print(number).text) == 0;
 }
 
 static bool load_file(const char *path, uint64_t key, uint32_t width, const lobe_host *host,
@@ -106,7 +81,7 @@ bool passes_cube_file_load(const char *folder, uint64_t key, uint32_t width, con
 static lobe_result save_file(const char *path, uint64_t key, const cube_image *cube,
                              const lobe_host *host) {
     const lobe_host silent = {.allocator = lobe_host_allocator(host)};
-    const number_as_text texts[] = {hexadecimal(key), hexadecimal(checksum_of(cube))};
+    const digest_text texts[] = {passes_digest_print(key), passes_digest_print(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
         {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
         {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},

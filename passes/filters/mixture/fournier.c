@@ -1,6 +1,7 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/filters/mixture/projected_map.h"
+#include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
 
@@ -15,15 +16,14 @@ static const filter_knob peaks_knob = {
                     .maximum = MIXTURE_MAXIMUM_COMPONENTS,
                     .initial = 7,
                     .sweep = "4"},
+    .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {
     &peaks_knob, &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
 };
 
-static void build(const filter_context *context, size_t instance, const void *prepared,
-                  filtered_appearance *appearance) {
-    (void)prepared;
-    const mixture_kind kind = {
+static mixture_kind kind_of(const filter_context *context) {
+    return (mixture_kind){
         .components = (uint32_t)passes_knob_value(context, &peaks_knob),
         .steps = STEPS,
         .plane = MIXTURE_PLANE_PROJECTED,
@@ -31,7 +31,17 @@ static void build(const filter_context *context, size_t instance, const void *pr
         .shape = MIXTURE_SHAPE_ROUND,
         .format = passes_filtered_map_format(context),
     };
-    passes_projected_map_build(context, instance, &kind, appearance);
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
+    const mixture_kind kind = kind_of(context);
+    return passes_mixture_prepare(context, material, &kind, slot);
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    const mixture_kind kind = kind_of(context);
+    passes_projected_map_build(context, instance, &kind, prepared, appearance);
 }
 
 static const char *ignores(const lobe_material *material) {
@@ -50,6 +60,10 @@ const lobe_filter passes_filter_fournier = {
     .knobs = knobs,
     .fetches_for_lights = true,
     .fetches_texels = true,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_mixture_save,
+    .forget = passes_mixture_forget,
     .build = build,
     .ignores = ignores,
 };

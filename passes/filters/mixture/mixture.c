@@ -1,34 +1,13 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
-#include "passes/filters/mixture/mixture_map.h"
+#include "passes/filters/mixture/knobs.h"
+#include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/maps/moment_map.h"
-#include "passes/upload/material_maps.h"
-#include "shaders/interface/moment_bins.h"
 
 static const char *const shapes[] = {"auto", "round", "oval", NULL};
 static const char *const colours[] = {"auto", "mean", "components", NULL};
 
-static const filter_knob components_knob = {
-    .description = {.name = "components",
-                    .summary = "Gaussians that are fitted to the lobes under each texel",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = MOMENT_MAXIMUM_BINS,
-                    .initial = 4,
-                    .sweep = "1,2,3,6"},
-};
-static const filter_knob steps_knob = {
-    .description = {.name = "steps",
-                    .summary = "steps of expectation maximisation in each level: more fit texels "
-                               "better, and blend worse between them",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = 16,
-                    .initial = 4,
-                    .sweep = "1,8"},
-};
 static const filter_knob shape_knob = {
     .description = {.name = "shape",
                     .summary =
@@ -38,6 +17,7 @@ static const filter_knob shape_knob = {
                     .maximum = 2,
                     .choices = shapes,
                     .sweep = "round,oval"},
+    .decides_slots = true,
 };
 static const filter_knob colour_knob = {
     .description = {.name = "colour",
@@ -48,10 +28,11 @@ static const filter_knob colour_knob = {
                     .maximum = 2,
                     .choices = colours,
                     .sweep = "mean,components"},
+    .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {
-    &components_knob,
-    &steps_knob,
+    &passes_knob_components,
+    &passes_knob_fit_steps,
     &shape_knob,
     &colour_knob,
     &passes_knob_least_share,
@@ -81,30 +62,31 @@ static bool has_own_colours(const filter_context *context, const device_material
     return choice == OWN || colour_varies(material);
 }
 
-static moment_map build_map(const filter_context *context, uint32_t index,
-                            filtered_appearance *appearance) {
-    const device_material *material = &context->scene->materials[index];
-    const mixture_kind kind = {
-        .components = (uint32_t)passes_knob_value(context, &components_knob),
-        .steps = (uint32_t)passes_knob_value(context, &steps_knob),
+static mixture_kind kind_of(const filter_context *context, uint32_t material) {
+    return (mixture_kind){
+        .components = (uint32_t)passes_knob_value(context, &passes_knob_components),
+        .steps = (uint32_t)passes_knob_value(context, &passes_knob_fit_steps),
         .shape = passes_knob_choice(context, &shape_knob),
-        .own_colours = has_own_colours(context, material),
+        .own_colours = has_own_colours(context, &context->scene->materials[material]),
         .format = passes_bin_format(context),
     };
-    passes_bins_specialise(material, kind.components, kind.own_colours, appearance);
-    return passes_mixture_map(context, index, &kind);
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
+    const mixture_kind kind = kind_of(context, material);
+    return passes_mixture_prepare(context, material, &kind, slot);
 }
 
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
-    (void)prepared;
     const uint32_t material = context->scene->instances[instance].material;
-    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[material]);
-    const bool varies = passes_lobe_grid_varies(&grid);
+    const mixture_kind kind = kind_of(context, material);
     moment_map mixture;
-    if (varies)
-        mixture = build_map(context, material, appearance);
-    passes_bin_appearance_bind(context, material, varies ? &mixture : NULL, appearance);
+    const bool has = passes_mixture_build(context, material, &kind, prepared, &mixture);
+    if (has)
+        passes_bins_specialise(&context->scene->materials[material], kind.components,
+                               kind.own_colours, appearance);
+    passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
 }
 
 const lobe_filter passes_filter_mixture = {
@@ -114,5 +96,9 @@ const lobe_filter passes_filter_mixture = {
     .shading = "moments",
     .knobs = knobs,
     .fetches_for_lights = true,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_mixture_save,
+    .forget = passes_mixture_forget,
     .build = build,
 };

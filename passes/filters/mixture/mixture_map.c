@@ -5,6 +5,7 @@
 #include "passes/context/material_specialisation.h"
 #include "passes/filters/mixture/samples.h"
 #include "passes/maps/moment_map.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/moment_bins.h"
 
@@ -12,7 +13,9 @@
 typedef struct mixture_build {
     lobe_graph *graph;
     const device_material *material;
+    uint32_t index; ///< of the material
     const mixture_kind *kind;
+    bool in_parts; ///< what later parts need is kept between frames
     mixture_samples samples;
     moment_map target;
     lobe_resource components; ///< of the level before
@@ -44,26 +47,42 @@ static uint32_t box_side(const mixture_build *build, uint32_t level) {
     return x > y ? x : y;
 }
 
-static lobe_resource declare_layers(const mixture_build *build, const char *name, uint32_t width,
-                                    uint32_t height, uint32_t layers) {
+/// Components of a level's texels: of the root, or of level `level`.
+static lobe_resource declare_components(const mixture_build *build, uint32_t width, uint32_t height,
+                                        uint32_t level) {
+    char name[64];
+    snprintf(name, sizeof name, "components %u of material %u", level, build->index);
     return lobe_graph_image(build->graph, &(lobe_image_description){
                                               .name = name,
                                               .format = LOBE_FORMAT_RGBA32_FLOAT,
                                               .width = width,
                                               .height = height,
-                                              .layers = layers,
+                                              .layers = 2 * build->kind->components,
+                                              .retained = build->in_parts,
                                           });
 }
 
-static lobe_resource declare_components(const mixture_build *build, uint32_t width,
-                                        uint32_t height) {
-    return declare_layers(build, "components", width, height, 2 * build->kind->components);
+/// In place of components that nobody needs.
+static lobe_resource declare_no_components(const mixture_build *build) {
+    return lobe_graph_image(build->graph, &(lobe_image_description){
+                                              .name = "no components",
+                                              .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                              .width = 1,
+                                              .height = 1,
+                                              .layers = 2 * build->kind->components,
+                                          });
 }
 
 static lobe_pass *add_pass(const mixture_build *build, const char *name) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, name);
     lobe_pass_read(pass, &(lobe_binding){.name = "sample_map", .resource = build->samples.lobes});
     return pass;
+}
+
+/// Where nothing reads yet what a pass writes.
+static void keep(const mixture_build *build, lobe_pass *pass) {
+    if (build->in_parts)
+        lobe_pass_keep(pass);
 }
 
 static void read_parents(const mixture_build *build, lobe_pass *pass) {
@@ -99,7 +118,9 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
                              });
 }
 
-static void add_root(mixture_build *build, const char *name) {
+static void add_root(mixture_build *build) {
+    char name[64];
+    snprintf(name, sizeof name, "units of material %u", build->index);
     lobe_resource bins = lobe_graph_buffer(
         build->graph, &(lobe_buffer_description){.name = name,
                                                  .size = sizeof(struct moment_binning_constants),
@@ -107,34 +128,35 @@ static void add_root(mixture_build *build, const char *name) {
     lobe_pass *pass = add_pass(build, "mixture_root");
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "extremes_block", .resource = build->samples.extremes});
-    build->components = write_components(pass, declare_components(build, 1, 1));
+    build->components =
+        write_components(pass, declare_components(build, 1, 1, build->target.map.levels));
     build->target.bins =
         lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
     dispatch(build, "filters/mixture/root.comp", 1, 1, 0, pass);
+    keep(build, pass);
 }
 
 /// From the components of the level before to those of a level with few texels.
-static void add_fit(mixture_build *build, uint32_t width, uint32_t height) {
+static void add_fit(mixture_build *build, uint32_t level, uint32_t width, uint32_t height) {
     enum { THREADS = 64 };
     lobe_pass *pass = add_pass(build, "mixture_fit");
     read_parents(build, pass);
-    build->components = write_components(pass, declare_components(build, width, height));
+    build->components = write_components(pass, declare_components(build, width, height, level));
     dispatch(build, "filters/mixture/fit.comp", THREADS * width, height, build->kind->steps, pass);
+    keep(build, pass);
 }
 
-/// Writes sums for the components after so many steps, and those components unless they are the
-/// last.
-static lobe_resource add_sums(mixture_build *build, lobe_binding target, uint32_t width,
-                              uint32_t height, uint32_t steps, bool last) {
+/// Writes sums for the components after so many steps, and into `components`, where these are of
+/// the same extent, what they have become.
+static lobe_pass *add_sums(mixture_build *build, lobe_binding target, uint32_t width,
+                           uint32_t height, uint32_t steps, lobe_resource *components,
+                           lobe_resource *written) {
     lobe_pass *pass = add_pass(build, "mixture_level");
     read_parents(build, pass);
-    const lobe_resource components = write_components(
-        pass, last ? declare_components(build, 1, 1) : declare_components(build, width, height));
-    const lobe_resource written = lobe_pass_write(pass, &target);
+    *components = write_components(pass, *components);
+    *written = lobe_pass_write(pass, &target);
     dispatch(build, "filters/mixture/level.comp", width, height, steps, pass);
-    if (!last)
-        build->components = components;
-    return written;
+    return pass;
 }
 
 static lobe_binding target_level(const mixture_build *build, uint32_t level) {
@@ -142,24 +164,37 @@ static lobe_binding target_level(const mixture_build *build, uint32_t level) {
                           .range = {level, 1, 0, build->target.map.layers}};
 }
 
+static lobe_resource declare_sums_of_parts(const mixture_build *build, uint32_t columns,
+                                           uint32_t rows) {
+    return lobe_graph_image(build->graph, &(lobe_image_description){
+                                              .name = "sums of parts",
+                                              .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                              .width = columns,
+                                              .height = rows,
+                                              .layers = build->target.map.layers,
+                                          });
+}
+
 /// Sums over parts of a level's texels, and the level from these.
 static void add_gathered_level(mixture_build *build, uint32_t level) {
     const reduced_map *map = &build->target.map;
     const uint32_t width = level_extent(map->width, level);
     const uint32_t height = level_extent(map->height, level);
-    add_fit(build, width, height);
+    add_fit(build, level, width, height);
     const uint32_t box = build->largest_box;
     const uint32_t columns = (build->samples.width + box - 1) / box;
     const uint32_t rows = (build->samples.height + box - 1) / box;
-    const lobe_resource parts = declare_layers(build, "sums of parts", columns, rows, map->layers);
-    const lobe_resource sums = add_sums(
-        build, (lobe_binding){.name = "moment_map", .resource = parts}, columns, rows, 0, true);
+    lobe_resource none = declare_no_components(build), sums;
+    const lobe_resource parts = declare_sums_of_parts(build, columns, rows);
+    (void)add_sums(build, (lobe_binding){.name = "moment_map", .resource = parts}, columns, rows, 0,
+                   &none, &sums);
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "mixture_gather");
     lobe_pass_read(pass, &(lobe_binding){.name = "part_map", .resource = sums});
     const lobe_binding target = target_level(build, level);
     build->target.map.resource = lobe_pass_write(pass, &target);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/mixture/gather.comp",
                                               .threads = {width, height, map->layers}});
+    keep(build, pass);
 }
 
 /// At the finest level the parent's components share out what lies under a texel as well as ones
@@ -168,14 +203,25 @@ static uint32_t steps_of_level(const mixture_build *build, uint32_t level) {
     return level > 0 || build->kind->is_printed ? build->kind->steps : 0;
 }
 
-static void add_level(mixture_build *build, uint32_t level) {
+/// Nothing needs the components of the finest level.
+static void add_own_level(mixture_build *build, uint32_t level) {
     const reduced_map *map = &build->target.map;
+    const uint32_t width = level_extent(map->width, level);
+    const uint32_t height = level_extent(map->height, level);
+    lobe_resource components =
+        declare_components(build, level > 0 ? width : 1, level > 0 ? height : 1, level);
+    lobe_pass *pass =
+        add_sums(build, target_level(build, level), width, height, steps_of_level(build, level),
+                 &components, &build->target.map.resource);
+    keep(build, pass);
+    build->components = components;
+}
+
+static void add_level(mixture_build *build, uint32_t level) {
     if (box_side(build, level) > build->largest_box)
         add_gathered_level(build, level);
     else
-        build->target.map.resource =
-            add_sums(build, target_level(build, level), level_extent(map->width, level),
-                     level_extent(map->height, level), steps_of_level(build, level), level == 0);
+        add_own_level(build, level);
 }
 
 static uint32_t layer_count(const mixture_kind *kind) {
@@ -184,24 +230,58 @@ static uint32_t layer_count(const mixture_kind *kind) {
     return kind->own_colours ? 3 * kind->components + 1 : 2 * kind->components;
 }
 
-moment_map passes_mixture_map(const filter_context *context, uint32_t index,
-                              const mixture_kind *kind) {
-    mixture_build build = {
-        .graph = context->graph,
-        .material = &context->scene->materials[index],
-        .kind = kind,
-        .largest_box = find_largest_box(&context->scene->materials[index], kind),
-        .samples = passes_mixture_samples(context, index, kind->plane, kind->own_colours),
-        .target = {.format = kind->format}};
+mixture_extent passes_mixture_extent(const device_material *material, const mixture_kind *kind) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    mixture_extent extent = {.format = kind->format,
+                             .width = passes_half_extent(grid.width),
+                             .height = passes_half_extent(grid.height),
+                             .layers = layer_count(kind)};
+    extent.levels = passes_level_count(extent.width, extent.height);
+    return extent;
+}
+
+moment_map passes_mixture_map_declare(const filter_context *context, uint32_t index,
+                                      const mixture_kind *kind) {
+    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[index]);
     char name[64];
     snprintf(name, sizeof name, "mixtures of material %u", index);
-    const uint32_t layers = layer_count(kind);
-    build.target.map =
-        passes_reduced_map_declare(context->graph, name, kind->format, build.samples.width,
-                                   build.samples.height, layers, true);
-    snprintf(name, sizeof name, "units of material %u", index);
-    add_root(&build, name);
-    for (uint32_t level = build.target.map.levels; level-- > 0;)
+    return (moment_map){.format = kind->format,
+                        .map = passes_reduced_map_declare(context->graph, name, kind->format,
+                                                          grid.width, grid.height,
+                                                          layer_count(kind), true)};
+}
+
+uint32_t passes_mixture_part_count(const device_material *material) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    return 1 + passes_level_count(passes_half_extent(grid.width), passes_half_extent(grid.height));
+}
+
+static moment_map add_parts(const filter_context *context, uint32_t index, const mixture_kind *kind,
+                            uint32_t parts, bool in_parts) {
+    const device_material *material = &context->scene->materials[index];
+    mixture_build build = {
+        .graph = context->graph,
+        .material = material,
+        .index = index,
+        .kind = kind,
+        .in_parts = in_parts,
+        .largest_box = find_largest_box(material, kind),
+        .samples = passes_mixture_samples(context, index, kind->plane, kind->own_colours, in_parts),
+        .target = passes_mixture_map_declare(context, index, kind)};
+    if (parts > 0)
+        add_root(&build);
+    for (uint32_t level = build.target.map.levels; parts > 1 && level-- > 0; parts--)
         add_level(&build, level);
     return build.target;
+}
+
+moment_map passes_mixture_map_parts(const filter_context *context, uint32_t index,
+                                    const mixture_kind *kind, uint32_t parts) {
+    return add_parts(context, index, kind, parts, true);
+}
+
+moment_map passes_mixture_map(const filter_context *context, uint32_t index,
+                              const mixture_kind *kind) {
+    return add_parts(context, index, kind,
+                     passes_mixture_part_count(&context->scene->materials[index]), false);
 }

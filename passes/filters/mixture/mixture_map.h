@@ -16,6 +16,15 @@ typedef struct mixture_kind {
     lobe_format format;
 } mixture_kind;
 
+/// What a map of mixtures takes.
+typedef struct mixture_extent {
+    lobe_format format;
+    uint32_t width, height; ///< texels of level 0
+    uint32_t layers, levels;
+} mixture_extent;
+
+mixture_extent passes_mixture_extent(const device_material *material, const mixture_kind *kind);
+
 /// Adds the passes that fit a mixture of Gaussians to the lobes under each texel of each level,
 /// from the coarsest level to the finest: mixture_samples, mixture_root, mixture_fit for levels of
 /// large texels, mixture_level, mixture_gather. The material has a normal or a width map. They run
@@ -26,5 +35,17 @@ typedef struct mixture_kind {
 /// docs/mixtures.md.
 moment_map passes_mixture_map(const filter_context *context, uint32_t material,
                               const mixture_kind *kind);
+
+/// The parts of that work: the root with the samples, then each level from the coarsest on.
+uint32_t passes_mixture_part_count(const device_material *material);
+
+/// The same in several frames: adds the passes of the first `parts` parts only. What later parts
+/// need is kept between frames, 32 bytes for each texel of the maps and base lobe.
+moment_map passes_mixture_map_parts(const filter_context *context, uint32_t material,
+                                    const mixture_kind *kind, uint32_t parts);
+
+/// Declares the map alone, which has content if an earlier frame made it.
+moment_map passes_mixture_map_declare(const filter_context *context, uint32_t material,
+                                      const mixture_kind *kind);
 
 #endif

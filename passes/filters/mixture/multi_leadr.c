@@ -1,58 +1,43 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
-#include "passes/filters/mixture/mixture_map.h"
+#include "passes/filters/mixture/knobs.h"
+#include "passes/filters/mixture/record.h"
 #include "passes/filters/slope_knobs.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/maps/lobe_map.h"
-#include "passes/upload/material_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/moment_bins.h"
 
-static const filter_knob components_knob = {
-    .description = {.name = "components",
-                    .summary = "Gaussians that are fitted to the slopes under each texel",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = MOMENT_MAXIMUM_BINS,
-                    .initial = 4,
-                    .sweep = "1,2,6"},
-};
-static const filter_knob steps_knob = {
-    .description = {.name = "steps",
-                    .summary = "steps of expectation maximisation in each level: more fit texels "
-                               "better, and blend worse between them",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = 16,
-                    .initial = 4,
-                    .sweep = "1,8"},
-};
 static const filter_knob *const knobs[] = {
-    &components_knob,     &steps_knob,
-    &passes_knob_grid,    &passes_knob_height,
-    &passes_knob_probes,  &passes_knob_anisotropy,
-    &passes_knob_bias,    &passes_knob_curvature,
-    &passes_knob_storage, NULL,
+    &passes_knob_components, &passes_knob_fit_steps,
+    &passes_knob_grid,       &passes_knob_height,
+    &passes_knob_probes,     &passes_knob_anisotropy,
+    &passes_knob_bias,       &passes_knob_curvature,
+    &passes_knob_storage,    NULL,
 };
 
-static void build(const filter_context *context, size_t instance, const void *prepared,
-                  filtered_appearance *appearance) {
-    (void)prepared;
-    const uint32_t material = context->scene->instances[instance].material;
-    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[material]);
-    const bool varies = passes_lobe_grid_varies(&grid);
-    const mixture_kind kind = {
-        .components = (uint32_t)passes_knob_value(context, &components_knob),
-        .steps = (uint32_t)passes_knob_value(context, &steps_knob),
+static mixture_kind kind_of(const filter_context *context) {
+    return (mixture_kind){
+        .components = (uint32_t)passes_knob_value(context, &passes_knob_components),
+        .steps = (uint32_t)passes_knob_value(context, &passes_knob_fit_steps),
         .plane = MIXTURE_PLANE_SLOPES,
         .format = passes_filtered_map_format(context),
     };
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
+    const mixture_kind kind = kind_of(context);
+    return passes_mixture_prepare(context, material, &kind, slot);
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    const uint32_t material = context->scene->instances[instance].material;
+    const mixture_kind kind = kind_of(context);
     moment_map mixture;
-    if (varies)
-        mixture = passes_mixture_map(context, material, &kind);
+    const bool has = passes_mixture_build(context, material, &kind, prepared, &mixture);
     passes_appearance_specialise(appearance, SPECIALISE_BINS, kind.components);
-    passes_bin_appearance_bind(context, material, varies ? &mixture : NULL, appearance);
+    passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
 }
 
 static const char *ignores(const lobe_material *material) {
@@ -71,6 +56,10 @@ const lobe_filter passes_filter_multi_leadr = {
     .shading = "multi_leadr",
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
     .knobs = knobs,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_mixture_save,
+    .forget = passes_mixture_forget,
     .build = build,
     .ignores = ignores,
 };

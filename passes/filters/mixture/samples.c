@@ -1,5 +1,7 @@
 #include "passes/filters/mixture/samples.h"
 
+#include <stdio.h>
+
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
@@ -8,31 +10,37 @@
 #include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/moment_bins.h"
 
-static mixture_samples declare(lobe_graph *graph, const lobe_grid *grid, uint32_t layers) {
+static mixture_samples declare(lobe_graph *graph, uint32_t index, const lobe_grid *grid,
+                               uint32_t layers, bool retained) {
     const uint32_t columns = (grid->width + MIXTURE_TILE - 1) / MIXTURE_TILE;
     const uint32_t rows = (grid->height + MIXTURE_TILE - 1) / MIXTURE_TILE;
     mixture_samples samples = {
         .tiles = columns * rows, .width = grid->width, .height = grid->height};
+    char name[64];
+    snprintf(name, sizeof name, "samples of lobes of material %u", index);
     samples.lobes = lobe_graph_image(graph, &(lobe_image_description){
-                                                .name = "samples of lobes",
+                                                .name = name,
                                                 .format = LOBE_FORMAT_RGBA32_FLOAT,
                                                 .width = grid->width,
                                                 .height = grid->height,
                                                 .layers = layers,
+                                                .retained = retained,
                                             });
+    snprintf(name, sizeof name, "extremes of lobes of material %u", index);
     samples.extremes = lobe_graph_buffer(
-        graph, &(lobe_buffer_description){.name = "extremes of lobes",
-                                          .size = samples.tiles * sizeof(struct mixture_extremes)});
+        graph, &(lobe_buffer_description){.name = name,
+                                          .size = samples.tiles * sizeof(struct mixture_extremes),
+                                          .retained = retained});
     return samples;
 }
 
 mixture_samples passes_mixture_samples(const filter_context *context, uint32_t index,
-                                       uint32_t plane, bool own_colours) {
+                                       uint32_t plane, bool own_colours, bool retained) {
     enum { GROUP_SIDE = 8 };
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
     const uint32_t layers = own_colours ? 3 * material->lobe_count + 1 : 2 * material->lobe_count;
-    mixture_samples samples = declare(context->graph, &grid, layers);
+    mixture_samples samples = declare(context->graph, index, &grid, layers, retained);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "mixture_samples");
     passes_base_maps_read(context, material, own_colours, pass);
     passes_colour_maps_read(context, material, own_colours, pass);

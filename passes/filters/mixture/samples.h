@@ -13,7 +13,8 @@ typedef struct mixture_samples {
 
 /// Adds the pass that writes the samples of a material that has a normal or a width map.
 /// `plane`: MIXTURE_PLANE_... of their places. `own_colours`: samples have specular colours.
+/// `retained`: they are kept between frames.
 mixture_samples passes_mixture_samples(const filter_context *context, uint32_t material,
-                                       uint32_t plane, bool own_colours);
+                                       uint32_t plane, bool own_colours, bool retained);
 
 #endif

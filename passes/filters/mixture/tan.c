@@ -1,30 +1,14 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
+#include "passes/filters/mixture/knobs.h"
 #include "passes/filters/mixture/projected_map.h"
+#include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
-#include "shaders/interface/moment_bins.h"
 
 static const char *const starts[] = {"parent", "kmeans", NULL};
 static const char *const formulas[] = {"repaired", "printed", NULL};
 
-static const filter_knob components_knob = {
-    .description = {.name = "components",
-                    .summary = "Gaussians that are fitted to the normals under each texel",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = MOMENT_MAXIMUM_BINS,
-                    .initial = 4,
-                    .sweep = "1,2,6"},
-};
-static const filter_knob steps_knob = {
-    .description = {.name = "steps",
-                    .summary = "steps of expectation maximisation in each level",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 1,
-                    .maximum = 16,
-                    .initial = 4},
-};
 static const filter_knob start_knob = {
     .description = {.name = "start",
                     .summary = "what Gaussians are fitted from: those of the coarser level's "
@@ -33,6 +17,7 @@ static const filter_knob start_knob = {
                     .maximum = 1,
                     .choices = starts,
                     .sweep = "kmeans"},
+    .decides_slots = true,
 };
 static const filter_knob prior_knob = {
     .description = {.name = "prior",
@@ -40,6 +25,7 @@ static const filter_knob prior_knob = {
                     .maximum = 1e6,
                     .initial = 1,
                     .sweep = "0,1000"},
+    .decides_slots = true,
 };
 static const filter_knob formulas_knob = {
     .description = {.name = "formulas",
@@ -49,10 +35,11 @@ static const filter_knob formulas_knob = {
                     .choices = formulas,
                     .sweep = "printed"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_MIXTURE_PRINTED),
+    .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {
-    &components_knob,
-    &steps_knob,
+    &passes_knob_components,
+    &passes_knob_fit_steps,
     &start_knob,
     &prior_knob,
     &formulas_knob,
@@ -64,12 +51,10 @@ static const filter_knob *const knobs[] = {
     NULL,
 };
 
-static void build(const filter_context *context, size_t instance, const void *prepared,
-                  filtered_appearance *appearance) {
-    (void)prepared;
-    const mixture_kind kind = {
-        .components = (uint32_t)passes_knob_value(context, &components_knob),
-        .steps = (uint32_t)passes_knob_value(context, &steps_knob),
+static mixture_kind kind_of(const filter_context *context) {
+    return (mixture_kind){
+        .components = (uint32_t)passes_knob_value(context, &passes_knob_components),
+        .steps = (uint32_t)passes_knob_value(context, &passes_knob_fit_steps),
         .plane = MIXTURE_PLANE_PROJECTED,
         .start = passes_knob_choice(context, &start_knob),
         .prior = (float)passes_knob_value(context, &prior_knob),
@@ -77,7 +62,17 @@ static void build(const filter_context *context, size_t instance, const void *pr
         .is_printed = passes_knob_choice(context, &formulas_knob) > 0,
         .format = passes_filtered_map_format(context),
     };
-    passes_projected_map_build(context, instance, &kind, appearance);
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
+    const mixture_kind kind = kind_of(context);
+    return passes_mixture_prepare(context, material, &kind, slot);
+}
+
+static void build(const filter_context *context, size_t instance, const void *prepared,
+                  filtered_appearance *appearance) {
+    const mixture_kind kind = kind_of(context);
+    passes_projected_map_build(context, instance, &kind, prepared, appearance);
 }
 
 static const char *ignores(const lobe_material *material) {
@@ -94,6 +89,10 @@ const lobe_filter passes_filter_tan = {
     .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "tan",
     .knobs = knobs,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_mixture_save,
+    .forget = passes_mixture_forget,
     .build = build,
     .ignores = ignores,
 };

@@ -109,9 +109,9 @@ typedef struct lobe_given_content {
 /// (linear or sRGB; normals as the scene's image says). A buffer has a lobe_scene_vertex for each
 /// vertex of its mesh. Called while a graph is declared, before anything reads a map. A frame may
 /// take several graphs, for all of which the content must be the same: one for every eight samples
-/// of the reference, and one for each step of `environment_progress`. Filtered maps are rebuilt
-/// where the texels can have changed: in every frame from an image of the host's Vulkan, and
-/// otherwise if the passes that write them read something that changed.
+/// of the reference, and one for each step of `environment_progress` and `fits_progress`. Filtered
+/// maps are rebuilt where the texels can have changed: in every frame from an image of the host's
+/// Vulkan, and otherwise if the passes that write them read something that changed.
 typedef void (*lobe_content_giver)(void *user, lobe_graph *graph,
                                    const lobe_given_content *content);
 
@@ -189,6 +189,25 @@ typedef struct lobe_render_environment {
     bool keep;
 } lobe_render_environment;
 
+/// How maps are made that are fitted to materials (filters `mixture`, `tan`, `fournier` and
+/// `multi_leadr`), which can take seconds.
+typedef struct lobe_render_fits {
+    /// Largest number of parts of the work (levels of a map) done in this frame. Until all parts of
+    /// a material's map are done, the material is drawn unfiltered, as `direct` does. Texels that
+    /// replace others, and those that are given on the device, are fitted at once. 0: all parts.
+    uint32_t parts;
+    /// An existing folder that caches the maps, in files named after what they were made from. It
+    /// is searched when a material's map is first needed; a map that is found is not fitted. Others
+    /// are saved in the frame that completes them, which makes that frame slower (with
+    /// `host.submission`: in the next frame; with several frames in flight: never). Maps of
+    /// texels that replace others, or are given on the device, are neither searched for nor saved.
+    /// A file has the size of the map; while it is used, the device holds it twice. A damaged or
+    /// foreign file is replaced, with a notice. Logs a warning if the folder is not writable. Files
+    /// may be removed at any time. Pictures do not depend on the cache. May be the folder of
+    /// `environment.cache`. Read during the call. NULL: none.
+    const char *cache;
+} lobe_render_fits;
+
 /// What the host contributes to a frame: callbacks, images and the submission.
 typedef struct lobe_render_host {
     /// Called between submissions with the fraction done, [0, 1]; returning false stops the
@@ -200,6 +219,9 @@ typedef struct lobe_render_host {
     /// maps that only `rebuild` asks for. NULL: none. Maps without progress are made in the
     /// picture's first submission.
     bool (*environment_progress)(void *user, double part);
+    /// The same for maps that are fitted to materials, with `fits.parts` and `submission` as above,
+    /// after the environment's.
+    bool (*fits_progress)(void *user, double part);
     /// Called once for each stage while the frame's graph is declared; adds the host's passes to
     /// it. New versions of resources that they write go back into `resources`. Errors in their
     /// declaration are reported by the graph. NULL: none.
@@ -251,6 +273,7 @@ typedef struct lobe_render_parameters {
     bool discard; ///< deliver no images; for timing
     lobe_render_reference reference;
     lobe_render_environment environment;
+    lobe_render_fits fits;
     lobe_render_motion motion;
     lobe_render_host host;
 } lobe_render_parameters;
@@ -282,6 +305,8 @@ typedef struct lobe_frame {
     /// Parts of the work on the environment's filtered maps that later frames still have to do. If
     /// not 0, later frames are lit differently. See `environment.parts`.
     uint32_t environment_parts_left;
+    /// The same of the maps that are fitted to materials. See `fits.parts`.
+    uint32_t fit_parts_left;
     lobe_pass_time *passes; ///< those that ran and were waited for, in order of their first run
     size_t pass_count;
     /// Size of the maps that the filter built: bytes on the device, and texels of the base maps

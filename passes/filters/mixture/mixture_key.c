@@ -1,0 +1,88 @@
+#include "passes/filters/mixture/mixture_key.h"
+
+#include "passes/context/digest.h"
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
+#include "passes/filters/mixture/mixture_file.h"
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/device_scene_parts.h"
+#include "passes/upload/material_maps.h"
+
+uint64_t passes_mixture_kind_digest(const filter_context *context, const mixture_kind *kind) {
+    uint64_t digest = passes_digest_bytes(MIXTURE_FILE_VERSION, &kind->prior, sizeof kind->prior);
+    const uint64_t numbers[] = {kind->components,
+                                kind->steps,
+                                kind->plane,
+                                kind->start,
+                                kind->shape,
+                                kind->is_printed,
+                                kind->own_colours,
+                                (uint64_t)kind->format,
+                                passes_knob_choice(context, &passes_knob_base)};
+    return passes_digest_bytes(digest, numbers, sizeof numbers);
+}
+
+/// The maps that samples are made from, by MAP_...
+static bool is_read(const device_material *material, uint32_t map, bool own_colours) {
+    const bool is_colour = map == MAP_BASE_COLOUR || map == MAP_SPECULAR;
+    return material->maps[map].use &&
+           (map == MAP_NORMAL || map == MAP_WIDTH || (own_colours && is_colour));
+}
+
+static uint64_t constants_digest(const device_material *material, bool own_colours,
+                                 uint64_t digest) {
+    struct material_constants constants = material->values;
+    if (!own_colours)
+        passes_device_material_forget_colours(&constants);
+    return passes_digest_bytes(digest, &constants, sizeof constants);
+}
+
+uint64_t passes_mixture_inputs(const device_material *material, bool own_colours) {
+    uint64_t digest = constants_digest(material, own_colours, material->parameter_version);
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (is_read(material, map, own_colours))
+            digest = passes_digest(digest, material->texel_versions[map]);
+    return digest;
+}
+
+bool passes_mixture_has_texels(const filter_context *context, const device_material *material,
+                               bool own_colours) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
+        const device_map *own = &material->maps[map];
+        if (is_read(material, map, own_colours) &&
+            (context->scene->scene->images[own->use->image].on_device || !own->texels->texels ||
+             lobe_format_size(own->format) == 0))
+            return false;
+    }
+    return true;
+}
+
+static uint64_t map_digest(const device_map *map, uint64_t digest) {
+    const lobe_texture_use *use = map->use;
+    const uint64_t numbers[] = {map->width,
+                                map->height,
+                                (uint64_t)map->format,
+                                (uint64_t)map->normals,
+                                (uint64_t)use->texture_coordinates,
+                                use->nearest,
+                                (uint64_t)use->wrap_u,
+                                (uint64_t)use->wrap_v};
+    digest = passes_digest_bytes(digest, numbers, sizeof numbers);
+    digest = passes_digest_bytes(digest, use->transform, sizeof use->transform);
+    return passes_digest_bytes(digest, map->texels->texels,
+                               (size_t)map->width * map->height * lobe_format_size(map->format));
+}
+
+uint64_t passes_mixture_key(const filter_context *context, const device_material *material,
+                            const mixture_kind *kind) {
+    uint64_t digest = passes_mixture_kind_digest(context, kind);
+    digest = constants_digest(material, kind->own_colours, digest);
+    specialisation_list list = {.graph = context->graph};
+    passes_base_maps_specialise(material, &list);
+    for (size_t i = 0; i < list.count; i++)
+        digest = passes_digest(digest, (uint64_t)list.items[i].id << 32 | list.items[i].bits);
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (is_read(material, map, kind->own_colours))
+            digest = map_digest(&material->maps[map], passes_digest(digest, map));
+    return digest;
+}

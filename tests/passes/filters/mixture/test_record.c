@@ -1,0 +1,439 @@
+// Maps of mixtures that a renderer fits part by part, saves to a cache folder and loads from it:
+// pictures are the same, bit for bit, and only what the folder lacks is fitted.
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <lobe/file.h>
+#include <lobe/vulkan.h>
+
+#include "tests/engine/support/log_recorder.h"
+#include "tests/engine/support/temporary_folder.h"
+#include "tests/passes/support/fixture.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { SIZE = 8, EXTENT = 32, PARTS = 6 }; // the root, and levels of 16 to 1 texels
+
+/// Metal with bumps, whose colour and roughness vary, so that all maps count.
+static lobe_scene *bumpy_square(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);
+    material.base_colour[1] = 0.5f;
+    material.normal_map = scene_add_map(scene, random_normal_map(EXTENT, EXTENT, 0.6, 5));
+    material.metallic_roughness_map = scene_add_map(scene, random_map(EXTENT, EXTENT, 0.4, 1, 6));
+    material.base_colour_map = scene_add_map(scene, random_map(EXTENT, EXTENT, 0.2, 1, 7));
+    scene_add_square(scene, &material, 4, NULL);
+    scene_add_sun(scene, (double[]){0.4, 1, 0.2}, 3);
+    scene_look_from(scene, (double[]){0.5, 1, 0.3}, 1.5);
+    scene_end(scene);
+    return scene;
+}
+
+/// Reverses the texels of an image.
+static void turn(lobe_scene *scene, size_t image) {
+    lobe_image *texels = &scene->images[image].image;
+    const size_t count = (size_t)texels->width * texels->height;
+    float *first = texels->texels, kept[4];
+    for (size_t i = 0; i < count / 2; i++) {
+        float *a = first + 4 * i, *b = first + 4 * (count - 1 - i);
+        memcpy(kept, a, sizeof kept);
+        memcpy(a, b, sizeof kept);
+        memcpy(b, kept, sizeof kept);
+    }
+}
+
+/// A renderer with its own log.
+typedef struct drawing {
+    log_recorder recorder;
+    lobe_renderer *renderer;
+    const char *filter;
+    const char *settings[4]; ///< assignments, ended by NULL
+    uint32_t parts;
+    double stops_at; ///< progress at which the host stops; 0: it does not listen
+    double heard;    ///< the last progress
+    unsigned calls;
+    uint32_t parts_left; ///< after the last frame
+} drawing;
+
+static void start(fixture *f, const lobe_scene *scene, const char *filter, drawing *drawing) {
+    *drawing = (struct drawing){.filter = filter};
+    log_recorder_start(&drawing->recorder);
+    assert_int_equal(lobe_renderer_create(f->device, &drawing->recorder.host, &drawing->renderer),
+                     LOBE_OK);
+    assert_int_equal(lobe_renderer_set_scene(drawing->renderer, scene), LOBE_OK);
+}
+
+static void stop(drawing *drawing) {
+    assert_int_equal(drawing->recorder.errors, 0);
+    lobe_renderer_destroy(&drawing->renderer);
+}
+
+static bool listen(void *user, double part) {
+    drawing *self = user;
+    assert_true(part > self->heard && part <= 1);
+    self->heard = part;
+    self->calls++;
+    return part < self->stops_at;
+}
+
+static size_t ran(const drawing *drawing, const char *pass) {
+    return count_passes(lobe_renderer_graph(drawing->renderer), pass, LOBE_PASS_RUN);
+}
+
+static bool fitted(const drawing *drawing) {
+    return ran(drawing, "mixture_samples") + ran(drawing, "mixture_root") +
+               ran(drawing, "mixture_fit") + ran(drawing, "mixture_level") >
+           0;
+}
+
+static bool restored(const drawing *drawing) {
+    return ran(drawing, "mixture_restoring") > 0;
+}
+
+static lobe_frame frame_of(drawing *drawing, const char *folder,
+                           const lobe_vulkan_submission *submission) {
+    const lobe_filter *filter = filter_named(drawing->filter);
+    const lobe_settings settings = settings_of(filter, drawing->settings);
+    lobe_frame frame;
+    if (lobe_renderer_render(drawing->renderer,
+                             &(lobe_render_parameters){
+                                 .filter = filter,
+                                 .settings = &settings,
+                                 .width = SIZE,
+                                 .height = SIZE,
+                                 .fits = {.parts = drawing->parts, .cache = folder},
+                                 .host = {.submission = submission,
+                                          .fits_progress = drawing->stops_at > 0 ? listen : NULL,
+                                          .user = drawing}},
+                             &frame) != LOBE_OK)
+        fail_msg("%s", drawing->recorder.last_error);
+    drawing->parts_left = frame.fit_parts_left;
+    return frame;
+}
+
+static uint64_t picture(drawing *drawing, const char *folder) {
+    lobe_frame frame = frame_of(drawing, folder, NULL);
+    const uint64_t hash = image_hash(&frame.radiance);
+    lobe_frame_free(&frame);
+    return hash;
+}
+
+/// Drawn by a new renderer without a cache.
+static uint64_t plain_picture(fixture *f, const lobe_scene *scene, const char *filter) {
+    drawing plain;
+    start(f, scene, filter, &plain);
+    const uint64_t hash = picture(&plain, NULL);
+    assert_int_equal(plain.parts_left, 0);
+    stop(&plain);
+    return hash;
+}
+
+static size_t kept(void) {
+    return temporary_folder_count(&test_folder);
+}
+
+static const char *const filters[] = {"mixture", "tan", "fournier", "multi_leadr"};
+enum { FILTERS = sizeof filters / sizeof *filters };
+
+/// Saved by the first renderer, loaded by the second; neither fits or copies a second time.
+static void one_renderer_saves_and_another_loads(void **state) {
+    lobe_scene *scene = bumpy_square();
+    for (size_t i = 0; i < FILTERS; i++) {
+        const uint64_t expected = plain_picture(*state, scene, filters[i]);
+        for (int again = 0; again < 2; again++) {
+            drawing drawing;
+            start(*state, scene, filters[i], &drawing);
+            assert_true(picture(&drawing, test_folder.path) == expected);
+            assert_int_equal(fitted(&drawing), !again);
+            assert_int_equal(restored(&drawing), again);
+            assert_int_equal(kept(), i + 1);
+            assert_true(picture(&drawing, test_folder.path) == expected);
+            assert_int_equal(ran(&drawing, NULL), 1);
+            // What was loaded stays after the folder is gone.
+            assert_true(picture(&drawing, NULL) == expected);
+            assert_int_equal(ran(&drawing, NULL), 1);
+            assert_int_equal(drawing.recorder.notices, 0);
+            stop(&drawing);
+        }
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// The only file in the folder.
+static const char *kept_file(void) {
+    static char path[256];
+    char command[256];
+    snprintf(command, sizeof command, "ls %s/*.mixture", test_folder.path);
+    FILE *list = popen(command, "r");
+    assert_non_null(list);
+    assert_non_null(fgets(path, sizeof path, list));
+    path[strcspn(path, "\n")] = '\0';
+    pclose(list);
+    return path;
+}
+
+/// Shorter, longer, or with another byte: in the name, the version, the key, the extent, the sum,
+/// the units, the texels.
+static void damage(int kind) {
+    static const size_t places[] = {0, 12, 16, 28, 48, 60, 2000};
+    uint8_t *data;
+    size_t size;
+    assert_int_equal(lobe_file_read(kept_file(), NULL, NULL, &data, &size), LOBE_OK);
+    if (kind == 0) {
+        assert_int_equal(lobe_file_write(kept_file(), data, 1000, NULL), LOBE_OK);
+    } else if (kind == 1) {
+        assert_int_equal(lobe_file_write(kept_file(), data, 0, NULL), LOBE_OK);
+    } else if (kind == 2) {
+        assert_int_equal(lobe_file_write(kept_file(), data, size + 1, NULL), LOBE_OK);
+    } else {
+        data[places[kind - 3]] ^= 1;
+        assert_int_equal(lobe_file_write(kept_file(), data, size, NULL), LOBE_OK);
+    }
+    lobe_release(data);
+}
+
+static void a_damaged_file_is_replaced(void **state) {
+    enum { DAMAGES = 10 };
+    lobe_scene *scene = bumpy_square();
+    const uint64_t expected = plain_picture(*state, scene, "mixture");
+    for (int round = 0; round < DAMAGES + 2; round++) {
+        drawing drawing;
+        start(*state, scene, "mixture", &drawing);
+        assert_true(picture(&drawing, test_folder.path) == expected);
+        // Damaged after all rounds but the last two.
+        const bool is_damaged = round > 0 && round <= DAMAGES;
+        assert_int_equal(fitted(&drawing), round <= DAMAGES);
+        assert_int_equal(drawing.recorder.notices, is_damaged);
+        assert_int_equal(drawing.recorder.warnings, 0);
+        assert_int_equal(kept(), 1);
+        if (round < DAMAGES)
+            damage(round);
+        stop(&drawing);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// Settings that decide what is fitted have files of their own; others share one.
+static void each_setting_has_its_file(void **state) {
+    static const struct {
+        const char *setting;
+        bool own;
+    } settings[] = {{"components=3", true}, {"steps=2", true},   {"shape=oval", true},
+                    {"colour=mean", true},  {"bias=0.5", false}, {"storage=float32", true},
+                    {"base=lobe", true},    {"probes=2", false}};
+    lobe_scene *scene = bumpy_square();
+    size_t files = 1;
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    (void)picture(&drawing, test_folder.path);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        drawing.settings[0] = settings[i].setting;
+        const uint64_t first = picture(&drawing, test_folder.path);
+        files += settings[i].own;
+        assert_int_equal(kept(), files);
+        struct drawing other;
+        start(*state, scene, "mixture", &other);
+        other.settings[0] = settings[i].setting;
+        assert_true(picture(&other, test_folder.path) == first);
+        assert_false(fitted(&other));
+        stop(&other);
+    }
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Texels and materials that replace others are fitted, not loaded, and not saved; colours count
+/// where components have their own.
+static void replaced_texels_are_fitted(void **state) {
+    for (uint32_t image = 0; image < 3; image++) {
+        lobe_scene *scene = bumpy_square();
+        uint64_t expected[2];
+        for (int i = 0; i < 2; i++) {
+            expected[i] = plain_picture(*state, scene, "mixture");
+            turn(scene, image);
+        }
+        assert_true(expected[0] != expected[1]);
+        drawing drawing;
+        start(*state, scene, "mixture", &drawing);
+        for (int i = 0; i < 3; i++) {
+            assert_true(picture(&drawing, test_folder.path) == expected[i % 2]);
+            assert_true(fitted(&drawing) == (i > 0 || image == 0));
+            assert_int_equal(restored(&drawing), i == 0 && image > 0);
+            turn(scene, image);
+            const lobe_scene_changes changes = {.images = &image, .image_count = 1};
+            assert_int_equal(lobe_renderer_update_scene(drawing.renderer, &changes), LOBE_OK);
+        }
+        assert_int_equal(kept(), 1);
+        stop(&drawing);
+        lobe_scene_destroy(&scene);
+    }
+}
+
+/// Saved then, and loaded at once.
+static void parts_are_drawn_when_complete(void **state) {
+    lobe_scene *scene = bumpy_square();
+    for (size_t i = 0; i < FILTERS; i++) {
+        const uint64_t expected = plain_picture(*state, scene, filters[i]);
+        for (int again = 0; again < 2; again++) {
+            drawing drawing;
+            start(*state, scene, filters[i], &drawing);
+            drawing.parts = 2;
+            for (uint32_t left = again ? 0 : PARTS - 2; left > 0; left -= 2) {
+                assert_true(picture(&drawing, test_folder.path) != expected);
+                assert_int_equal(drawing.parts_left, left);
+                assert_true(fitted(&drawing));
+                assert_int_equal(kept(), i);
+            }
+            assert_true(picture(&drawing, test_folder.path) == expected);
+            assert_int_equal(drawing.parts_left, 0);
+            assert_int_equal(kept(), i + 1);
+            assert_true(picture(&drawing, test_folder.path) == expected);
+            assert_int_equal(ran(&drawing, NULL), 1);
+            stop(&drawing);
+        }
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// The material is drawn unfiltered until then, as by `direct`.
+static void incomplete_maps_are_not_drawn(void **state) {
+    const picture_request request = {.filter = "direct", .width = SIZE, .height = SIZE};
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(EXTENT, EXTENT, 0.6, 5));
+    scene_add_sun(scene, (double[]){0.4, 1, 0.2}, 3);
+    scene_end_with_square(scene, &material);
+    lobe_frame expected = draw_scene(*state, scene, &request);
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    drawing.parts = 1;
+    lobe_frame frame = frame_of(&drawing, NULL, NULL);
+    assert_true(drawing.parts_left > 0);
+    assert_true(relative_l2(&frame.radiance, &expected.radiance) < 1e-4);
+    lobe_frame_free(&frame);
+    lobe_frame_free(&expected);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// However many frames take them.
+static void each_part_runs_once(void **state) {
+    lobe_scene *scene = bumpy_square();
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    drawing.parts = 1;
+    size_t samples = 0, roots = 0, levels = 0;
+    for (uint32_t left = PARTS; left-- > 0;) {
+        (void)picture(&drawing, NULL);
+        assert_int_equal(drawing.parts_left, left);
+        samples += ran(&drawing, "mixture_samples");
+        roots += ran(&drawing, "mixture_root");
+        levels += ran(&drawing, "mixture_level");
+        assert_int_equal(samples, 1);
+        assert_int_equal(roots, 1);
+        assert_int_equal(levels, PARTS - 1 - left);
+    }
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// The picture is the same, is stopped where the host wants, and goes on from there.
+static void progress_is_reported(void **state) {
+    lobe_scene *scene = bumpy_square();
+    const uint64_t expected = plain_picture(*state, scene, "mixture");
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    drawing.stops_at = 0.5;
+    lobe_frame frame = frame_of(&drawing, test_folder.path, NULL);
+    assert_null(frame.radiance.texels);
+    assert_true(drawing.heard >= 0.5 && drawing.heard < 1);
+    assert_int_equal(drawing.calls, PARTS / 2);
+    assert_int_equal(kept(), 0);
+    drawing.stops_at = 2;
+    drawing.heard = 0;
+    drawing.calls = 0;
+    frame = frame_of(&drawing, test_folder.path, NULL);
+    assert_true(image_hash(&frame.radiance) == expected);
+    assert_int_equal(drawing.calls, PARTS - PARTS / 2);
+    assert_int_equal(frame.submissions, drawing.calls + 1);
+    assert_true(drawing.heard == 1);
+    assert_int_equal(kept(), 1);
+    lobe_frame_free(&frame);
+    drawing.calls = 0;
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(drawing.calls, 0);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// If nobody waits for a frame, the next one saves its map.
+static void submitted_frames_are_saved_by_the_next(void **state) {
+    lobe_scene *scene = bumpy_square();
+    const uint64_t expected = plain_picture(*state, scene, "mixture");
+    const lobe_vulkan_submission submission = {0};
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    for (size_t files = 0; files <= 1; files++) {
+        lobe_frame frame = frame_of(&drawing, test_folder.path, &submission);
+        assert_int_equal(kept(), files);
+        lobe_frame_free(&frame);
+    }
+    stop(&drawing);
+    start(*state, scene, "mixture", &drawing);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_true(restored(&drawing));
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+static void an_unwritable_folder_is_warned_of_once(void **state) {
+    lobe_scene *scene = bumpy_square();
+    const uint64_t expected = plain_picture(*state, scene, "mixture");
+    drawing drawing;
+    start(*state, scene, "mixture", &drawing);
+    for (int i = 0; i < 2; i++) {
+        assert_true(picture(&drawing, "/nonexistent/folder") == expected);
+        assert_int_equal(drawing.recorder.warnings, 1);
+    }
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Maps whose lobes do not vary, and filters that fit nothing, leave the folder alone.
+static void nothing_is_saved_where_nothing_is_fitted(void **state) {
+    lobe_scene *scene = bumpy_square();
+    drawing drawing;
+    start(*state, scene, "moments", &drawing);
+    (void)picture(&drawing, test_folder.path);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+    scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);
+    scene_end_with_square(scene, &material);
+    start(*state, scene, "mixture", &drawing);
+    drawing.parts = 1;
+    (void)picture(&drawing, test_folder.path);
+    assert_int_equal(drawing.parts_left, 0);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+    assert_int_equal(kept(), 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        IN_TEST_FOLDER(one_renderer_saves_and_another_loads),
+        IN_TEST_FOLDER(a_damaged_file_is_replaced),
+        IN_TEST_FOLDER(each_setting_has_its_file),
+        IN_TEST_FOLDER(replaced_texels_are_fitted),
+        IN_TEST_FOLDER(parts_are_drawn_when_complete),
+        cmocka_unit_test(incomplete_maps_are_not_drawn),
+        cmocka_unit_test(each_part_runs_once),
+        IN_TEST_FOLDER(progress_is_reported),
+        IN_TEST_FOLDER(submitted_frames_are_saved_by_the_next),
+        cmocka_unit_test(an_unwritable_folder_is_warned_of_once),
+        IN_TEST_FOLDER(nothing_is_saved_where_nothing_is_fitted),
+    };
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
+}
