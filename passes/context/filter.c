@@ -60,6 +60,10 @@ bool lobe_filter_supersamples(const lobe_filter *filter) {
     return filter->supersamples;
 }
 
+bool lobe_filter_fits(const lobe_filter *filter) {
+    return filter && filter->save;
+}
+
 bool lobe_filter_draws_waves(const lobe_filter *filter) {
     return filter && filter->draws_waves;
 }

@@ -7,8 +7,9 @@ option cache_option_folder(cache_options *options) {
         .name = "cache",
         .kind = OPTION_TEXT,
         .argument = "DIR",
-        .summary = "cache folder for the filtered cubes of environments "
-                   "(default: lobe/environments in the user's cache folder)",
+        .summary = "cache folder for the filtered cubes of environments and the fitted mixtures of "
+                   "materials (default: lobe/environments, lobe/mixtures in the user's cache "
+                   "folder)",
         .target = &options->folder,
     };
 }
@@ -17,7 +18,7 @@ option cache_option_off(cache_options *options) {
     return (option){
         .name = "no-cache",
         .kind = OPTION_FLAG,
-        .summary = "neither load nor save filtered cubes",
+        .summary = "neither load nor save filtered cubes and fitted mixtures",
         .target = &options->off,
     };
 }
@@ -28,8 +29,8 @@ int cache_options_check(const option_table *table, const cache_options *options)
     return 0;
 }
 
-const char *cache_options_find(const cache_options *options, char *path) {
+const char *cache_options_find(const cache_options *options, const char *name, char *path) {
     if (options->off)
         return NULL;
-    return options->folder ? options->folder : cache_folder_find("environments", path);
+    return options->folder ? options->folder : cache_folder_find(name, path);
 }

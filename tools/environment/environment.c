@@ -69,7 +69,7 @@ static lobe_result prepare(const environment_request *request, environment_state
         .host = &state->host,
     };
     parameters.wanted[output.map] = true;
-    parameters.cache = cache_options_find(&request->cache, folder);
+    parameters.cache = cache_options_find(&request->cache, "environments", folder);
     progress_step(&state->progress, "%s: preparing", state->environment->name);
     lobe_result result = lobe_environment_maps_create(state->device, &parameters, &output.maps);
     progress_end(&state->progress);

@@ -64,9 +64,11 @@ typedef struct render_state {
     progress progress;
     const frame_sequence *sequence;
     uint32_t frame_number; ///< counted from 1
-    bool prepares;         ///< the environment, before the frame
+    bool prepares;         ///< the environment, or materials, before the frame
     const char *cache;     ///< cache folder for filtered environments; NULL: none
     char cache_folder[CACHE_FOLDER_SIZE];
+    const char *fit_cache; ///< cache folder for fitted mixtures; NULL: none
+    char fit_cache_folder[CACHE_FOLDER_SIZE];
 } render_state;
 
 // ---------------------------------------------------------------------------------------------
@@ -248,7 +250,9 @@ static lobe_result open_renderer(render_request *request, render_state *state) {
     if (result == LOBE_OK)
         result = animate(request, state);
     if (state->scene->environment)
-        state->cache = cache_options_find(&request->cache, state->cache_folder);
+        state->cache = cache_options_find(&request->cache, "environments", state->cache_folder);
+    if (lobe_filter_fits(request->filter))
+        state->fit_cache = cache_options_find(&request->cache, "mixtures", state->fit_cache_folder);
     if (result == LOBE_OK)
         result = lobe_renderer_set_scene(state->renderer, state->scene);
     return result;
@@ -263,17 +267,24 @@ static void begin_frame(render_state *state) {
                   state->sequence->count);
 }
 
-/// The environment is prepared before the frame is drawn.
-static bool report_environment(void *user, double part) {
-    render_state *state = user;
+/// What is prepared before the frame is drawn.
+static bool report_preparation(render_state *state, const char *what, double part) {
     if (!state->prepares)
-        progress_step(&state->progress, "%s: preparing %s", state->scene->name,
-                      state->scene->environment->name);
+        progress_step(&state->progress, "%s: preparing %s", state->scene->name, what);
     state->prepares = part < 1;
     progress_part(&state->progress, part);
     if (!state->prepares)
         begin_frame(state);
     return true;
+}
+
+static bool report_environment(void *user, double part) {
+    render_state *state = user;
+    return report_preparation(state, state->scene->environment->name, part);
+}
+
+static bool report_fits(void *user, double part) {
+    return report_preparation(user, "materials", part);
 }
 
 static bool report_samples(void *user, double part) {
@@ -293,11 +304,13 @@ static lobe_result render_frame(const render_request *request, render_state *sta
             .height = request->size[1],
             .reference.samples = request->samples,
             .environment.cache = state->cache,
+            .fits.cache = state->fit_cache,
             .aov = request->layers && writes(request, false),
             .motion = {.deliver = request->has_motion && writes(request, false),
                        .previous_camera = &state->previous},
             .host = {.progress = report_samples,
                      .environment_progress = prepares ? report_environment : NULL,
+                     .fits_progress = prepares ? report_fits : NULL,
                      .user = state},
         },
         &state->frame);

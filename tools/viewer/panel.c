@@ -169,15 +169,20 @@ static void show_samples(const viewer *v) {
     }
 }
 
-/// Shown until all of the environment's maps light the scene.
-static void show_parts(const viewer *v) {
+static void show_left(const char *what, uint32_t left) {
     char text[32];
-    uint32_t left = v->sides[0].parts_left;
-    if (v->look.comparison != VIEWER_SINGLE)
-        left += v->sides[1].parts_left;
     snprintf(text, sizeof text, "%u to do", left);
     if (left > 0)
-        imgui_line("parts of the light", text);
+        imgui_line(what, text);
+}
+
+/// Shown until all of the environment's maps light the scene, and all materials are filtered.
+static void show_parts(const viewer *v) {
+    const bool both = v->look.comparison != VIEWER_SINGLE;
+    const viewer_side *first = &v->sides[0], *second = &v->sides[1];
+    show_left("parts of the light", first->parts_left + (both ? second->parts_left : 0));
+    show_left("parts of the materials",
+              first->fit_parts_left + (both ? second->fit_parts_left : 0));
 }
 
 static void choose_comparison(viewer *v) {

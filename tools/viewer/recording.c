@@ -50,6 +50,7 @@ static lobe_result draw(viewer *v, viewer_side *side, lobe_frame *frame) {
                                     .height = v->view.height,
                                     .reference.samples = side->samples > 0 ? side->samples : 1,
                                     .environment.cache = v->view.cache,
+                                    .fits.cache = v->view.fit_cache,
                                     .aov = true,
                                 },
                                 frame);

@@ -54,7 +54,8 @@ static void prepare(const viewer_request *request, const lobe_host *console, vie
     v->view.device = &v->device;
     v->view.host = &v->host;
     v->view.maximum_samples = request->samples;
-    v->view.cache = cache_options_find(&request->cache, v->cache_folder);
+    v->view.cache = cache_options_find(&request->cache, "environments", v->cache_folder);
+    v->view.fit_cache = cache_options_find(&request->cache, "mixtures", v->fit_cache_folder);
     lobe_settings_default(reference, &v->sides[1].settings);
 }
 

@@ -36,7 +36,7 @@ void viewer_side_close(const viewer_view *view, viewer_side *side) {
     animation_destroy(&side->animation);
     viewer_target_destroy(view->device, &side->target);
     side->pass_count = 0;
-    side->parts_left = 0;
+    side->parts_left = side->fit_parts_left = 0;
     side->awaits_times = false;
 }
 
@@ -253,11 +253,23 @@ static void adapt_parts(viewer_side *side) {
     side->former_milliseconds = now;
 }
 
+/// Parts of the materials' mixtures: as many in a frame as take a twentieth to a fifth of a second.
+static void adapt_fit_parts(viewer_side *side) {
+    if (side->fit_parts_left == 0)
+        side->fit_parts = 1;
+    else if (side->milliseconds < 50 && side->fit_parts < 64)
+        side->fit_parts *= 2;
+    else if (side->milliseconds > 200 && side->fit_parts > 1)
+        side->fit_parts /= 2;
+}
+
 /// If this frame built maps, the next one uses more of them; the frame after the last one saves
 /// them in the folder.
-static void go_on_with_parts(viewer_side *side, uint32_t left) {
-    side->stale = left > 0 || side->parts_left > 0;
-    side->parts_left = left;
+static void go_on_with_parts(viewer_side *side, const lobe_frame *frame) {
+    side->stale = frame->environment_parts_left > 0 || side->parts_left > 0 ||
+                  frame->fit_parts_left > 0 || side->fit_parts_left > 0;
+    side->parts_left = frame->environment_parts_left;
+    side->fit_parts_left = frame->fit_parts_left;
 }
 
 /// The side's own filter and settings, or, if that filter supersamples, the first that does not.
@@ -292,6 +304,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
     lobe_settings settings;
     const lobe_filter *filter = filter_to_draw(side, &settings);
     adapt_parts(side);
+    adapt_fit_parts(side);
     side->failed = animation_set_time(side->animation, view->seconds) != LOBE_OK;
     if (side->failed) {
         side->stale = false;
@@ -305,6 +318,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
             .settings = &settings,
             .camera = &view->camera,
             .environment = {.parts = side->parts, .cache = view->cache},
+            .fits = {.parts = side->fit_parts, .cache = view->fit_cache},
             .aov = outputs,
             .host = {.add_passes = outputs ? show_output : NULL,
                      .user = &constants,
@@ -312,7 +326,7 @@ lobe_result viewer_side_record(const viewer_view *view, viewer_side *side,
                      .submission = &(lobe_vulkan_submission){.commands = commands}},
         },
         &frame);
-    go_on_with_parts(side, frame.environment_parts_left);
+    go_on_with_parts(side, &frame);
     side->failed = result != LOBE_OK;
     if (result != LOBE_OK)
         return result;

@@ -53,6 +53,8 @@ typedef struct viewer_side {
     // The environment's filtered maps, which are made in parts.
     uint32_t parts;      ///< in a frame
     uint32_t parts_left; ///< after the last one
+    // The same of the mixtures that are fitted to materials.
+    uint32_t fit_parts, fit_parts_left;
     // Times.
     bool awaits_times;
     viewer_pass passes[VIEWER_MAXIMUM_PASSES];
@@ -71,6 +73,7 @@ typedef struct viewer_view {
     uint32_t width, height;   ///< pixels
     uint32_t maximum_samples; ///< at which refining ends
     const char *cache;        ///< folder of filtered environments; NULL: none
+    const char *fit_cache;    ///< folder of fitted mixtures; NULL: none
     const lobe_host *host;
 } viewer_view;
 

@@ -68,7 +68,8 @@ typedef struct viewer {
     viewer_display display;
     viewer_frame frame;
     viewer_view view;
-    char cache_folder[CACHE_FOLDER_SIZE]; ///< `view.cache` may point to it
+    char cache_folder[CACHE_FOLDER_SIZE];     ///< `view.cache` may point to it
+    char fit_cache_folder[CACHE_FOLDER_SIZE]; ///< `view.fit_cache` may point to it
     viewer_look look;
     viewer_side sides[2];
     lobe_scene *scene;

@@ -58,6 +58,8 @@ LOBE_API const char *lobe_filter_summary(const lobe_filter *filter); ///< one li
 LOBE_API const char *lobe_filter_paper(const lobe_filter *filter);   ///< its source, or ""
 /// True for the reference, which averages many samples of the unfiltered maps.
 LOBE_API bool lobe_filter_supersamples(const lobe_filter *filter);
+/// True for filters that fit maps to materials: see lobe_render_fits.
+LOBE_API bool lobe_filter_fits(const lobe_filter *filter);
 /// Whether it draws the waves of materials (lobe_waves); false for NULL.
 LOBE_API bool lobe_filter_draws_waves(const lobe_filter *filter);
 

@@ -26,6 +26,34 @@ def mean(path):
     return sum(map(sum, pixels)) / len(pixels)
 
 
+def test_fitted_mixtures_are_kept():
+    folder = fresh_folder("mixtures")
+    user = fresh_folder("mixtures-user")
+
+    def draw(name, *arguments, found):
+        result = succeeds("render", SCENE, "--filter", "mixture", *SMALL, *arguments, "-o",
+                          folder / name, XDG_CACHE_HOME=user)
+        check(("mixture_restoring" in result.stdout) == found, report(result))
+        check(("mixture_level" in result.stdout) != found, report(result))
+        return result
+
+    draw("plain.png", "--no-cache", found=False)
+    check(not (user / "lobe/mixtures").exists(), "a folder was made without a cache")
+    draw("first.png", found=False)
+    kept = list((user / "lobe" / "mixtures").iterdir())
+    check(kept and all(path.suffix == ".mixture" for path in kept), f"{kept}")
+    draw("second.png", found=True)
+    whole = kept[0].read_bytes()
+    kept[0].write_bytes(whole[:-100])
+    result = succeeds("render", SCENE, "--filter", "mixture", *SMALL, "--cache", kept[0].parent,
+                      "-o", folder / "rebuilt.png")
+    check("will be replaced" in result.stderr, report(result))
+    check(kept[0].read_bytes() == whole, "the damaged file was not replaced")
+    names = ("plain.png", "first.png", "second.png", "rebuilt.png")
+    pictures = [png_read(folder / name) for name in names]
+    check(all(picture == pictures[0] for picture in pictures), "pictures differ")
+
+
 def test_both_outputs_at_once():
     folder = fresh_folder("both")
     result = succeeds("render", SCENE, *DIRECT, "-o", folder / "a.exr", "-o", folder / "a.png")

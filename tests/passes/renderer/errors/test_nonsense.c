@@ -381,6 +381,7 @@ static void filters(void **state) {
     assert_string_equal(lobe_filter_summary(NULL), "");
     assert_string_equal(lobe_filter_paper(NULL), "");
     assert_false(lobe_filter_supersamples(NULL));
+    assert_false(lobe_filter_fits(NULL));
     assert_false(lobe_filter_draws_waves(NULL));
     assert_int_equal(lobe_filter_knob_count(NULL), 0);
     assert_null(lobe_filter_knob(NULL, 0));
