@@ -34,6 +34,10 @@ const float LEAST_PART = 1e-4;
 // Of variances, in those of the base lobes: what is much narrower than these does not show.
 const float LEAST_VARIANCE = 0.01;
 
+// The same of widths. They separate base lobes more strictly than places do: a lobe twice as broad
+// as another is another shape wherever it is.
+const float LEAST_WIDTH_VARIANCE = 0.001;
+
 const float MOST_CORRELATION = 0.999;
 
 // The material's places and widths (moment_bins.h and gaussian_mixture.h).
@@ -156,7 +160,8 @@ mixture_component improved(mixture_component former, component_sums sums, float 
     float least = LEAST_VARIANCE * units.deviation * units.deviation;
     if (PRINTED)
         c *= component.part;
-    c.xyw = max(c.xyw, vec3(0.0)) + least;
+    c.xyw = max(c.xyw, vec3(0.0)) +
+            vec3(vec2(least), LEAST_WIDTH_VARIANCE * units.deviation * units.deviation);
     if (units.is_round)
         c.xyz = vec3(vec2(0.5 * (c.x + c.y)), 0.0);
     float limit = MOST_CORRELATION * sqrt(c.x * c.y);

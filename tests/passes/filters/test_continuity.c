@@ -12,8 +12,8 @@
 
 enum { EXTENT = 16, TEXELS = 256, COARSE = 8, FRAMES = 8 * COARSE + 1 };
 
-static const char *const filters[] = {"toksvig", "lean", "leadr",    "lobes",
-                                      "moments", "tan",  "fournier", "mixture"};
+static const char *const filters[] = {"toksvig", "lean",     "leadr",   "lobes",      "moments",
+                                      "tan",     "fournier", "mixture", "multi_leadr"};
 
 static lobe_scene *rough_plate(const double towards[3], double concentration) {
     lobe_scene *scene = scene_begin();
@@ -84,15 +84,18 @@ static void no_jumps(fixture *f, const double towards[3], double concentration,
 
 static const double above[] = {0, 1, 0}, aside[] = {0.9, 1, 0.5};
 
+/// By more than a texel of the level.
 static void a_view_that_moves(void **state) {
-    const view_path path = {.pixels = 0.5, .footprint = 7.7, .most = 0.005};
+    const view_path path = {.pixels = 1.1, .footprint = 7.7, .most = 0.01};
     no_jumps(*state, above, 50, &path);
     no_jumps(*state, aside, 50, &path);
 }
 
 static void a_view_that_zooms_past_a_level(void **state) {
     const view_path path = {.levels = 0.5, .footprint = 6.6, .most = 0.02};
+    const view_path next = {.levels = 0.5, .footprint = 9.33, .most = 0.02};
     no_jumps(*state, above, 500, &path);
+    no_jumps(*state, above, 500, &next);
     no_jumps(*state, aside, 50, &path);
 }
 

@@ -2,7 +2,9 @@
 // against the mean of all texel's lobes: at centres of a level's texels and at corners between
 // four, where components of neighbours that differ would blend into ones that neither has.
 //
-// `test_filters_mixture_map_error NORMALS[,ROUGHNESS]...` prints the same of photographed maps.
+// `test_filters_mixture_map_error NORMALS[,ROUGHNESS]...` prints the same of photographed maps,
+// `test_filters_mixture_map_error materials` of maps whose relief, sharpness and colour change
+// together.
 
 #include "tests/passes/support/fixture.h"
 
@@ -12,6 +14,7 @@
 #include <string.h>
 
 #include "scenes/format/image_file.h"
+#include "tests/passes/filters/mixture/changing_materials.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -68,16 +71,25 @@ static void decode(const float *texel, double normal[3]) {
         normal[i] /= sqrt(length);
 }
 
-/// The mean of the lobes under each pixel. The fourth channel of the map is the concentration.
-static distributions exact_distributions(const lobe_image *map, const direction_list *list,
+/// A map of normals with the concentration in the fourth channel, and the lobes' colours; NULL:
+/// they are white.
+typedef struct measured_map {
+    lobe_image lobes;
+    const lobe_image *colours;
+} measured_map;
+
+/// The mean of the lobes under each pixel.
+static distributions exact_distributions(const measured_map *map, const direction_list *list,
                                          uint32_t side) {
     distributions exact = allocate(side);
     const uint32_t box = EXTENT / side;
     for (uint32_t texel = 0; texel < EXTENT * EXTENT; texel++) {
         const uint32_t pixel = texel / EXTENT / box * side + texel % EXTENT / box;
-        const float *values = (const float *)map->texels + (size_t)4 * texel;
+        const float *values = (const float *)map->lobes.texels + (size_t)4 * texel;
+        const double colour =
+            map->colours ? (double)((const float *)map->colours->texels)[texel] : 1;
         const double concentration = (double)values[3];
-        const double peak = concentration / (2 * M_PI * (1 - exp(-2 * concentration)));
+        const double peak = colour * concentration / (2 * M_PI * (1 - exp(-2 * concentration)));
         double normal[3];
         decode(values, normal);
         for (uint32_t i = 0; i < list->count; i++) {
@@ -102,7 +114,8 @@ static lobe_image width_map(const lobe_image *map, bool *varies) {
     return widths;
 }
 
-static lobe_scene *make_scene(const lobe_image *map) {
+static lobe_scene *make_scene(const measured_map *measured) {
+    const lobe_image *map = &measured->lobes;
     bool varies;
     lobe_scene *scene = scene_begin();
     lobe_image copy = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
@@ -117,6 +130,12 @@ static lobe_scene *make_scene(const lobe_image *map) {
         material.width_map.nearest = true;
     } else {
         lobe_image_free(&widths);
+    }
+    if (measured->colours) {
+        lobe_image colours = map_image(LOBE_FORMAT_R32_FLOAT, EXTENT, EXTENT);
+        memcpy(colours.texels, measured->colours->texels, (size_t)4 * EXTENT * EXTENT);
+        material.specular_map = scene_add_map(scene, colours);
+        material.specular_map.nearest = true;
     }
     scene_add_square(scene, &material, 1, NULL);
     scene_look_down(scene, 2);
@@ -178,7 +197,7 @@ typedef struct map_error {
     double centre, corner;
 } map_error;
 
-static map_error measure(fixture *f, const lobe_image *map, uint32_t box, const char *filter,
+static map_error measure(fixture *f, const measured_map *map, uint32_t box, const char *filter,
                          const char *const settings[6]) {
     const direction_list list = half_vectors();
     picture_request request = {
@@ -268,17 +287,42 @@ static lobe_image load_map(const fixture *f, const char *paths) {
     return map;
 }
 
-static void print_errors(fixture *f, const char *path) {
-    lobe_image map = load_map(f, path);
-    for (size_t i = 0; i < sizeof candidates / sizeof *candidates; i++) {
-        const candidate *c = &candidates[i];
-        const map_error fine = measure(f, &map, 8, c->filter, c->settings);
-        const map_error coarse = measure(f, &map, 32, c->filter, c->settings);
-        printf("%-60s %-8s %-12s %5.1f %5.1f %5.1f %5.1f\n", path, c->filter,
+static void print_candidates(fixture *f, const char *name, const measured_map *map,
+                             const candidate *list, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const candidate *c = &list[i];
+        const map_error fine = measure(f, map, 8, c->filter, c->settings);
+        const map_error coarse = measure(f, map, 32, c->filter, c->settings);
+        printf("%-60s %-8s %-12s %5.1f %5.1f %5.1f %5.1f\n", name, c->filter,
                c->settings[0] ? c->settings[0] : "", 100 * fine.centre, 100 * fine.corner,
                100 * coarse.centre, 100 * coarse.corner);
     }
-    lobe_image_free(&map);
+}
+
+static void print_errors(fixture *f, const char *path) {
+    measured_map map = {.lobes = load_map(f, path)};
+    print_candidates(f, path, &map, candidates, sizeof candidates / sizeof *candidates);
+    lobe_image_free(&map.lobes);
+}
+
+static void print_changing_materials(fixture *f) {
+    static const candidate compared[] = {
+        {"lobes", {NULL}},
+        {"moments", {"bins=4", NULL}},
+        {"moments", {"bins=4", "colour=bins", NULL}},
+        {"mixture", {NULL}},
+        {"mixture", {"colour=mean", NULL}},
+        {"mixture", {"steps=8", NULL}},
+        {"mixture", {"components=6", NULL}},
+    };
+    for (int i = 0; i < CHANGING_MATERIALS; i++) {
+        lobe_image colours;
+        measured_map map = {changing_material(i, EXTENT, &colours), &colours};
+        print_candidates(f, changing_material_names[i], &map, compared,
+                         sizeof compared / sizeof *compared);
+        lobe_image_free(&map.lobes);
+        lobe_image_free(&colours);
+    }
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -305,12 +349,12 @@ static lobe_image stones(void) {
 /// as centres. Those that each texel finds alone are not, whatever the paper's prior, unless they
 /// are evaluated one by one.
 static void neighbours_blend(void **state) {
-    lobe_image map = stones();
+    measured_map map = {.lobes = stones()};
     const map_error mixture = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
     const map_error moments = measure(*state, &map, 8, "moments", (const char *[6]){"bins=4"});
     const map_error alone = measure(*state, &map, 8, "tan", (const char *[6]){"start=kmeans"});
     const map_error peaks = measure(*state, &map, 8, "fournier", (const char *[6]){"peaks=4"});
-    lobe_image_free(&map);
+    lobe_image_free(&map.lobes);
     print_message("# mixture %.4f %.4f, moments %.4f %.4f, alone %.4f %.4f, one by one %.4f %.4f\n",
                   mixture.centre, mixture.corner, moments.centre, moments.corner, alone.centre,
                   alone.corner, peaks.centre, peaks.corner);
@@ -320,12 +364,33 @@ static void neighbours_blend(void **state) {
     assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
+/// Where relief, sharpness and colour change over the map, at equal bytes.
+static void materials_that_change_are_fitted_better(void **state) {
+    static const int materials[] = {6, 7};
+    double sums[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        lobe_image colours;
+        measured_map map = {changing_material(materials[i], EXTENT, &colours), &colours};
+        const map_error mixture = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
+        const map_error moments = measure(*state, &map, 8, "moments", (const char *[6]){"bins=4"});
+        print_message("# %s: mixture %.4f %.4f, moments %.4f %.4f\n",
+                      changing_material_names[materials[i]], mixture.centre, mixture.corner,
+                      moments.centre, moments.corner);
+        sums[0] += mixture.centre + mixture.corner;
+        sums[1] += moments.centre + moments.corner;
+        assert_true(mixture.centre + mixture.corner <= 0.75 * (moments.centre + moments.corner));
+        lobe_image_free(&map.lobes);
+        lobe_image_free(&colours);
+    }
+    assert_true(sums[0] <= 0.4 * sums[1]);
+}
+
 /// Slopes of stones and of the flat joints between them are no Gaussian.
 static void several_lobes_of_slopes_halve_the_error_of_one(void **state) {
-    lobe_image map = stones();
+    measured_map map = {.lobes = stones()};
     const map_error one = measure(*state, &map, 8, "leadr", (const char *[6]){NULL});
     const map_error several = measure(*state, &map, 8, "multi_leadr", (const char *[6]){NULL});
-    lobe_image_free(&map);
+    lobe_image_free(&map.lobes);
     print_message("# one %.4f %.4f, several %.4f %.4f\n", one.centre, one.corner, several.centre,
                   several.corner);
     assert_true(several.centre <= 0.5 * one.centre && several.corner <= 0.6 * one.corner);
@@ -334,6 +399,7 @@ static void several_lobes_of_slopes_halve_the_error_of_one(void **state) {
 int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_blend),
+        cmocka_unit_test(materials_that_change_are_fitted_better),
         cmocka_unit_test(several_lobes_of_slopes_halve_the_error_of_one),
     };
     if (count < 2)
@@ -341,7 +407,10 @@ int main(int count, char **arguments) {
     void *state = NULL;
     fixture_create(&state);
     for (int i = 1; i < count; i++)
-        print_errors(state, arguments[i]);
+        if (strcmp(arguments[i], "materials") == 0)
+            print_changing_materials(state);
+        else
+            print_errors(state, arguments[i]);
     fixture_destroy(&state);
     return 0;
 }

@@ -141,6 +141,69 @@ static void sixteen_bits_are_within_a_step(void **state) {
     check_sums(*state, scene, &material, &kind, 3e-5, 0.51 * kind.components / 32767);
 }
 
+static void one_component_is_one_gaussian(void **state) {
+    mixture_kind kind = usual;
+    kind.components = 1;
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 50);
+    lobe_scene *scene = scene_begin();
+    material.normal_map = scene_add_map(scene, random_normal_map(32, 16, 0.8, 41));
+    check_sums(*state, scene, &material, &kind, 3e-5, 0);
+}
+
+/// Eight bits of a nearly flat map: (128, 128, 255), and one step from there in some texels.
+static lobe_image flat_bytes(uint32_t extent) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA8_UNORM, extent, extent);
+    uint8_t *texel = image.texels;
+    for (uint32_t i = 0; i < extent * extent; i++, texel += 4) {
+        texel[0] = (uint8_t)(i % 7 == 0 ? 129 : 128);
+        texel[1] = (uint8_t)(i % 11 == 0 ? 127 : 128);
+        texel[2] = 255;
+    }
+    return image;
+}
+
+/// What is stored of a component; variances about its mean are not below zero.
+static void check_component(const float *place, const float *spread, size_t layer) {
+    for (int i = 0; i < 4; i++)
+        assert_true(isfinite(place[i]) && isfinite(spread[i]));
+    const double mass = (double)place[0];
+    assert_true(mass >= 0 && mass <= 1);
+    if (mass < 1e-6)
+        return;
+    for (int i = 0; i < 2; i++) {
+        const double mean = (double)place[1 + i] / mass;
+        if (!((double)spread[i] / mass - mean * mean >= -1e-5))
+            fail_msg("component %zu: a variance of %g", layer,
+                     (double)spread[i] / mass - mean * mean);
+    }
+    assert_true(spread[3] >= 0);
+}
+
+/// The sharpest base lobes over normals that hardly differ.
+static void flat_bytes_have_variances(void **state) {
+    enum { FLAT = 32 };
+    const mixture_kind kind = usual;
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1e4f);
+    lobe_scene *scene = scene_begin();
+    material.normal_map = scene_add_map(scene, flat_bytes(FLAT));
+    pass_run run;
+    built_map built = build_map(*state, scene, &material, &kind, &run);
+    const reduced_map *map = &built.map.map;
+    const float *texels = built.texels;
+    uint32_t width = map->width;
+    for (uint32_t level = 0; level < map->levels; level++, width /= 2) {
+        const size_t count = (size_t)width * width;
+        for (size_t j = 0; j < kind.components; j++)
+            for (size_t i = 0; i < count; i++)
+                check_component(texels + 4 * (2 * j * count + i),
+                                texels + 4 * ((2 * j + 1) * count + i), j);
+        texels += 4 * map->layers * count;
+    }
+    free(built.texels);
+    pass_run_end(&run);
+    lobe_scene_destroy(&scene);
+}
+
 /// Moments of a component of the coarsest level, in the plane's own units.
 typedef struct component_moments {
     double part, mean[2], covariance[3];
@@ -236,6 +299,8 @@ int main(void) {
         cmocka_unit_test(components_add_up_to_all_lobes),
         cmocka_unit_test(widths_and_colours_add_up),
         cmocka_unit_test(sixteen_bits_are_within_a_step),
+        cmocka_unit_test(one_component_is_one_gaussian),
+        cmocka_unit_test(flat_bytes_have_variances),
         cmocka_unit_test(clusters_are_found),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
