@@ -64,6 +64,7 @@ struct lobe_filter {
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
     bool reads_heights;      ///< of materials, whether they displace geometry or not
+    bool stretches_slopes;   ///< those of heights: the shader reads STRETCHED
     bool draws_waves;        ///< the shader has a variant WAVES
     bool fetches_for_lights; ///< the shader fetches maps for each four lights
     /// The shader reads the lobes' map texel by texel, in loops for each four lights.

@@ -194,6 +194,12 @@ shading_draw_count passes_shading_draw_counts(const filter_context *context, con
     return (shading_draw_count){passes_batch_index_count(context->scene, batch), batch->count};
 }
 
+/// Of the height map, if slopes follow how it is stretched; 0: they do not.
+static float stretched_map_width(const filter_context *context, const instance_batch *batch) {
+    return context->filter->stretches_slopes ? context->scene->instances[batch->instance].map_width
+                                             : 0;
+}
+
 /// The constants of a draw: for its material, its mesh, the lights and the settings.
 static void specialise_draw(const drawing *d, const instance_batch *batch,
                             specialisation_list *list) {
@@ -202,6 +208,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
+    passes_specialise(list, SPECIALISE_STRETCHED, stretched_map_width(d->context, batch) > 0);
     const uint32_t *of_type = d->lights->of_type;
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
     passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);
@@ -231,7 +238,8 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     const instance_batch *batch = &draws->batches[index];
     const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
-    const struct draw_constants constants = {.first_instance = batch->first};
+    const struct draw_constants constants = {.first_instance = batch->first,
+                                             .map_width = stretched_map_width(context, batch)};
     lobe_binding bindings[2 + MATERIAL_SHADING_BINDINGS];
     size_t binding_count = bind_draw(d, batch, bindings);
     specialisation_list list = {.graph = context->graph};

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "passes/upload/frame_check.h"
+#include "passes/upload/heights/map_width.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/scene_check.h"
 
@@ -67,12 +68,26 @@ static void find_atlas(device_scene *scene, device_instance *instance) {
         instance->is_atlas = grid.use && is_atlas(&scene->scene->meshes[instance->mesh], grid.use);
 }
 
+/// The same for how wide the height map is.
+static void find_map_width(device_scene *scene, device_instance *instance) {
+    const device_material *material = &scene->materials[instance->material];
+    const lobe_mesh *mesh = &scene->scene->meshes[instance->mesh];
+    const lobe_texture_use *use = material->height_normals ? &material->height : NULL;
+    const grid_layout before = instance->height_layout;
+    if (use && !mesh->has_texture_coordinates[use->texture_coordinates])
+        use = NULL;
+    instance->height_layout = use ? layout_of(scene, instance->mesh, use) : (grid_layout){0};
+    if (memcmp(&instance->height_layout, &before, sizeof before) != 0)
+        instance->map_width = use ? (float)passes_map_width(mesh, use) : 0;
+}
+
 static void measure_instance(device_scene *scene, size_t index) {
     const lobe_instance *source = &scene->scene->instances[index];
     device_instance *instance = &scene->instances[index];
     instance->mesh = source->mesh;
     instance->material = source->material;
     find_atlas(scene, instance);
+    find_map_width(scene, instance);
 }
 
 static lobe_result upload_material(device_scene *result, uint32_t index, const lobe_host *host) {

@@ -70,6 +70,10 @@ typedef struct device_instance {
     /// belongs to one place of the mesh.
     bool is_atlas;
     grid_layout layout; ///< for which `is_atlas` was found; all zero: none
+    /// Of a material with normals of its heights: length over which u of the height map grows by 1,
+    /// the object's (passes/upload/heights/map_width.h). 0: none.
+    float map_width;
+    grid_layout height_layout; ///< for which that was found; all zero: none
 } device_instance;
 
 /// What is drawn in place of an instance's mesh: buffers of struct vertex, uint32 and

@@ -47,11 +47,12 @@ slope_moments fetch_component(map_area area, surface_point surface, uint index, 
     slope_moments moments;
     moments.mean = height * (mean * range.z + range.xy);
     moments.covariance =
-        height * height * range.z * range.z * covariance_of_moments(mean, spread.xyz * scale) +
-        surface.curvature;
+        height * height * range.z * range.z * covariance_of_moments(mean, spread.xyz * scale);
     moments.mean_cosine = 1.0;
     moments.base_variance =
         max(spread.w * scale * binning.bins[0].shape.w, 1.0 / CONCENTRATION_MAXIMUM);
+    stretch_moments(moments, surface);
+    moments.covariance += surface.curvature;
     return moments;
 }
 

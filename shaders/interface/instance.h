@@ -12,7 +12,9 @@ INTERFACE_SIZE(instance_constants, 48)
 // Push constants of a draw of instances.
 struct draw_constants {
     uint first_instance; // index of its transform; those of the others follow
+    float map_width;     // of the height map, the object's lengths, if slopes follow its stretching
 };
-INTERFACE_SIZE(draw_constants, 4)
+INTERFACE_SIZE(draw_constants, 8)
+INTERFACE_OFFSET(draw_constants, map_width, 4)
 
 #endif

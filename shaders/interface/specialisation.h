@@ -40,6 +40,9 @@
 #define SPECIALISE_BASE_AS_LOBE      SPECIALISE(25) // bool: base lobes become von Mises-Fisher lobes
 #define SPECIALISE_DEPTH_AS_COVERAGE SPECIALISE(26) // bool: alpha is depth, see sample_choice.comp
 #define SPECIALISE_CURVATURE         SPECIALISE(29) // bool: the knob `curvature` is not 0
+// bool, of the material and the filter: slopes are those of heights, and follow how the map is
+// stretched over the surface
+#define SPECIALISE_STRETCHED SPECIALISE(30)
 // Filtered maps, see shaders/shading/filtered_maps.glsl.
 #define SPECIALISE_PROBES         SPECIALISE(32) // uint, [1, 16]
 #define SPECIALISE_ANISOTROPY     SPECIALISE(33) // uint, [1, 16]

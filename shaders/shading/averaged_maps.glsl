@@ -36,12 +36,24 @@ float width_from_average(float average) {
     return MODEL == MODEL_MICROFACET ? base_lobe_of_concentration(DISTRIBUTION, average) : average;
 }
 
+// The mean of normals whose slopes follow the stretching of the map: the direction is that of the
+// mean slope, and the variance grows as that of slopes.
+vec3 stretched_mean(vec3 mean, surface_point surface) {
+    if (!STRETCHED)
+        return mean;
+    float size = max(length(mean), 1e-4);
+    float growth = 0.5 * (dot(surface.stretch[0], surface.stretch[0]) +
+                          dot(surface.stretch[1], surface.stretch[1]));
+    return stretched_normal(mean / size, surface) / (1.0 + growth * (1.0 / size - 1.0));
+}
+
 // Averages over the footprint: a normal of length at most one, and a width.
 vec4 fetch_averages(map_area area, surface_point surface) {
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i)
         sum += fetch_probe(parameter_map, area, i);
     sum /= float(probes_of(area));
+    sum.xyz = stretched_mean(sum.xyz, surface);
     if (may_see_level_0(lobe_map())) {
         vec3 normal = normals_of_level_0(surface, area.level, 1.0).mean;
         float width = averaged_width(unfiltered_material(surface, normal));

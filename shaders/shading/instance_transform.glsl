@@ -32,6 +32,16 @@ vec3 transform_normal(vec3 normal) {
     return handedness(rows) * normalize(normal * rows);
 }
 
+// How thick a layer becomes, over its thickness before, on a surface with a normal of any length:
+// |det M| over the factor by which its area grows.
+float thickness(vec3 normal) {
+    vec3 r0 = instance.rows[0].xyz, r1 = instance.rows[1].xyz, r2 = instance.rows[2].xyz;
+    vec3 largest = max(max(abs(r0), abs(r1)), abs(r2));
+    float size = max(max(largest.x, largest.y), largest.z);
+    mat3 rows = cofactors();
+    return size * abs(dot(r0 / size, rows[0])) / max(length(normalize(normal) * rows), 1e-30);
+}
+
 vec4 transform_tangent(vec4 tangent) {
     return vec4(object_to_world_linear() * tangent.xyz, handedness(cofactors()) * tangent.w);
 }

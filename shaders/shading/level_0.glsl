@@ -17,9 +17,9 @@ struct level_0_normals {
 };
 
 // The map's normal at texture coordinates, with slopes multiplied by `relief`.
-vec3 level_0_normal(vec2 coordinates, float relief) {
-    return decode_normal(textureLod(normal_map, coordinates, 0.0).xyz,
-                         material.normal_scale * relief, NORMALS);
+vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
+    return stretched_normal(decode_normal(textureLod(normal_map, coordinates, 0.0).xyz,
+                                          material.normal_scale * relief, NORMALS), surface);
 }
 
 // In each direction of the pixel two points that have the mean and the variance of all its points
@@ -29,13 +29,13 @@ level_0_normals normals_of_level_0(surface_point surface, float level, float rel
         return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0);
     vec2 centre = map_coordinates(MAP_NORMAL, surface.coordinates, 1.0);
     if (!INTERPOLATED || level >= 1.0)
-        return level_0_normals(level_0_normal(centre, relief), 0.0);
+        return level_0_normals(level_0_normal(surface, centre, relief), 0.0);
     vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(12.0);
     vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(12.0);
-    vec3 a = level_0_normal(centre - dx - dy, relief);
-    vec3 b = level_0_normal(centre + dx - dy, relief);
-    vec3 c = level_0_normal(centre - dx + dy, relief);
-    vec3 d = level_0_normal(centre + dx + dy, relief);
+    vec3 a = level_0_normal(surface, centre - dx - dy, relief);
+    vec3 b = level_0_normal(surface, centre + dx - dy, relief);
+    vec3 c = level_0_normal(surface, centre - dx + dy, relief);
+    vec3 d = level_0_normal(surface, centre + dx + dy, relief);
     vec3 mean = 0.25 * ((a + b) + (c + d));
     // 1 - |mean|^2, which would cancel.
     float complement = 0.25 * (difference_squared(a, mean) + difference_squared(b, mean) +

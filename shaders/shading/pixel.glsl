@@ -8,6 +8,7 @@
 #include "interface/instance.h"
 #include "shading/surface.glsl"
 #include "shading/tangent_frame.glsl"
+#include "lib/map/slope_stretch.glsl"
 
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
@@ -24,6 +25,7 @@ layout(location = 1) in vec3 interpolated_normal;
 layout(location = 2) in vec4 interpolated_tangent;
 layout(location = 3) in vec4 interpolated_coordinates;
 layout(location = 4) in vec4 interpolated_colour;
+layout(location = 5) in float interpolated_map_width;
 
 bool front_side() {
     return gl_FrontFacing != MIRRORED;
@@ -41,6 +43,18 @@ vec2 triangle_slope(surface_point surface) {
                             surface.world_from_tangent);
     normal = dot(normal, surface.outgoing) < 0.0 ? -normal : normal;
     return -normal.xy / max(normal.z, 0.02);
+}
+
+// The back's frame is the front's reversed, and so are heights: slopes are the same over both.
+mat2 stretch_at(surface_point surface) {
+    vec2 size = vec2(textureSize(normal_map, 0));
+    return slope_stretch(dFdx(interpolated_position) * surface.world_from_tangent,
+                         dFdy(interpolated_position) * surface.world_from_tangent,
+                         map_coordinates(MAP_NORMAL, dFdx(interpolated_coordinates), 0.0),
+                         map_coordinates(MAP_NORMAL, dFdy(interpolated_coordinates), 0.0),
+                         surface.outgoing,
+                         front_side() ? interpolated_map_width : -interpolated_map_width,
+                         size.y / size.x);
 }
 
 surface_point read_surface() {
@@ -70,6 +84,9 @@ surface_point read_surface() {
         surface.drawn_slope = triangle_slope(surface);
         surface.vertex_spacing = frame.vertex_spacing / frame.footprint;
     }
+    surface.stretch = mat2(1.0);
+    if (STRETCHED)
+        surface.stretch = stretch_at(surface);
     return surface;
 }
 

@@ -5,6 +5,7 @@
 
 #include "interface/frame.h"
 #include "interface/instance.h"
+#include "interface/specialisation.h"
 #include "interface/vertex.h"
 
 layout(set = 0, binding = 0, std140) uniform frame_block { frame_constants frame; };
@@ -19,6 +20,9 @@ layout(location = 1) out vec3 world_normal;
 layout(location = 2) out vec4 world_tangent;
 layout(location = 3) out vec4 coordinates;
 layout(location = 4) out vec4 colour;
+layout(location = 5) out float map_width; // of the height map, metres; 0 unless STRETCHED
+
+layout(constant_id = SPECIALISE_STRETCHED) const bool STRETCHED = false;
 
 invariant gl_Position; // motion/motion.vert computes the same depths
 
@@ -35,5 +39,7 @@ void main() {
     coordinates = vec4(v.texture_coordinates[0], v.texture_coordinates[1],
                        v.texture_coordinates[2], v.texture_coordinates[3]);
     colour = vec4(v.colour[0], v.colour[1], v.colour[2], v.colour[3]);
+    map_width = STRETCHED ? draw.map_width * thickness(vec3(v.normal[0], v.normal[1], v.normal[2]))
+                          : 0.0;
     gl_Position = frame.world_to_clip * vec4(world_position, 1.0);
 }

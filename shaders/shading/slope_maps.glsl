@@ -11,6 +11,7 @@
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/microfacet/slope_distribution.glsl"
 #include "lib/microfacet/tilted_slopes.glsl"
+#include "lib/map/slope_stretch.glsl"
 
 #ifdef ENVIRONMENT
 #include "environment/reflection.glsl"
@@ -35,6 +36,22 @@ vec3 scaled_normal(vec3 normal) {
     return height == 1.0 ? normal : normalize(vec3(height * normal.xy, normal.z));
 }
 
+// Slopes of a relief on a stretched map, see lib/map/slope_stretch.glsl, as steep as a map can hold
+// at most. Cosines fall as those of slopes with that mean square do.
+void stretch_moments(inout slope_moments moments, surface_point surface) {
+    if (!STRETCHED)
+        return;
+    vec3 square = moments.covariance + vec3(moments.mean * moments.mean, 0.0);
+    moments.mean = surface.stretch * moments.mean;
+    moments.mean *= min(1.0, SLOPE_MAXIMUM / max(length(moments.mean), 1e-30));
+    moments.covariance = stretched_covariance(surface.stretch, moments.covariance);
+    float largest = max(moments.covariance.x, moments.covariance.y);
+    moments.covariance *= min(1.0, SLOPE_MAXIMUM * SLOPE_MAXIMUM / max(largest, 1e-30));
+    vec3 stretched = moments.covariance + vec3(moments.mean * moments.mean, 0.0);
+    moments.mean_cosine *=
+        sqrt((1.0 + square.x + square.y) / (1.0 + stretched.x + stretched.y));
+}
+
 // Dupuy et al. 2013, section 4.2, height scaling: first moments are multiplied by the factor,
 // second ones by its square.
 //
@@ -44,10 +61,11 @@ slope_moments moments_of_layers(vec4 first, vec4 second, surface_point surface) 
     float height = height_scale();
     slope_moments result;
     result.mean = height * first.xy;
-    result.covariance =
-        height * height * covariance_of_moments(first.xy, second.xyz) + surface.curvature;
+    result.covariance = height * height * covariance_of_moments(first.xy, second.xyz);
     result.mean_cosine = first.z;
     result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
+    stretch_moments(result, surface);
+    result.covariance += surface.curvature;
     return result;
 }
 

@@ -35,6 +35,7 @@ layout(constant_id = SPECIALISE_LIGHTS_AT_ONCE) const uint LIGHTS_AT_ONCE = 4;
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 layout(constant_id = SPECIALISE_CURVATURE) const bool CURVATURE = false;
 layout(constant_id = SPECIALISE_DISPLACED) const bool DISPLACED = false;
+layout(constant_id = SPECIALISE_STRETCHED) const bool STRETCHED = false;
 
 layout(LOBE_DESCRIPTOR(10), std140) uniform knob_block { shared_knobs knobs; };
 layout(LOBE_DESCRIPTOR(3), std140) uniform material_block { material_constants material; };
@@ -64,6 +65,8 @@ struct surface_point {
     // Of displaced geometry (DISPLACED):
     vec2 drawn_slope;     // of the triangle that is seen, over the plane of the frame
     float vertex_spacing; // how far vertices are apart, in widths of the sample
+    // Of maps made from heights (STRETCHED): slopes in the frame from those of the map.
+    mat2 stretch;
 };
 
 bool has_map(int map) {

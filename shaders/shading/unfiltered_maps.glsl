@@ -6,11 +6,16 @@
 #include "shading/base_material.glsl"
 #include "shading/unfiltered_texel.glsl"
 
+// A normal whose slopes follow the stretching of the map.
+vec3 stretched_normal(vec3 normal, surface_point surface) {
+    return STRETCHED ? normalize(vec3(surface.stretch * normal.xy, normal.z)) : normal;
+}
+
 vec3 unfiltered_normal(surface_point surface) {
     if (!has_map(MAP_NORMAL))
         return vec3(0.0, 0.0, 1.0);
-    return decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
-                         material.normal_scale, NORMALS);
+    return stretched_normal(decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
+                                          material.normal_scale, NORMALS), surface);
 }
 
 // glTF 2.0, section 3.9.3, for a texel of the occlusion map or a mean of texels.

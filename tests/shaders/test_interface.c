@@ -180,6 +180,7 @@ static known_member known[] = {
     MEMBER(deform_constants, row, 4),
     MEMBER(instance_constants, rows, 0),
     MEMBER(draw_constants, first_instance, 0),
+    MEMBER(draw_constants, map_width, 1),
     MEMBER(irradiance_harmonics, coefficients, 0),
     MEMBER(irradiance_harmonics_constants, size, 0),
     MEMBER(irradiance_harmonics_sum_constants, band_factors, 0),

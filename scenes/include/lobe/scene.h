@@ -148,9 +148,10 @@ typedef struct lobe_material {
     /// What the range [0, 1] of the height map spans, as a fraction of the map's own width in the
     /// world (the length over which u grows by 1), so that the relief scales with the map. With
     /// square texels and a map w texels wide, neighbouring texels that differ by d have a slope of
-    /// height_scale * w * d. Negative: the values are depths. 0: no relief. Displacement takes the
-    /// map's mean width over the area of the mesh at rest, so that a relief is equally high
-    /// everywhere; transforms scale it with the mesh.
+    /// height_scale * w * d. Negative: the values are depths. 0: no relief. The width is the mean
+    /// over the area of the mesh at rest, so that a relief is equally high everywhere, and flatter
+    /// where the map is stretched (with the filters that docs/program.md names); transforms scale
+    /// it with the mesh.
     float height_scale;
     float emissive[3]; ///< linear RGB radiance
     lobe_texture_use emissive_map;

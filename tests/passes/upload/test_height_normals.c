@@ -43,6 +43,13 @@ static lobe_image wave_normals(double scale) {
     return image;
 }
 
+/// Two tiles across the square, whose texels are square.
+static void add_square(lobe_scene *scene, const lobe_material *material) {
+    scene_add_square(scene, material, 2, NULL);
+    for (int i = 0; i < 4; i++)
+        scene->meshes[0].vertices[i].texture_coordinates[0][1] *= (float)WIDTH / HEIGHT;
+}
+
 static void light_and_look(lobe_scene *scene) {
     scene_add_sun(scene, (double[]){0.5, 1, 0.3}, 2);
     scene_look_down(scene, 2);
@@ -54,7 +61,7 @@ static lobe_scene *height_scene(float scale) {
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0.3);
     material.height_map = scene_add_map(scene, wave_heights(1));
     material.height_scale = scale;
-    scene_add_square(scene, &material, 2, NULL);
+    add_square(scene, &material);
     light_and_look(scene);
     return scene;
 }
@@ -63,7 +70,7 @@ static lobe_scene *normal_scene(double scale) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0.3);
     material.normal_map = scene_add_map(scene, wave_normals(scale));
-    scene_add_square(scene, &material, 2, NULL);
+    add_square(scene, &material);
     light_and_look(scene);
     return scene;
 }
