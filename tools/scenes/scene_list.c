@@ -5,6 +5,7 @@
 #include "tools/scenes/animated_scene.h"
 #include "tools/scenes/asset_scene.h"
 #include "tools/scenes/fields_scene.h"
+#include "tools/scenes/flag_scene.h"
 #include "tools/scenes/ocean_scene.h"
 
 typedef struct own_scene {
@@ -26,6 +27,9 @@ static const own_scene own_scenes[] = {
      ocean_scene},
     {{"fields", "a dome and a pyramid of metal; zoomed out, two fields of them", false, NULL},
      fields_scene},
+    {{"flag", "a flag of canvas in the wind, with a relief of threads that gusts stretch", false,
+      "leadr"},
+     flag_scene},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 
