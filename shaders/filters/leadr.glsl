@@ -55,6 +55,21 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return footprint_lobe(facets, slopes, facets, slopes);
 }
 
+// At outlines, facets may be turned away from the viewer where the triangle is not: what is seen is
+// the triangle. How far slopes move to its slope: until the mean plane appears at least this much
+// as large as the triangle does. Where the base itself is seen well, facets that are turned away
+// make up for others that are not.
+const float LEAST_HEIGHT = 0.25;
+const float OUTLINE_BEGIN = 0.26, OUTLINE_END = 0.15; // cosines of the base to the viewer
+
+float share_of_outline(vec2 mean, surface_point surface) {
+    float height = height_above_slope(mean, surface.outgoing);
+    float drawn = max(height_above_slope(surface.drawn_slope, surface.outgoing), 0.0);
+    float needed = (LEAST_HEIGHT * drawn - height) / max(drawn - height, 1e-6);
+    return clamp(needed, 0.0, 1.0) * (1.0 - smoothstep(OUTLINE_END, OUTLINE_BEGIN,
+                                                       surface.outgoing.z));
+}
+
 // Displaced triangles hide each other by themselves, and what is seen is the area of a triangle.
 // Only the relief between their vertices is left to mask: slopes about the triangle's own, with the
 // covariance of the level whose texels are as large as vertices are apart. The distribution of
@@ -65,6 +80,11 @@ void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_are
                        surface_point surface) {
     float level = level_of_vertices(surface);
     float share = clamp(level - area.level, 0.0, 1.0);
+    float outline = share_of_outline(moments.mean, surface);
+    vec2 moved = outline * (surface.drawn_slope - moments.mean);
+    lobe.facets.mean += moved;
+    lobe.slopes.mean += moved;
+    share = max(share, outline);
     slope_moments between = fetch_level(area.centre, level, surface);
     vec2 mean = mix(moments.mean, surface.drawn_slope, share);
     vec3 covariance = mix(moments.covariance, between.covariance, share);
