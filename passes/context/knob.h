@@ -45,8 +45,9 @@ typedef struct filter_knob {
     /// Of a number: boolean constant that is false at 0, where the code for it is left out; 0:
     /// none.
     uint32_t compiles;
-    /// A choice that decides what the filter's `prepare` keeps: each has slots of its own, so that
-    /// two views with different choices prepare a material once each.
+    /// A choice, or one of a few whole numbers, that decides what the filter's `prepare` keeps:
+    /// each has slots of its own, so that two views with different choices prepare a material once
+    /// each.
     bool decides_slots;
     /// Name of the Vulkan feature without which a device only allows the default; NULL: none.
     const char *needs;

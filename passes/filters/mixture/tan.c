@@ -25,7 +25,6 @@ static const filter_knob prior_knob = {
                     .maximum = 1e6,
                     .initial = 1,
                     .sweep = "0,1000"},
-    .decides_slots = true,
 };
 static const filter_knob formulas_knob = {
     .description = {.name = "formulas",

@@ -89,8 +89,10 @@ static void choices_are_constants_and_numbers_are_uniforms(void **state) {
             if (route == KNOB_SHARED_NUMBER || route == KNOB_FILTER_NUMBER)
                 assert_true(knob->feeds.place % 4 == 0 && knob->feeds.place < KNOB_BLOCK_SIZE);
             // Else a slider would fill the renderer with slots.
-            if (knob->decides_slots)
-                assert_int_equal(knob->description.kind, LOBE_KNOB_CHOICE);
+            if (knob->decides_slots) {
+                assert_int_not_equal(knob->description.kind, LOBE_KNOB_NUMBER);
+                assert_true(knob->description.maximum - knob->description.minimum < 16);
+            }
         }
     }
 }

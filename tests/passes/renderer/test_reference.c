@@ -10,6 +10,7 @@
 #include "passes/context/sample_pattern.h"
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/shading.h"
+#include "passes/renderer/shadows/shadow_maps.h"
 #include "passes/upload/scene_upload.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -204,6 +205,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     passes_draw_list_end(&draws, &context);
     shading_targets targets = passes_shading_targets_declare(f->graph, extent, extent, false);
     shading_light light = passes_shading_light_prepare(&context, &environment);
+    light.shadows = passes_shadow_maps(&context, &draws, NULL);
     lobe_resource sum = lobe_graph_image(
         f->graph,
         &(lobe_image_description){
