@@ -10,7 +10,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#ifdef SEEN_TILES
 layout(push_constant) uniform constants_block { uint level; }; // the first that is made
+#else
+const uint level = 0u;
+#endif
 layout(set = 0, binding = 0) uniform sampler2DArray source;
 layout(set = 0, binding = 1) uniform writeonly image2DArray target_1;
 layout(set = 0, binding = 2) uniform writeonly image2DArray target_2;

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -552,11 +553,25 @@ def test_animated_files_play():
     return None
 
 
+def copy_shaders():
+    shutil.rmtree(SHADERS, ignore_errors=True)
+    shutil.copytree(ROOT / "shaders", SHADERS)
+
+
+def test_shaders_compiled_at_run_time_build_maps():
+    """They have declarations that nothing uses, which the optimiser removes at build time."""
+    copy_shaders()
+    for name in ["mipmap", "moments"]:
+        picture = FOLDER / f"compiled-{name}.exr"
+        done = subprocess.run([HOT_RELOAD, "render", "checkerboard", "--filter", name, "--size",
+                               "16x9", "-o", picture], capture_output=True, text=True, check=False)
+        check(done.returncode == 0, done.stderr)
+
+
 def test_saved_shaders_are_seen():
     if missing():
         return missing()
-    shutil.rmtree(SHADERS, ignore_errors=True)
-    shutil.copytree(ROOT / "shaders", SHADERS)
+    copy_shaders()
     hot = Window(screen(), "checkerboard", "--size", TEXT, "--filter", "direct",
                  program=HOT_RELOAD)
     hot.do("key", "Tab")
