@@ -14,6 +14,7 @@
     FILTER(mixture)                                                                                \
     FILTER(fournier)                                                                               \
     FILTER(displaced)                                                                              \
+    FILTER(wu)                                                                                     \
     FILTER(reference)                                                                              \
     FILTER(displaced_reference)
 

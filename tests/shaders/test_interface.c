@@ -13,6 +13,7 @@
 #include "shaders/interface/deformation.h"
 #include "shaders/interface/displacement/displacement.h"
 #include "shaders/interface/displacement/relief.h"
+#include "shaders/interface/displacement/wu.h"
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "shaders/interface/frame.h"
@@ -155,6 +156,30 @@ static known_member known[] = {
     MEMBER(transfer_constants, height, 1),
     MEMBER(transfer_constants, azimuths, 2),
     MEMBER(transfer_constants, first, 3),
+    MEMBER(wu_level, first_cell, 0),
+    MEMBER(wu_level, width, 1),
+    MEMBER(wu_level, height, 2),
+    MEMBER(wu_level, first_pair, 3),
+    MEMBER(wu_level, spacing_x, 4),
+    MEMBER(wu_level, spacing_y, 5),
+    MEMBER(wu_level, unit, 6),
+    MEMBER(wu_level, octave, 7),
+    MEMBER(wu_constants, width, 0),
+    MEMBER(wu_constants, height, 1),
+    MEMBER(wu_constants, level_count, 2),
+    MEMBER(wu_constants, angular, 3),
+    MEMBER(wu_constants, patches, 4),
+    MEMBER(wu_constants, points, 5),
+    MEMBER(wu_constants, bounces, 6),
+    MEMBER(wu_constants, printed, 7),
+    MEMBER(wu_constants, levels, 8),
+    MEMBER(wu_cell, lobes, 0),
+    MEMBER(wu_cell, slopes, 1),
+    MEMBER(wu_cell, numerator, 2),
+    MEMBER(wu_cell, denominator, 3),
+    MEMBER(wu_cell, horizons, 4),
+    MEMBER(wu_step, level, 0),
+    MEMBER(wu_step, samples, 1),
     MEMBER(frame_constants, world_to_clip, 0),
     MEMBER(frame_constants, world_to_camera, 1),
     MEMBER(frame_constants, eye, 2),

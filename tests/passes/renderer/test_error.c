@@ -93,7 +93,8 @@ static bool is_measured(const char *scene, const char *filter) {
     const bool large = strcmp(scene, "hall") == 0 || strcmp(scene, "tablecloth") == 0;
     const bool mixture = strcmp(filter, "mixture") == 0 || strcmp(filter, "tan") == 0 ||
                          strcmp(filter, "multi_leadr") == 0;
-    const bool relief = strncmp(filter, "displaced", strlen("displaced")) == 0;
+    const bool relief =
+        strncmp(filter, "displaced", strlen("displaced")) == 0 || strcmp(filter, "wu") == 0;
     return strcmp(filter, "reference") != 0 && strcmp(filter, "fournier") != 0 && !relief &&
            !(large && mixture);
 }

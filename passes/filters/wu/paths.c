@@ -1,0 +1,81 @@
+#include "passes/filters/wu/build.h"
+
+uint32_t passes_wu_row(const wu_build *build) {
+    const uint32_t angular = build->models.constants.angular;
+    return (angular * angular + 3) & ~3u;
+}
+
+static void add_vertices(wu_build *build) {
+    const uint32_t paths = passes_wu_path_count(build);
+    const uint64_t vertices = (uint64_t)paths * build->models.constants.bounces;
+    lobe_pass *pass = passes_wu_pass(build, "path_vertices");
+    passes_relief_read(&build->relief, pass);
+    build->vertices = lobe_pass_write(
+        pass, &(lobe_binding){.name = "vertex_block",
+                              .resource = passes_wu_buffer(build, "vertices of paths",
+                                                           vertices * 8 * sizeof(float))});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "filters/wu/path_vertices.comp", .threads = {paths}});
+}
+
+/// What paths get from each direction.
+typedef struct path_light {
+    lobe_resource first, second, later;
+} path_light;
+
+static path_light add_light(const wu_build *build) {
+    const uint32_t threads = passes_wu_path_count(build) * passes_wu_row(build);
+    const uint64_t bytes = (uint64_t)threads * sizeof(float);
+    lobe_pass *pass = passes_wu_pass(build, "path_light");
+    passes_relief_read(&build->relief, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "vertex_block", .resource = build->vertices});
+    path_light light;
+    light.first = lobe_pass_write(
+        pass, &(lobe_binding){.name = "first_block",
+                              .resource = passes_wu_buffer(build, "first light", bytes)});
+    light.second = lobe_pass_write(
+        pass, &(lobe_binding){.name = "second_block",
+                              .resource = passes_wu_buffer(build, "second light", bytes)});
+    light.later = lobe_pass_write(
+        pass, &(lobe_binding){.name = "later_block",
+                              .resource = passes_wu_buffer(build, "later light", bytes)});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "filters/wu/path_light.comp", .threads = {threads}});
+    return light;
+}
+
+static void add_energy(wu_build *build, const path_light *light) {
+    lobe_pass *pass = passes_wu_pass(build, "path_energy");
+    lobe_pass_read(pass, &(lobe_binding){.name = "vertex_block", .resource = build->vertices});
+    lobe_pass_read(pass, &(lobe_binding){.name = "first_block", .resource = light->first});
+    lobe_pass_read(pass, &(lobe_binding){.name = "second_block", .resource = light->second});
+    build->models.energy = lobe_pass_write(
+        pass, &(lobe_binding){.name = "energy_block", .resource = build->models.energy});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/wu/path_energy.comp"});
+}
+
+lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name, lobe_resource left,
+                                  lobe_resource right, uint32_t samples) {
+    const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
+    const uint32_t angular = build->models.constants.angular, blocks = passes_wu_row(build) / 4;
+    const uint64_t pairs = (uint64_t)patches * angular * angular * angular * angular;
+    lobe_pass *pass = passes_wu_pass(build, "pair_means");
+    lobe_pass_read(pass, &(lobe_binding){.name = "left_block", .resource = left});
+    lobe_pass_read(pass, &(lobe_binding){.name = "right_block", .resource = right});
+    const lobe_resource means = lobe_pass_write(
+        pass, &(lobe_binding){.name = "pair_block",
+                              .resource = passes_wu_buffer(build, name, pairs * sizeof(float))});
+    passes_wu_dispatch(build, pass, "filters/wu/pair_means.comp",
+                       (uint32_t[]){patches * blocks * blocks, 1}, 0, samples);
+    return means;
+}
+
+void passes_wu_add_paths(wu_build *build) {
+    const uint32_t points = build->models.constants.points;
+    add_vertices(build);
+    const path_light light = add_light(build);
+    add_energy(build, &light);
+    build->direct = passes_wu_add_pairs(build, "light at once", light.first, light.first, points);
+    build->indirect =
+        passes_wu_add_pairs(build, "light between facets", light.first, light.later, points);
+}

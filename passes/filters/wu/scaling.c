@@ -1,0 +1,55 @@
+#include "passes/filters/wu/build.h"
+
+/// The light of a level's lobes where the coarse relief sees it, as that of paths.
+static lobe_resource add_low_light(const wu_build *build, uint32_t level) {
+    const struct wu_constants *constants = &build->models.constants;
+    const uint32_t threads = passes_wu_path_count(build) * WU_DRAWS * passes_wu_row(build);
+    lobe_pass *pass = passes_wu_pass(build, "low_light");
+    lobe_pass_read(pass, &(lobe_binding){.name = "cell_block", .resource = build->models.cells});
+    const lobe_resource light = lobe_pass_write(
+        pass, &(lobe_binding){.name = "first_block",
+                              .resource = passes_wu_buffer(build, "light of lobes",
+                                                           (uint64_t)threads * sizeof(float))});
+    passes_wu_dispatch(build, pass, "filters/wu/low_light.comp", (uint32_t[]){threads, 1}, level,
+                       0);
+    return passes_wu_add_pairs(build, "light of cells", light, light, constants->points * WU_DRAWS);
+}
+
+static void read_light(const wu_build *build, lobe_pass *pass, lobe_resource low) {
+    lobe_pass_read(pass, &(lobe_binding){.name = "direct_block", .resource = build->direct});
+    lobe_pass_read(pass, &(lobe_binding){.name = "indirect_block", .resource = build->indirect});
+    lobe_pass_read(pass, &(lobe_binding){.name = "low_pair_block", .resource = low});
+}
+
+static lobe_resource add_patches(wu_build *build, uint32_t level, lobe_resource low) {
+    const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
+    lobe_pass *pass = passes_wu_pass(build, "scaling_patches");
+    read_light(build, pass, low);
+    lobe_pass_read(pass, &(lobe_binding){.name = "ratio_block", .resource = build->models.ratios});
+    const lobe_resource quotients = lobe_pass_write(
+        pass, &(lobe_binding){.name = "patch_block",
+                              .resource = passes_wu_buffer(build, "scaling of patches",
+                                                           patches * 8 * sizeof(float))});
+    // Groups of 128 threads.
+    passes_wu_dispatch(build, pass, "filters/wu/scaling_patches.comp",
+                       (uint32_t[]){patches * 128, 1}, level, 0);
+    return quotients;
+}
+
+void passes_wu_add_scaling(wu_build *build, uint32_t level) {
+    const struct wu_level *cells = &build->models.constants.levels[level];
+    const lobe_resource low = add_low_light(build, level);
+    lobe_pass *pass = passes_wu_pass(build, "scaling_table");
+    read_light(build, pass, low);
+    const lobe_binding ratios = {.name = "ratio_block", .resource = build->models.ratios};
+    build->models.ratios =
+        level == 0 ? lobe_pass_write(pass, &ratios) : lobe_pass_modify(pass, &ratios);
+    passes_wu_dispatch(build, pass, "filters/wu/scaling_table.comp", (uint32_t[]){1, 1}, level, 0);
+    const lobe_resource quotients = add_patches(build, level, low);
+    pass = passes_wu_pass(build, "scaling_cells");
+    lobe_pass_read(pass, &(lobe_binding){.name = "patch_block", .resource = quotients});
+    build->models.cells = lobe_pass_modify(
+        pass, &(lobe_binding){.name = "cell_block", .resource = build->models.cells});
+    passes_wu_dispatch(build, pass, "filters/wu/scaling_cells.comp",
+                       (uint32_t[]){cells->width * cells->height, 1}, level, 0);
+}

@@ -1,0 +1,55 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// What normals drawn from the lobes of the cells at points of each patch get from each direction of
+// the table, where the coarse relief sees it: products of two have the light of f'_low as mean. A
+// thread for each sample and direction.
+
+#include "filters/wu/cells.glsl"
+#include "filters/wu/directions.glsl"
+#include "filters/wu/paths.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform step_block { wu_step stage; };
+layout(set = 0, binding = 5, std430) writeonly buffer first_block { float first[]; };
+
+float weight_of_lobes(uint cell) {
+    float sum = 0.0;
+    for (uint i = 0u; i < WU_LOBES; ++i)
+        sum += length(cells[cell].lobes[i].xyz);
+    return sum;
+}
+
+vec3 drawn_normal(uint cell, float total, uint seed) {
+    float rest = total * hashed_number(seed);
+    uint which = 0u;
+    for (; which + 1u < WU_LOBES; ++which) {
+        float weight = length(cells[cell].lobes[which].xyz);
+        if (rest < weight)
+            break;
+        rest -= weight;
+    }
+    vec4 lobe = cells[cell].lobes[which];
+    float cosine = lobe_cosine(lobe.w, 1.0 - hashed_number(seed + 1u));
+    float angle = 2.0 * PI * hashed_number(seed + 2u);
+    vec3 local = vec3(sqrt(max(1.0 - cosine * cosine, 0.0)) * vec2(cos(angle), sin(angle)), cosine);
+    float size = length(lobe.xyz);
+    return frame_of_axis(size > 0.0 ? lobe.xyz / size : vec3(0.0, 0.0, 1.0)) * local;
+}
+
+void main() {
+    uint directions = filled_direction_count();
+    uint index = gl_GlobalInvocationID.x / directions, which = gl_GlobalInvocationID.x % directions;
+    if (index >= path_count() * WU_DRAWS)
+        return;
+    uint cell = cell_at(wu.levels[stage.level], path_start(index / WU_DRAWS));
+    // Directions that fill up the table get nothing.
+    vec3 direction =
+        which < direction_count() ? direction_of_index(which, wu.angular) : vec3(0.0);
+    float total = weight_of_lobes(cell);
+    vec3 normal = drawn_normal(cell, total, hash(index));
+    vec2 areas = seen_areas(cell, direction);
+    bool seen = (index & 1u) == 0u ? areas.x > 0.0 : areas.y > 0.0;
+    first[gl_GlobalInvocationID.x] = seen ? sqrt(total) * max(dot(normal, direction), 0.0) : 0.0;
+}

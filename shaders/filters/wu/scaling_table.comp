@@ -1,0 +1,67 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The table S of a level: what the relief sends from one direction to another, over what the coarse
+// relief's lobes do, at once and by way of other facets. One group.
+//
+// Wu et al., 2019, Eq. 20 and 24. Printed there: the mean over patches of ratios. Otherwise: the
+// ratio of means, which conserves energy.
+
+#include "filters/wu/cells.glsl"
+
+const uint THREADS = 128u;
+layout(local_size_x = THREADS) in;
+
+layout(push_constant) uniform step_block { wu_step stage; };
+layout(set = 0, binding = 4, std430) readonly buffer direct_block { float direct[]; };
+layout(set = 0, binding = 5, std430) readonly buffer indirect_block { float indirect[]; };
+layout(set = 0, binding = 6, std430) readonly buffer low_pair_block { float low_pairs[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer ratio_block { vec2 ratios[]; };
+
+// Added to both means, as a part of the table's mean; printed: to the divisor.
+const float PART_OF_MEAN = 0.01, PRINTED = 1e-5;
+const float LARGEST_RATIO = 4.0;
+
+shared float partial[THREADS];
+
+float mean_of_table(uint count) {
+    float sum = 0.0;
+    for (uint i = gl_LocalInvocationIndex; i < count; i += THREADS)
+        sum += low_pairs[i];
+    partial[gl_LocalInvocationIndex] = sum;
+    barrier();
+    sum = 0.0;
+    for (uint i = 0u; i < THREADS; ++i)
+        sum += partial[i];
+    return sum / float(count);
+}
+
+vec2 ratio_of_means(uint pair, uint pairs, uint patches, float added) {
+    vec2 above = vec2(0.0);
+    float below = 0.0;
+    for (uint i = 0u; i < patches; ++i) {
+        above += vec2(direct[i * pairs + pair], indirect[i * pairs + pair]);
+        below += low_pairs[i * pairs + pair];
+    }
+    return min((above / float(patches) + vec2(added, 0.0)) / (below / float(patches) + added),
+               LARGEST_RATIO);
+}
+
+vec2 mean_of_ratios(uint pair, uint pairs, uint patches) {
+    vec2 sum = vec2(0.0);
+    for (uint i = 0u; i < patches; ++i)
+        sum += min(vec2(direct[i * pairs + pair], indirect[i * pairs + pair]) /
+                       (low_pairs[i * pairs + pair] + PRINTED),
+                   LARGEST_RATIO);
+    return sum / float(patches);
+}
+
+void main() {
+    uint directions = wu.angular * wu.angular, pairs = directions * directions;
+    uint patches = wu.patches * wu.patches;
+    float added = max(PART_OF_MEAN * mean_of_table(pairs * patches), 1e-9);
+    for (uint i = gl_LocalInvocationIndex; i < pairs; i += THREADS)
+        ratios[wu.levels[stage.level].first_pair + i] =
+            wu.printed != 0u ? mean_of_ratios(i, pairs, patches)
+                             : ratio_of_means(i, pairs, patches, added);
+}

@@ -1,0 +1,98 @@
+#ifndef INTERFACE_WU_H
+#define INTERFACE_WU_H
+
+#include "../specialisation.h"
+#include "../types.h"
+
+// What the filter `wu` keeps of a relief (relief.h): models of it at several levels. A model has a
+// coarse relief, whose quads are *cells*; for each cell a mixture of lobes of the normals of the
+// facets under it; and factors that correct what those reflect: a table S of pairs of directions,
+// and one number T for each cell.
+//
+// Frame and lengths are the relief's, but the heights of a coarse relief are in widths of its
+// cells.
+
+#define WU_LEVELS        8
+#define WU_MAXIMUM_LOBES 8
+#define WU_AZIMUTHS      16
+
+struct wu_level {
+    uint first_cell;
+    uint width; // cells
+    uint height;
+    uint first_pair; // in the tables of S
+    float spacing_x; // texels of the relief to a cell
+    float spacing_y;
+    float unit;   // of heights: sqrt(spacing_x spacing_y)
+    float octave; // log2 of the texels to a cell, above that of the level before
+};
+INTERFACE_SIZE(wu_level, 32)
+INTERFACE_OFFSET(wu_level, width, 4)
+INTERFACE_OFFSET(wu_level, height, 8)
+INTERFACE_OFFSET(wu_level, first_pair, 12)
+INTERFACE_OFFSET(wu_level, spacing_x, 16)
+INTERFACE_OFFSET(wu_level, spacing_y, 20)
+INTERFACE_OFFSET(wu_level, unit, 24)
+INTERFACE_OFFSET(wu_level, octave, 28)
+#ifndef VULKAN
+typedef struct wu_level wu_level;
+#endif
+
+struct wu_constants {
+    uint width; // texels
+    uint height;
+    uint level_count;
+    uint angular; // directions are the middles of a square of angular x angular
+    uint patches; // the map is divided into patches x patches
+    uint points;  // of each patch, at which paths start
+    uint bounces; // vertices of a path, at most
+    uint printed; // 1: means of ratios, not ratios of means
+    wu_level levels[WU_LEVELS];
+};
+INTERFACE_SIZE(wu_constants, 288)
+INTERFACE_OFFSET(wu_constants, height, 4)
+INTERFACE_OFFSET(wu_constants, level_count, 8)
+INTERFACE_OFFSET(wu_constants, angular, 12)
+INTERFACE_OFFSET(wu_constants, patches, 16)
+INTERFACE_OFFSET(wu_constants, points, 20)
+INTERFACE_OFFSET(wu_constants, bounces, 24)
+INTERFACE_OFFSET(wu_constants, printed, 28)
+INTERFACE_OFFSET(wu_constants, levels, 32)
+
+// A cell (std430).
+struct wu_cell {
+    // Of the normals' density per steradian and area of the base: xyz: direction times weight, w:
+    // concentration (von Mises-Fisher).
+    float4 lobes[WU_MAXIMUM_LOBES];
+    float4 slopes; // of the coarse relief's facets in the cell: lower, upper
+    // T = (n0 + n1 m + n2 m^2) / (d0 + d1 m + d2 m^2), where m is the part of the light that is
+    // from other facets, by albedo.
+    float4 numerator;
+    float4 denominator;
+    // Tangents of the elevation above which the coarse relief's facets see the sky, by azimuth:
+    // two half floats, lower and upper.
+    uint horizons[WU_AZIMUTHS];
+};
+INTERFACE_SIZE(wu_cell, 240)
+INTERFACE_OFFSET(wu_cell, slopes, 128)
+INTERFACE_OFFSET(wu_cell, numerator, 144)
+INTERFACE_OFFSET(wu_cell, denominator, 160)
+INTERFACE_OFFSET(wu_cell, horizons, 176)
+
+// Push constants of the passes that make models.
+struct wu_step {
+    uint level;
+    uint samples; // of each patch
+    uint padding_0;
+    uint padding_1;
+};
+INTERFACE_SIZE(wu_step, 16)
+INTERFACE_OFFSET(wu_step, samples, 4)
+
+// Normals drawn for each point of a patch.
+#define WU_DRAWS 4
+
+// uint, [1, WU_MAXIMUM_LOBES]
+#define SPECIALISE_WU_LOBES (SPECIALISE_FILTER + 40)
+
+#endif

@@ -1,0 +1,286 @@
+// The parts of a model of the filter "wu": heights against their closed form, and the light that is
+// found along paths against energy that is known.
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "passes/filters/wu/build.h"
+#include "passes/upload/device_scene_parts.h"
+#include "tests/passes/filters/displaced/relief_plane.h"
+#include "tests/passes/support/pass_run.h"
+
+static const wu_kind kind = {.lobes = 6, .angular = 9, .patches = 2, .points = 1024, .bounces = 16};
+
+typedef struct model_run {
+    pass_run run;
+    lobe_scene *scene;
+    wu_build build;
+} model_run;
+
+static void begin(model_run *model, fixture *f, lobe_image map, const wu_kind *asked) {
+    const lobe_material material = relief_material(1);
+    model->scene = relief_plane(&material, map, (double[]){0, 0, 1}, 1);
+    scene_end(model->scene);
+    pass_run_begin(&model->run, f, model->scene, "wu", (const char *const[]){NULL});
+    assert_int_equal(passes_device_scene_upload_heights(model->run.scene, &f->host), LOBE_OK);
+    model->build = passes_wu_begin(&model->run.context, 0, asked);
+}
+
+static void end(model_run *model) {
+    pass_run_end(&model->run);
+    lobe_scene_destroy(&model->scene);
+}
+
+static const void *data_of(const model_run *model, lobe_resource buffer, size_t expected) {
+    size_t size = 0;
+    const void *data = lobe_graph_data(model->build.graph, buffer, &size);
+    assert_int_equal(size, expected);
+    return data;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Heights
+
+/// A relief of several waves and of noise, with mean slopes that no vertices show exactly.
+static double rough(uint32_t column, uint32_t row) {
+    const uint32_t mixed = (column * 7919 + row * 104729) * 2654435761u;
+    return 5 * sin(0.19635 * column) * cos(0.0981748 * row) + 2 * sin(0.589 * column + 0.4 * row) +
+           1.5 * (double)(mixed >> 8) / (1 << 24);
+}
+
+static double height_of(const lobe_image *map, uint32_t column, uint32_t row) {
+    const size_t texel = (size_t)(row % map->height) * map->width + column % map->width;
+    return (double)((const float *)map->texels)[4 * texel];
+}
+
+enum { MOST_CELLS = 256 };
+
+/// Mean slopes of the two triangles of each quad under a cell.
+static void mean_slope(const lobe_image *map, const struct wu_level *level, uint32_t x, uint32_t y,
+                       double slope[2]) {
+    const uint32_t first[2] = {x * map->width / level->width, y * map->height / level->height};
+    const uint32_t last[2] = {(x + 1) * map->width / level->width,
+                              (y + 1) * map->height / level->height};
+    slope[0] = slope[1] = 0;
+    for (uint32_t j = first[1]; j < last[1]; j++) {
+        for (uint32_t i = first[0]; i < last[0]; i++) {
+            const double h00 = height_of(map, i, j), h10 = height_of(map, i + 1, j),
+                         h01 = height_of(map, i, j + 1), h11 = height_of(map, i + 1, j + 1);
+            slope[0] += ((h10 - h00) + (h11 - h01)) / 2;
+            slope[1] += ((h11 - h10) + (h01 - h00)) / 2;
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        slope[k] /= (double)(last[0] - first[0]) * (last[1] - first[1]);
+}
+
+/// h = (conj Gx sx + conj Gy sy) / (|Gx|^2 + |Gy|^2 + w L^2) for each frequency; the mean is 0.
+static complex double height_of_frequency(const struct wu_level *level, double alpha, double beta,
+                                          const complex double slope[2]) {
+    const complex double x = cexp(I * alpha), y = cexp(I * beta);
+    const complex double gx = (x - 1) * (y + 1) / 2 * (double)(level->unit / level->spacing_x),
+                         gy = (x + 1) * (y - 1) / 2 * (double)(level->unit / level->spacing_y);
+    const double laplacian = 2 * cos(alpha) + 2 * cos(beta) - 4;
+    return (conj(gx) * slope[0] + conj(gy) * slope[1]) /
+           (creal(gx * conj(gx)) + creal(gy * conj(gy)) + 0.01 * laplacian * laplacian);
+}
+
+static void closed_form(const lobe_image *map, const struct wu_level *level, double *heights) {
+    const uint32_t width = level->width, height = level->height, count = width * height;
+    double slopes[MOST_CELLS][2];
+    assert_true(count <= MOST_CELLS);
+    for (uint32_t i = 0; i < count; i++)
+        mean_slope(map, level, i % width, i / width, slopes[i]);
+    memset(heights, 0, count * sizeof *heights);
+    for (uint32_t k = 1; k < count; k++) {
+        const double alpha = 2 * M_PI * (k % width) / width, beta = 2 * M_PI * (k / width) / height;
+        complex double sums[2] = {0, 0};
+        for (uint32_t i = 0; i < count; i++) {
+            const complex double wave = cexp(-I * (alpha * (i % width) + beta * (i / width)));
+            sums[0] += wave * slopes[i][0];
+            sums[1] += wave * slopes[i][1];
+        }
+        const complex double found = height_of_frequency(level, alpha, beta, sums);
+        for (uint32_t i = 0; i < count; i++)
+            heights[i] +=
+                creal(found * cexp(I * (alpha * (i % width) + beta * (i / width)))) / count;
+    }
+}
+
+static void check_heights(const float *found, const double *expected, uint32_t count,
+                          uint32_t level) {
+    double error = 0, sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        error += pow((double)found[i] - expected[i], 2);
+        sum += expected[i] * expected[i];
+    }
+    if (!(sqrt(error) <= 1e-3 * sqrt(sum) + 1e-6))
+        fail_msg("level %u of %u cells: off by %g of %g", level, count, sqrt(error), sqrt(sum));
+}
+
+static void check_levels(fixture *f, uint32_t width, uint32_t height) {
+    lobe_image map = relief_map(width, height, rough);
+    double expected[WU_LEVELS][MOST_CELLS];
+    struct wu_constants constants = {0};
+    passes_wu_place_levels(width, height, &kind, &constants);
+    for (uint32_t i = 0; i < constants.level_count; i++)
+        closed_form(&map, &constants.levels[i], expected[i]);
+    model_run model;
+    begin(&model, f, map, &kind);
+    relief reliefs[WU_LEVELS];
+    for (uint32_t i = 0; i < constants.level_count; i++) {
+        reliefs[i] = passes_wu_add_low_relief(&model.build, i);
+        lobe_graph_read_back(model.build.graph, reliefs[i].heights, (lobe_range){0});
+    }
+    pass_run_execute(&model.run);
+    for (uint32_t i = 0; i < constants.level_count; i++)
+        check_heights(data_of(&model, reliefs[i].heights, (size_t)reliefs[i].bytes), expected[i],
+                      constants.levels[i].width * constants.levels[i].height, i);
+    end(&model);
+}
+
+static void coarse_heights_are_the_closed_form(void **state) {
+    static const uint32_t sizes[][2] = {{128, 128}, {128, 64}, {67, 45}, {7, 100}, {3, 1}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        check_levels(*state, sizes[i][0], sizes[i][1]);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Light
+
+static double level_map(uint32_t column, uint32_t row) {
+    (void)column;
+    (void)row;
+    return 3;
+}
+
+static double groove(uint32_t column, uint32_t row) {
+    (void)row;
+    return fabs((double)column - 8);
+}
+
+static double waves(uint32_t column, uint32_t row) {
+    const double x = 2 * M_PI * column / 32, y = 2 * M_PI * row / 32;
+    return 8 * sin(x) * cos(y) + 3 * sin(3 * x + y);
+}
+
+/// Reads back what paths bring from each direction to each, and makes the models.
+static void begin_light(model_run *model, fixture *f, uint32_t width, relief_height height_at,
+                        const wu_kind *asked) {
+    begin(model, f, relief_map(width, 32, height_at), asked);
+    wu_build *build = &model->build;
+    passes_wu_add_paths(build);
+    for (uint32_t i = 0; i < build->models.constants.level_count; i++) {
+        const relief low = passes_wu_add_low_relief(build, i);
+        passes_wu_add_cells(build, i, &low);
+        passes_wu_add_scaling(build, i);
+    }
+    const lobe_resource read[] = {build->direct, build->indirect, build->models.ratios,
+                                  build->models.cells, build->models.energy};
+    for (size_t i = 0; i < sizeof read / sizeof *read; i++)
+        lobe_graph_read_back(build->graph, read[i], (lobe_range){0});
+    pass_run_execute(&model->run);
+}
+
+enum { DIRECTIONS = 81, PAIRS = DIRECTIONS * DIRECTIONS, PATCHES = 4 };
+
+/// A level map shows what its lobes do, but for their width, and no light between facets.
+static void a_level_map_is_not_scaled(void **state) {
+    model_run model;
+    begin_light(&model, *state, 32, level_map, &kind);
+    const wu_models *models = &model.build.models;
+    const uint32_t levels = models->constants.level_count;
+    const float *ratios = data_of(&model, models->ratios, levels * PAIRS * 2 * sizeof(float));
+    for (uint32_t i = 0; i < levels * PAIRS; i++)
+        if (!(fabsf(ratios[2 * i] - 1) <= 6e-3f && ratios[2 * i + 1] == 0))
+            fail_msg("pair %u: scaled by %g and %g", i, (double)ratios[2 * i],
+                     (double)ratios[2 * i + 1]);
+    const struct wu_cell *cell = data_of(
+        &model, models->cells, (size_t)models->bytes - (levels * PAIRS * 2 + 4) * sizeof(float));
+    assert_float_equal(cell->numerator[0] / cell->denominator[0], 1, 2e-3);
+    assert_true(cell->numerator[1] == 0);
+    end(&model);
+}
+
+/// White valleys of slope 1 reflect 1 - pi sqrt(2) / 16 = 0.7223 of the light at once.
+static void valleys_reflect_their_closed_form(void **state) {
+    model_run model;
+    begin_light(&model, *state, 16, groove, &kind);
+    const float *energy = data_of(&model, model.build.models.energy, 4 * sizeof(float));
+    assert_float_equal(energy[0], 0.7223, 0.01);
+    end(&model);
+}
+
+/// The mean over the map of what paths bring from direction i to j, both ways.
+static double light_between(const float *direct, const float *indirect, uint32_t i, uint32_t j) {
+    double sum = 0;
+    for (uint32_t k = 0; k < PATCHES; k++)
+        sum += (double)direct[k * PAIRS + i * DIRECTIONS + j] +
+               (double)indirect[k * PAIRS + i * DIRECTIONS + j];
+    return sum / PATCHES;
+}
+
+static double sum_of_cosines(void) {
+    double sum = 0;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const double radius = fmax(abs(i % 9 - 4), abs(i / 9 - 4)) * 2 / 9;
+        sum += 1 - radius * radius;
+    }
+    return sum;
+}
+
+/// A white relief reflects all light: all paths together the cosine to the viewer.
+static void paths_lose_no_light(void **state) {
+    model_run model;
+    begin_light(&model, *state, 32, waves, &kind);
+    const size_t bytes = PATCHES * PAIRS * sizeof(float);
+    const float *direct = data_of(&model, model.build.direct, bytes),
+                *indirect = data_of(&model, model.build.indirect, bytes);
+    double sum = 0, at_once = 0;
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        sum += light_between(direct, indirect, i / DIRECTIONS, i % DIRECTIONS);
+        at_once += (double)direct[i];
+    }
+    // The directions are few: a level map's light is more than 1 as well.
+    sum *= M_PI / pow(sum_of_cosines(), 2);
+    at_once *= M_PI / pow(sum_of_cosines(), 2);
+    // The noise of 1024 paths.
+    if (!(fabs(sum - 1) < 0.02 && at_once < 0.7))
+        fail_msg("reflected: %g, at once %g", sum, at_once);
+    end(&model);
+}
+
+static void tables_are_the_same_both_ways(void **state) {
+    for (int printed = 0; printed < 2; printed++) {
+        wu_kind asked = kind;
+        asked.printed = printed == 1;
+        model_run model;
+        begin_light(&model, *state, 32, waves, &asked);
+        const wu_models *models = &model.build.models;
+        const uint32_t levels = models->constants.level_count;
+        const float *ratios = data_of(&model, models->ratios, levels * PAIRS * 2 * sizeof(float));
+        double off_one = 0;
+        for (uint32_t i = 0; i < PAIRS; i++) {
+            const uint32_t other = i % DIRECTIONS * DIRECTIONS + i / DIRECTIONS;
+            assert_true(ratios[2 * i] == ratios[2 * other]);
+            assert_true(ratios[2 * i + 1] == ratios[2 * other + 1]);
+            assert_true(ratios[2 * i] >= 0 && ratios[2 * i] <= 4);
+            off_one += fabs((double)ratios[2 * i] - 1) / PAIRS;
+        }
+        assert_true(off_one > 0.05);
+        end(&model);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coarse_heights_are_the_closed_form),
+        cmocka_unit_test(a_level_map_is_not_scaled),
+        cmocka_unit_test(valleys_reflect_their_closed_form),
+        cmocka_unit_test(paths_lose_no_light),
+        cmocka_unit_test(tables_are_the_same_both_ways),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
