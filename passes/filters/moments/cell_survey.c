@@ -37,25 +37,34 @@ static void dispatch(lobe_graph *graph, const device_material *material, bool br
                              });
 }
 
-cell_survey passes_moment_cell_survey(const filter_context *context, uint32_t index,
-                                      bool bright_texels) {
-    const device_material *material = &context->scene->materials[index];
+static struct cell_survey_constants cells_of(const device_material *material) {
     const lobe_grid grid = passes_lobe_grid(material);
-    const struct cell_survey_constants constants = {grid.width, grid.height, cell_count(grid.width),
-                                                    cell_count(grid.height)};
+    return (struct cell_survey_constants){grid.width, grid.height, cell_count(grid.width),
+                                          cell_count(grid.height)};
+}
+
+cell_survey passes_moment_cell_survey_declare(const filter_context *context, uint32_t index) {
+    const device_material *material = &context->scene->materials[index];
+    const struct cell_survey_constants constants = cells_of(material);
     cell_survey survey = {.cells = constants.columns * constants.rows};
     survey.lobe_count = survey.cells * SURVEY_DRAWS * material->lobe_count;
     survey.extremes = declare(context->graph, "extremes of lobes", index,
                               survey.cells * sizeof(struct survey_extremes));
     survey.lobes =
         declare(context->graph, "sample of lobes", index, survey.lobe_count * sizeof(float4));
+    return survey;
+}
+
+void passes_moment_cell_survey(const filter_context *context, uint32_t index, bool bright_texels,
+                               cell_survey *survey) {
+    const device_material *material = &context->scene->materials[index];
+    const struct cell_survey_constants constants = cells_of(material);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_cell_survey");
     passes_base_maps_read(context, material, false, pass);
     passes_colour_maps_read(context, material, bright_texels, pass);
-    survey.extremes = lobe_pass_write(
-        pass, &(lobe_binding){.name = "extremes_block", .resource = survey.extremes});
-    survey.lobes =
-        lobe_pass_write(pass, &(lobe_binding){.name = "lobes_block", .resource = survey.lobes});
+    survey->extremes = lobe_pass_write(
+        pass, &(lobe_binding){.name = "extremes_block", .resource = survey->extremes});
+    survey->lobes =
+        lobe_pass_write(pass, &(lobe_binding){.name = "lobes_block", .resource = survey->lobes});
     dispatch(context->graph, material, bright_texels, &constants, pass);
-    return survey;
 }

@@ -10,9 +10,12 @@ typedef struct cell_survey {
     uint32_t cells, lobe_count; ///< lengths of the two
 } cell_survey;
 
-/// Adds the pass that surveys the lobes of a material which has a normal or a width map. It runs
-/// when texels change. `bright_texels`: it also finds the largest texel of the colour maps.
-cell_survey passes_moment_cell_survey(const filter_context *context, uint32_t material,
-                                      bool bright_texels);
+/// Declares the buffers for a material that has a normal or a width map.
+cell_survey passes_moment_cell_survey_declare(const filter_context *context, uint32_t material);
+
+/// Adds the pass that surveys the material's lobes. It runs when texels change. `bright_texels`: it
+/// also finds the largest texel of the colour maps.
+void passes_moment_cell_survey(const filter_context *context, uint32_t material, bool bright_texels,
+                               cell_survey *survey);
 
 #endif

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "passes/context/filter.h"
+#include "passes/context/fit_work.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/filters/moments/binning.h"
@@ -49,10 +50,20 @@ static const filter_knob colour_knob = {
          .sweep = "mean,bins"},
     .decides_slots = true,
 };
+static const filter_knob frames_of_fit_knob = {
+    .description = {.name = "frames_of_fit",
+                    .summary = "how many frames bins serve where texels change: each fit is also "
+                               "that of the frames after it; 1: each frame has its own",
+                    .kind = LOBE_KNOB_INTEGER,
+                    .minimum = 1,
+                    .maximum = 64,
+                    .initial = 1},
+};
 static const filter_knob *const knobs[] = {
     &partition_knob,
     &bins_knob,
     &colour_knob,
+    &frames_of_fit_knob,
     &passes_knob_least_share,
     &passes_knob_probes,
     &passes_knob_anisotropy,
@@ -106,6 +117,7 @@ typedef struct prepared_moments {
     moment_partition partition;
     uint32_t texel_versions[MAP_COUNT]; ///< of the material, when the partition was made
     bool bright_texels;                 ///< the bins' colours may exceed one
+    uint32_t age;                       ///< frames since one that fits the bins to other texels
 } prepared_moments;
 
 static void measure_colours(const lobe_scene *scene, const device_material *material,
@@ -140,13 +152,25 @@ static lobe_result prepare_partition(const filter_context *context, uint32_t ind
     return LOBE_OK;
 }
 
+static bool is_dry(const filter_context *context) {
+    return context->work && context->work->is_dry;
+}
+
+static void grow_older(const filter_context *context, prepared_moments *prepared) {
+    const uint32_t frames = (uint32_t)passes_knob_value(context, &frames_of_fit_knob);
+    if (!is_dry(context))
+        prepared->age = prepared->age + 1 < frames ? prepared->age + 1 : 0;
+}
+
 static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
     if (!passes_lobe_grid_varies(&grid))
         return LOBE_OK;
-    if (*slot)
+    if (*slot) {
+        grow_older(context, *slot);
         return LOBE_OK;
+    }
     return prepare_partition(context, index, slot);
 }
 
@@ -175,8 +199,11 @@ static bool needs_refit(const device_scene *scene, const device_material *materi
 static lobe_resource bins_of(const filter_context *context, uint32_t material,
                              const prepared_moments *prepared) {
     const moment_partition *partition = &prepared->partition;
+    // Where nothing is drawn, the pipelines of a fit are wanted.
+    const refit_request request = {.bright_texels = prepared->bright_texels,
+                                   .keeps = prepared->age > 0 && !is_dry(context)};
     if (needs_refit(context->scene, &context->scene->materials[material], prepared))
-        return passes_moment_refit(context, material, partition, prepared->bright_texels);
+        return passes_moment_refit(context, material, partition, &request);
     return lobe_graph_upload(context->graph, "bins", &partition->constants,
                              sizeof partition->constants);
 }

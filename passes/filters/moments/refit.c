@@ -36,20 +36,29 @@ static void dispatch(lobe_graph *graph, const device_material *material,
                              });
 }
 
-lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
-                                  const moment_partition *partition, bool bright_texels) {
-    const cell_survey survey = passes_moment_cell_survey(context, index, bright_texels);
-    const struct refit_constants constants = {survey.cells, survey.lobe_count, partition->points,
-                                              partition->bins};
+static lobe_resource declare_bins(const filter_context *context, uint32_t index) {
     char name[64];
     snprintf(name, sizeof name, "bins of material %u", index);
-    lobe_resource bins = lobe_graph_buffer(
-        context->graph, &(lobe_buffer_description){
-                            .name = name, .size = sizeof partition->constants, .retained = true});
+    return lobe_graph_buffer(
+        context->graph, &(lobe_buffer_description){.name = name,
+                                                   .size = sizeof(struct moment_binning_constants),
+                                                   .retained = true});
+}
+
+lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
+                                  const moment_partition *partition, const refit_request *request) {
+    lobe_resource bins = declare_bins(context, index);
+    // Declared in any case, so that frames that keep the bins free nothing.
+    cell_survey survey = passes_moment_cell_survey_declare(context, index);
+    if (request->keeps && lobe_graph_has_content(context->graph, bins))
+        return bins;
+    passes_moment_cell_survey(context, index, request->bright_texels, &survey);
+    const struct refit_constants constants = {survey.cells, survey.lobe_count, partition->points,
+                                              partition->bins};
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_refit");
     read_inputs(context, index, partition, &survey, pass);
     bins = lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});
-    dispatch(context->graph, &context->scene->materials[index], partition, bright_texels,
+    dispatch(context->graph, &context->scene->materials[index], partition, request->bright_texels,
              &constants, pass);
     return bins;
 }

@@ -4,12 +4,17 @@
 #include "passes/context/filter.h"
 #include "passes/filters/moments/partition.h"
 
+/// How bins are fitted to other texels.
+typedef struct refit_request {
+    bool bright_texels; ///< those of colour maps may exceed one
+    bool keeps;         ///< bins that an earlier frame fitted serve this one, if there are any
+} refit_request;
+
 /// Adds the passes that fit a partition to other texels of its material's maps: they keep the
 /// number of bins, so that neither memory nor pipelines change, and start from the partition's own
 /// bins, so that the result depends on it and the texels alone. Returns a retained buffer of struct
 /// moment_binning_constants. The host must have been able to read the first texels.
-/// `bright_texels`: those of colour maps may exceed one.
 lobe_resource passes_moment_refit(const filter_context *context, uint32_t material,
-                                  const moment_partition *partition, bool bright_texels);
+                                  const moment_partition *partition, const refit_request *request);
 
 #endif

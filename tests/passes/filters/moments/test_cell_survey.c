@@ -52,7 +52,8 @@ static lobe_survey *survey_both(fixture *f, lobe_scene *scene, const lobe_materi
     scene_end_with_square(scene, material);
     pass_run run;
     pass_run_begin(&run, f, scene, "moments", (const char *[]){NULL});
-    found.survey = passes_moment_cell_survey(&run.context, 0, bright_texels);
+    found.survey = passes_moment_cell_survey_declare(&run.context, 0);
+    passes_moment_cell_survey(&run.context, 0, bright_texels, &found.survey);
     lobe_graph_read_back(f->graph, found.survey.extremes, (lobe_range){0});
     lobe_graph_read_back(f->graph, found.survey.lobes, (lobe_range){0});
     pass_run_execute(&run);

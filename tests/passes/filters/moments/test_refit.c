@@ -50,7 +50,8 @@ static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base
     assert_int_equal(passes_moment_partition_make(run.scene, 0, &request, &f->host, &result.first),
                      LOBE_OK);
     change_texels(&run, scene, c);
-    lobe_resource bins = passes_moment_refit(&run.context, 0, &result.first, false);
+    const refit_request each = {0};
+    lobe_resource bins = passes_moment_refit(&run.context, 0, &result.first, &each);
     lobe_graph_read_back(f->graph, bins, (lobe_range){0});
     pass_run_execute(&run);
     copy_read_back(f, bins, &result.bins, sizeof result.bins);

@@ -198,6 +198,51 @@ static void the_device_fits_bins_to_new_texels(void **state) {
     stop(f, &scene);
 }
 
+/// A picture of `moments`, whose fits serve some frames, and how many fits it took.
+static uint64_t moments_picture(lobe_renderer *renderer, const char *frames_of_fit,
+                                size_t *refits) {
+    lobe_settings settings;
+    lobe_render_parameters wanted = parameters();
+    lobe_frame frame;
+    wanted.filter = filter_named("moments");
+    wanted.settings = &settings;
+    lobe_settings_default(wanted.filter, &settings);
+    assert_int_equal(lobe_settings_set(wanted.filter, &settings, frames_of_fit, NULL), LOBE_OK);
+    assert_int_equal(lobe_renderer_render(renderer, &wanted, &frame), LOBE_OK);
+    const uint64_t hash = image_hash(&frame.radiance);
+    lobe_frame_free(&frame);
+    *refits = count_passes(lobe_renderer_graph(renderer), "moment_refit", LOBE_PASS_RUN);
+    return hash;
+}
+
+/// In frames with a fit of their own, pictures are those of a renderer that fits in every frame.
+static void a_fit_serves_the_frames_after_it(void **state) {
+    static const size_t expected[] = {0, MATERIALS, 0, MATERIALS, 0, 0, MATERIALS};
+    const lobe_scene_changes changes = {.images = &map, .image_count = 1};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    lobe_renderer *always;
+    assert_int_equal(lobe_renderer_create(f->device, &f->host, &always), LOBE_OK);
+    assert_int_equal(lobe_renderer_set_scene(always, scene), LOBE_OK);
+    for (size_t n = 0; n < sizeof expected / sizeof *expected; n++) {
+        size_t refits, others;
+        const calls before = calls_until_now();
+        const uint64_t hash = moments_picture(f->renderer, "frames_of_fit=3", &refits);
+        if (n > 1) {
+            assert_calls(&before, 1, 1, -1);
+            assert_true(faults.made - before.made <= 1); // descriptors of a pool that there is
+        }
+        assert_int_equal(refits, expected[n]);
+        const uint64_t other = moments_picture(always, "frames_of_fit=1", &others);
+        assert_true((hash == other) == (refits == others));
+        change_texels(scene, 70 + n);
+        update(f, &changes);
+        assert_int_equal(lobe_renderer_update_scene(always, &changes), LOBE_OK);
+    }
+    lobe_renderer_destroy(&always);
+    stop(f, &scene);
+}
+
 static void equal_constants_are_not_written(void **state) {
     static const uint32_t all[MATERIALS] = {0, 1, 2, 3, 4, 5};
     const lobe_scene_changes changes = {.materials = all, .material_count = MATERIALS};
@@ -448,6 +493,7 @@ int main(void) {
         cmocka_unit_test(texels_take_one_copy),
         cmocka_unit_test(frames_with_changes_create_nothing),
         cmocka_unit_test(the_device_fits_bins_to_new_texels),
+        cmocka_unit_test(a_fit_serves_the_frames_after_it),
         cmocka_unit_test(equal_constants_are_not_written),
         cmocka_unit_test(meshes_and_other_sizes_do_not_wait),
         cmocka_unit_test(parts_of_images_are_enough),
