@@ -82,6 +82,9 @@ struct lobe_filter {
     /// What is kept of a material serves other texels in the same maps, too: `build` adds passes
     /// that adapt it. The slot then stays valid when nothing but texels has changed.
     bool adapts_to_texels;
+    /// The same of the material's numbers, such as its roughness: `prepare` is called when these
+    /// have changed, with the slot that there is, and decides.
+    bool adapts_to_factors;
     /// Saves in a folder what `build` read back of the last frame, whose execution was waited for;
     /// NULL: drops it. The function itself may be NULL: the filter reads nothing back.
     void (*save)(void *slot, const lobe_graph *graph, const char *folder, const lobe_host *host);

@@ -16,8 +16,11 @@ struct filter_slots {
 /// The version of a material that what the filter keeps is valid for.
 static uint32_t version_of(const lobe_filter *filter, const device_scene *scene, size_t index) {
     const device_material *material = &scene->materials[index];
-    return filter->adapts_to_texels || scene->keeps_conclusions ? material->parameter_version
-                                                                : material->version;
+    if (filter->adapts_to_factors)
+        return material->parameter_version;
+    return filter->adapts_to_texels || scene->keeps_conclusions
+               ? material->parameter_version + material->factor_version
+               : material->version;
 }
 
 static void forget(const lobe_filter *filter, filter_slot *slot) {

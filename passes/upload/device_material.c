@@ -249,9 +249,9 @@ static bool is_same_map(const device_map *a, const device_map *b) {
            a->format == b->format && a->normals == b->normals && a->readable == b->readable;
 }
 
-/// Whether the material has the lobes that it had, apart from other texels in its maps.
-static bool keeps_lobes(const device_scene *scene, const device_material *before,
-                        const device_material *after) {
+/// Whether the material has maps of the same kinds, and lobes of them that differ at most in
+/// numbers.
+static bool keeps_maps(const device_material *before, const device_material *after) {
     if (after->height_normals && before->height_scale != after->height_scale)
         return false;
     for (uint32_t map = 0; map < MAP_HEIGHT; map++)
@@ -259,9 +259,26 @@ static bool keeps_lobes(const device_scene *scene, const device_material *before
             return false;
     return before->model == after->model && before->distribution == after->distribution &&
            before->lobe_count == after->lobe_count &&
-           before->second_coordinates == after->second_coordinates &&
-           are_equal(&before->values, &after->values,
+           before->second_coordinates == after->second_coordinates;
+}
+
+/// Whether the material has the lobes that it had, apart from other texels in its maps.
+static bool keeps_factors(const device_scene *scene, const device_material *before,
+                          const device_material *after) {
+    return are_equal(&before->values, &after->values,
                      scene->keeps_conclusions ? forget_paint_and_metal : forget_paint);
+}
+
+static void count_change(const device_scene *scene, const device_material *before,
+                         device_material *material) {
+    const bool same = before->version > 0 && keeps_maps(before, material);
+    if (same && keeps_factors(scene, before, material))
+        return;
+    ++material->version;
+    if (same)
+        ++material->factor_version;
+    else
+        ++material->parameter_version;
 }
 
 lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t index,
@@ -283,7 +300,8 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .height = source->height_map,
         .height_scale = source->height_scale,
         .version = before.version,
-        .parameter_version = before.parameter_version};
+        .parameter_version = before.parameter_version,
+        .factor_version = before.factor_version};
     memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);
     if (!passes_has_height_normals(scene->scene, source))
         drop_height_normals(material);
@@ -292,7 +310,9 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         find_metal(scene, material);
         status = store_constants(scene->graph, material);
     }
-    if (before.version == 0 || status != LOBE_OK || !keeps_lobes(scene, &before, material)) {
+    if (status == LOBE_OK) {
+        count_change(scene, &before, material);
+    } else {
         ++material->version;
         ++material->parameter_version;
     }

@@ -52,8 +52,9 @@ typedef struct device_material {
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
     /// emission or occlusion alone. 0: not on the device.
     uint32_t version;
-    /// The same without changes that left everything but texels as it was.
-    uint32_t parameter_version;
+    /// Of these, changes of what maps it has, of what kind its lobes are, and how many; and those
+    /// that left all of this as it was, and the texels: of roughness, for example.
+    uint32_t parameter_version, factor_version;
     uint32_t texel_versions[MAP_COUNT]; ///< increase with each change of the map's texels
 } device_material;
 

@@ -6,6 +6,7 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/filters/moments/binning.h"
+#include "passes/filters/moments/factor_change.h"
 #include "passes/filters/moments/refit.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
@@ -116,6 +117,9 @@ static float largest_texel(const lobe_scene *scene, const device_map *map) {
 typedef struct prepared_moments {
     moment_partition partition;
     uint32_t texel_versions[MAP_COUNT]; ///< of the material, when the partition was made
+    struct material_constants factors;  ///< at that time
+    struct material_constants latest;   ///< in the last frame
+    bool moves;                         ///< they were others than in the frame before
     bool bright_texels;                 ///< the bins' colours may exceed one
     uint32_t age;                       ///< frames since one that fits the bins to other texels
 } prepared_moments;
@@ -145,6 +149,7 @@ static lobe_result prepare_partition(const filter_context *context, uint32_t ind
         return result;
     }
     const device_material *material = &context->scene->materials[index];
+    prepared->factors = prepared->latest = material->values;
     memcpy(prepared->texel_versions, material->texel_versions, sizeof prepared->texel_versions);
     if (prepared->partition.own_colours)
         measure_colours(context->scene->scene, material, prepared);
@@ -162,22 +167,45 @@ static void grow_older(const filter_context *context, prepared_moments *prepared
         prepared->age = prepared->age + 1 < frames ? prepared->age + 1 : 0;
 }
 
+/// A single change of the material's numbers is worth bins that the host makes anew. Where one
+/// follows another from frame to frame, the device fits those that there are, while the numbers are
+/// near enough.
+static bool serves(const filter_context *context, const device_material *material,
+                   prepared_moments *prepared, bool *moves) {
+    const struct material_constants *now = &material->values;
+    const bool moved = prepared->moves;
+    *moves = passes_factor_change(&prepared->latest, now) != FACTORS_KEEP_LOBES;
+    if (!is_dry(context)) {
+        prepared->moves = *moves;
+        prepared->latest = *now;
+    }
+    return !*moves ||
+           (moved && passes_factor_change(&prepared->factors, now) != FACTORS_REPLACE_LOBES);
+}
+
 static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
+    prepared_moments *prepared = *slot;
+    bool moves = false;
     if (!passes_lobe_grid_varies(&grid))
         return LOBE_OK;
-    if (*slot) {
-        grow_older(context, *slot);
+    if (prepared && serves(context, material, prepared, &moves)) {
+        grow_older(context, prepared);
         return LOBE_OK;
     }
-    return prepare_partition(context, index, slot);
+    lobe_release(prepared);
+    *slot = NULL;
+    const lobe_result result = prepare_partition(context, index, slot);
+    if (*slot)
+        ((prepared_moments *)*slot)->moves = moves;
+    return result;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Maps
 
-/// Whether a map has other texels than the bins were fitted to, as far as the host knows.
+/// Whether a map has other texels than the bins were made for, as far as the host knows.
 static bool has_other_texels(const device_scene *scene, const device_material *material,
                              const prepared_moments *prepared, uint32_t map) {
     const device_map *own = &material->maps[map];
@@ -185,12 +213,13 @@ static bool has_other_texels(const device_scene *scene, const device_material *m
            material->texel_versions[map] != prepared->texel_versions[map];
 }
 
-/// Bins fitted to nothing, where the host could not read the texels, are for any.
+/// Whether the lobes are others than those that the bins were made for. Bins fitted to nothing,
+/// where the host could not read the texels, are for any.
 static bool needs_refit(const device_scene *scene, const device_material *material,
                         const prepared_moments *prepared) {
     static const uint32_t maps[] = {MAP_NORMAL, MAP_WIDTH, MAP_BASE_COLOUR, MAP_SPECULAR};
     const uint32_t count = prepared->bright_texels ? 4 : 2;
-    bool other = false;
+    bool other = passes_factor_change(&prepared->factors, &material->values) != FACTORS_KEEP_LOBES;
     for (uint32_t i = 0; i < count; i++)
         other |= has_other_texels(scene, material, prepared, maps[i]);
     return other && prepared->partition.points > 0;
@@ -236,6 +265,7 @@ const lobe_filter passes_filter_moments = {
     .fetches_for_lights = true,
     .prepare = prepare,
     .adapts_to_texels = true,
+    .adapts_to_factors = true,
     .forget = lobe_release,
     .build = build,
 };

@@ -243,6 +243,42 @@ static void a_fit_serves_the_frames_after_it(void **state) {
     stop(f, &scene);
 }
 
+/// The host makes bins for numbers that change once; where they change from frame to frame, and
+/// stay near those, the device fits them again. Colours leave the bins alone.
+static void the_device_fits_bins_to_moving_numbers(void **state) {
+    static const struct {
+        float width, red;
+        size_t refits;
+        bool exact; ///< bins are those of a renderer that never had other numbers
+    } steps[] = {
+        {30, 0.2f, 0, true},          {30, 0.9f, 0, true},          {45, 0.9f, 0, true},
+        {59, 0.9f, MATERIALS, false}, {61, 0.9f, MATERIALS, false}, {61, 0.1f, 0, false},
+        {70, 0.1f, 0, true},          {250, 0.1f, 0, true},
+    };
+    static const uint32_t all[MATERIALS] = {0, 1, 2, 3, 4, 5};
+    const lobe_scene_changes changes = {.materials = all, .material_count = MATERIALS};
+    fixture *f = *state;
+    lobe_scene *scene = start(f);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        for (int n = 0; n < MATERIALS; n++) {
+            scene->materials[n].lobes[0].width = steps[i].width;
+            scene->materials[n].base_colour[0] = steps[i].red;
+        }
+        update(f, &changes);
+        size_t refits, fresh_refits;
+        const uint64_t hash = moments_picture(f->renderer, "frames_of_fit=1", &refits);
+        assert_int_equal(refits, steps[i].refits);
+        lobe_renderer *fresh;
+        assert_int_equal(lobe_renderer_create(f->device, &f->host, &fresh), LOBE_OK);
+        assert_int_equal(lobe_renderer_set_scene(fresh, scene), LOBE_OK);
+        const uint64_t expected = moments_picture(fresh, "frames_of_fit=1", &fresh_refits);
+        assert_int_equal(fresh_refits, 0);
+        assert_true((hash == expected) == steps[i].exact);
+        lobe_renderer_destroy(&fresh);
+    }
+    stop(f, &scene);
+}
+
 static void equal_constants_are_not_written(void **state) {
     static const uint32_t all[MATERIALS] = {0, 1, 2, 3, 4, 5};
     const lobe_scene_changes changes = {.materials = all, .material_count = MATERIALS};
@@ -494,6 +530,7 @@ int main(void) {
         cmocka_unit_test(frames_with_changes_create_nothing),
         cmocka_unit_test(the_device_fits_bins_to_new_texels),
         cmocka_unit_test(a_fit_serves_the_frames_after_it),
+        cmocka_unit_test(the_device_fits_bins_to_moving_numbers),
         cmocka_unit_test(equal_constants_are_not_written),
         cmocka_unit_test(meshes_and_other_sizes_do_not_wait),
         cmocka_unit_test(parts_of_images_are_enough),
