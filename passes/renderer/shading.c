@@ -301,6 +301,8 @@ static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_maps", .resource = light->shadows.maps});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "shadow_slopes", .resource = light->shadows.slopes});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_block", .resource = light->shadows.views});
     passes_knobs_bind(s->context, pass);
     passes_environment_light_bind(&light->environment, s->context, pass, s->sample);

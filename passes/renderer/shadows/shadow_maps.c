@@ -14,7 +14,7 @@
 #include "shaders/interface/shadow.h"
 #include "shaders/interface/specialisation.h"
 
-/// Texels of all layers: 256 MiB.
+/// Texels of all layers: 512 MiB.
 #define MOST_TEXELS (1u << 26)
 /// What every Vulkan device has.
 #define MOST_LAYERS 256u
@@ -73,7 +73,8 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
     }
     lobe_draw draw = {
         .vertex_shader = "shading/shadows/shadow_map.vert",
-        .fragment_shader = masked ? "shading/shadows/shadow_mask.frag" : NULL,
+        .fragment_shader =
+            masked ? "shading/shadows/shadow_mask.frag" : "shading/shadows/shadow_map.frag",
         .cull = LOBE_CULL_NONE, // both sides of a sheet stop light
         .depth_test = true,
         .depth_write = true,
@@ -96,7 +97,7 @@ typedef struct shadow_drawing {
     uint32_t extent;
     float place[2]; ///< of samples in texels
     struct shadow_view *views;
-    lobe_resource maps;
+    lobe_resource maps, slopes;
 } shadow_drawing;
 
 static void fill_view(const shadow_drawing *d, const lobe_camera *view,
@@ -113,6 +114,8 @@ static void draw_layer(shadow_drawing *d, uint32_t layer) {
     lobe_graph *graph = d->context->graph;
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "shadow_map");
     d->maps = lobe_pass_depth(pass, &(lobe_attachment){.resource = d->maps, .layer = layer});
+    d->slopes =
+        lobe_pass_colour(pass, 0, &(lobe_attachment){.resource = d->slopes, .layer = layer});
     if (d->draws->batch_count == 0)
         return;
     lobe_pass_read(
@@ -166,7 +169,9 @@ void passes_shadow_maps_warn(const filter_context *context) {
 
 static shadow_maps no_shadows(const filter_context *context) {
     static const struct shadow_view none;
-    return (shadow_maps){.maps = lobe_graph_import_texture(context->graph, context->scene->white),
+    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
+    return (shadow_maps){.maps = white,
+                         .slopes = white,
                          .views =
                              lobe_graph_upload(context->graph, "no shadows", &none, sizeof none)};
 }
@@ -178,6 +183,16 @@ static void place_sample(const shading_sample *sample, float place[2]) {
         const double value = sample ? 0.5 + steps[i] * sample->number : 0.5;
         place[i] = (float)(value - floor(value));
     }
+}
+
+static lobe_resource layered_image(const shadow_drawing *d, const char *name, lobe_format format,
+                                   uint32_t layers, bool retained) {
+    return lobe_graph_image(d->context->graph, &(lobe_image_description){.name = name,
+                                                                         .format = format,
+                                                                         .width = d->extent,
+                                                                         .height = d->extent,
+                                                                         .layers = layers,
+                                                                         .retained = retained});
 }
 
 shadow_maps passes_shadow_maps(const filter_context *context, const draw_list *draws,
@@ -197,15 +212,11 @@ shadow_maps passes_shadow_maps(const filter_context *context, const draw_list *d
                         context->scene->scene->name);
         return no_shadows(context);
     }
-    d.maps =
-        lobe_graph_image(context->graph, &(lobe_image_description){.name = "shadow maps",
-                                                                   .format = LOBE_FORMAT_D32_FLOAT,
-                                                                   .width = d.extent,
-                                                                   .height = d.extent,
-                                                                   .layers = layers,
-                                                                   .retained = sample == NULL});
+    d.maps = layered_image(&d, "shadow maps", LOBE_FORMAT_D32_FLOAT, layers, sample == NULL);
+    d.slopes = layered_image(&d, "shadow slopes", LOBE_FORMAT_RG16_FLOAT, layers, sample == NULL);
     draw_layers(&d);
     const shadow_maps result = {.maps = d.maps,
+                                .slopes = d.slopes,
                                 .views = lobe_graph_upload(context->graph, "shadow views", d.views,
                                                            layers * sizeof *d.views),
                                 .present = true};

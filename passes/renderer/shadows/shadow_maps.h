@@ -24,8 +24,9 @@ uint32_t passes_shadow_plan_take(shadow_plan *plan, const lobe_light *light);
 void passes_shadow_maps_warn(const filter_context *context);
 
 typedef struct shadow_maps {
-    lobe_resource maps;  ///< D32_FLOAT, a layer for each view
-    lobe_resource views; ///< buffer of struct shadow_view
+    lobe_resource maps;   ///< D32_FLOAT, a layer for each view
+    lobe_resource slopes; ///< RG16_FLOAT, how these depths change, see shadow_slope.glsl
+    lobe_resource views;  ///< buffer of struct shadow_view
     bool present;
 } shadow_maps;
 

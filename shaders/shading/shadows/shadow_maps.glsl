@@ -10,6 +10,7 @@
 
 layout(constant_id = SPECIALISE_SHADOWS) const bool SHADOWS = false;
 
+layout(set = 0, binding = 13) uniform sampler2DArray shadow_slopes;
 layout(set = 0, binding = 14) uniform sampler2DArray shadow_maps;
 layout(set = 0, binding = 15, std430) readonly buffer shadow_block { shadow_view shadow_views[]; };
 
@@ -69,9 +70,13 @@ float light_visibility(uint i, vec3 position, vec3 towards, drawn_plane plane) {
         ivec2 read = clamp(first + step, ivec2(0), ivec2(int(size) - 1));
         float nearest = texelFetch(shadow_maps, ivec3(read, int(layer)), 0).r;
         vec2 weights = mix(1.0 - share, share, vec2(step));
-        // Where light grazes the triangle, its slope is less certain.
-        float uncertain = 0.02 * dot(abs(slope), abs(offset));
-        if (nearest <= place.z + dot(slope, offset) + uncertain + tolerance)
+        // A triangle that meets this one is before its plane or behind it, on their two sides.
+        bool shadowed = nearest > place.z + dot(slope, offset) + tolerance;
+        if (shadowed) {
+            vec2 own = texelFetch(shadow_slopes, ivec3(read, int(layer)), 0).rg * nearest;
+            shadowed = nearest - dot(own, offset) * (0.5 * size) > place.z + tolerance;
+        }
+        if (!shadowed)
             lit += weights.x * weights.y;
     }
     return lit;

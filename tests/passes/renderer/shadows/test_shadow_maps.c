@@ -351,6 +351,96 @@ static void grooves_shadow_each_other(void **state) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------
+// Rough relief, whose triangles meet everywhere
+
+enum { WAVES = 5, WAVE_TEXELS = 128 };
+/// Between the lowest and the highest place, metres.
+#define WAVE_RANGE (2 * WAVES / 100.0)
+
+/// Heights of a map that is 1 m wide, metres.
+static double wave_height(double x, double z) {
+    static const double waves[WAVES][3] = {
+        {3, 2, 0.4}, {-4, 5, 1.9}, {7, 1, 3.1}, {6, -7, 0.2}, {1, 8, 5}};
+    double sum = 0;
+    for (int i = 0; i < WAVES; i++)
+        sum += sin(2 * M_PI * (waves[i][0] * x + waves[i][1] * z) + waves[i][2]) / 100;
+    return sum;
+}
+
+static lobe_scene *wave_scene(const double towards[3]) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = matt();
+    lobe_image heights = map_image(LOBE_FORMAT_RGBA32_FLOAT, WAVE_TEXELS, WAVE_TEXELS);
+    for (uint32_t i = 0; i < heights.width * heights.height; i++)
+        ((float *)heights.texels)[4 * i] =
+            (float)(0.5 + wave_height((i % WAVE_TEXELS + 0.5) / WAVE_TEXELS,
+                                      (i / WAVE_TEXELS + 0.5) / WAVE_TEXELS) /
+                              WAVE_RANGE);
+    material.height_map = scene_add_map(scene, heights);
+    material.height_scale = (float)WAVE_RANGE;
+    scene_add_square(scene, &material, 4,
+                     (float[]){2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1});
+    scene_add_sun(scene, towards, 3);
+    scene_look_down(scene, 1);
+    scene_end(scene);
+    return scene;
+}
+
+/// The part of the light on what faces it that no other wave stops: rays over the heights.
+static double light_that_arrives(const double towards[3]) {
+    enum { POINTS = 96, STEPS_A_METRE = 400 };
+    const double delta = 1e-5, highest = WAVES / 100.0;
+    double facing = 0, arriving = 0;
+    for (int i = 0; i < POINTS * POINTS; i++) {
+        const double x = (i % POINTS + 0.5) / POINTS, z = (i / POINTS + 0.5) / POINTS;
+        const double height = wave_height(x, z);
+        const double slope[2] = {(wave_height(x + delta, z) - height) / delta,
+                                 (wave_height(x, z + delta) - height) / delta};
+        const double cosine = (towards[1] - slope[0] * towards[0] - slope[1] * towards[2]) /
+                              sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
+        if (cosine <= 0)
+            continue;
+        bool lit = true;
+        for (int k = 1; lit; k++) {
+            const double way = (double)k / STEPS_A_METRE, ray = height + way * towards[1];
+            if (ray > highest)
+                break;
+            lit = wave_height(x + way * towards[0], z + way * towards[2]) <= ray;
+        }
+        facing += cosine;
+        arriving += lit ? cosine : 0;
+    }
+    return arriving / facing;
+}
+
+/// Where triangles meet in a valley, each is nearer to the light than the other's plane: neither
+/// shadows the other. So texels of twice the size do not change the mean.
+static void shadows_of_rough_relief_converge(void **state) {
+    fixture *f = *state;
+    static const double elevations[] = {12, 30};
+    for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i++) {
+        const double angle = elevations[i] * M_PI / 180;
+        const double towards[3] = {cos(angle) * 0.8, sin(angle), cos(angle) * 0.6};
+        static const char *const sizes[] = {NULL, "shadows=512", "shadows=1024"};
+        lobe_scene *scene = wave_scene(towards);
+        double means[3];
+        for (int k = 0; k < 3; k++) {
+            const picture_request request = {.filter = "reference",
+                                             .settings = {"displacement=geometry", sizes[k]},
+                                             .width = 2 * EXTENT,
+                                             .height = 2 * EXTENT,
+                                             .samples = 8};
+            lobe_frame frame = draw_scene(f, scene, &request);
+            means[k] = mean_radiance(&frame.radiance);
+            lobe_frame_free(&frame);
+        }
+        assert_float_equal(means[1] / means[2], 1, 0.005);
+        assert_float_equal(means[2] / means[0], light_that_arrives(towards), 0.01);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// A plane of 4 m with a ridge along z that is 2 cm high, at x = 1 m.
 static lobe_scene *ridge_scene(const double towards[3]) {
     lobe_scene *scene = scene_begin();
@@ -459,6 +549,7 @@ int main(void) {
         cmocka_unit_test(planes_do_not_shadow_themselves),
         cmocka_unit_test(spheres_are_lit_from_one_side),
         cmocka_unit_test(grooves_shadow_each_other),
+        cmocka_unit_test(shadows_of_rough_relief_converge),
         cmocka_unit_test(what_is_not_seen_has_shadows),
         cmocka_unit_test(maps_are_kept_while_nothing_moves),
         cmocka_unit_test(lights_without_room_cast_no_shadow),
