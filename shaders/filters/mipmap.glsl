@@ -3,6 +3,9 @@
 
 #include "shading/averaged_maps.glsl"
 
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+}
+
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(fetched.base, surface.outgoing, incoming);
 }

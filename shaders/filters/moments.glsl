@@ -311,38 +311,12 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-// A bin as a lobe of half vectors: the covariance of its places, mapped to the sphere.
-direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
-    float x = sqrt(max(covariance.x, 1e-12));
-    float shared_part = covariance.z / x;
-    float y = sqrt(max(covariance.y - shared_part * shared_part, 1e-12));
-    return direction_lobe(bin.axis, direction_step(bin.mean, vec2(x, shared_part)),
-                          direction_step(bin.mean, vec2(0.0, y)));
-}
-
-// GGX keeps its long tails, however far the normals of a bin spread. Without them the error of
-// metal is a fifth larger (relative L1 of scratched metal in a courtyard: 0.070 instead of 0.058;
-// blending both in proportion is no better).
-vec3 reflect_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
-    bool tails = MODEL == MODEL_MICROFACET && distribution_kind() == DISTRIBUTION_GGX;
-    uint kind = tails ? DISTRIBUTION_GGX : DISTRIBUTION_VMF;
-    if (MODEL == MODEL_HALF_VECTOR_LOBES)
-        return reflect_half_vectors(
-            surface, half_vector_distribution(lobe_of_bin(bin, bin.covariance), kind));
-    // Broad base lobes have another variance in the plane than on the sphere.
-    float parameter = parameter_of_plane_variance(DISTRIBUTION, bin.variance);
-    float excess = bin.variance - 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
-    vec3 covariance = bin.covariance - excess * plane_distortion(bin.mean);
-    return reflect_microfacets(
-        surface, half_vector_distribution(lobe_of_bin(bin, covariance), kind), f0, parameter);
-}
-
 vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin, vec3 f0) {
     facet_sum sum = no_facets();
     for (int i = 0; i < SLOPE_NODES; ++i)
         add_facet(sum, surface, facet_of_bin(bin, fetched.filtered, i));
     if (sampled_by_grid()) // samples are masked one by one
-        return sum.reflected + reflect_bin(fetched, surface, bin, f0);
+        return sum.reflected + reflect_bin(surface, bin, f0);
     return reflect_facets(surface, sum, distribution_kind(), f0,
                           parameter_of_plane_variance(DISTRIBUTION, bin.variance));
 }
@@ -359,7 +333,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
         vec3 reflected = CLOSED ? reflect_closed_bin(fetched, surface, bin, f0)
-                                          : reflect_bin(fetched, surface, bin, f0);
+                                          : reflect_bin(surface, bin, f0);
         reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
             reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * lobes_colour();

@@ -17,6 +17,9 @@ base_material widened_material(appearance fetched) {
     return base;
 }
 
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+}
+
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(widened_material(fetched), fetched.mean_normal, surface.outgoing,
                                   incoming);

@@ -176,6 +176,9 @@ bool has_diffuse() {
     return RELIEF && (MODEL == MODEL_MICROFACET || DIFFUSE);
 }
 
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+}
+
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     base_material base = widened_material(fetched);
     if (!has_diffuse())

@@ -79,7 +79,4 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-}
-
 #endif

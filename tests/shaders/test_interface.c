@@ -152,6 +152,7 @@ static known_member known[] = {
     MEMBER(transfer_closure_constants, visible, 1),
     MEMBER(transfer_closure_constants, persistence, 2),
     MEMBER(transfer_closure_constants, direct, 3),
+    MEMBER(transfer_closure_constants, radius, 4),
     MEMBER(transfer_constants, width, 0),
     MEMBER(transfer_constants, height, 1),
     MEMBER(transfer_constants, azimuths, 2),

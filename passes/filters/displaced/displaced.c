@@ -65,19 +65,26 @@ static transfer_map make_transfer(const filter_context *context, uint32_t index,
         .format = passes_knob_choice(context, &transfer_storage_knob) == 0
                       ? LOBE_FORMAT_RGBA16_FLOAT
                       : LOBE_FORMAT_RGBA32_FLOAT,
+        .normals = material->material->model == LOBE_MATERIAL_MICROFACET,
     };
-    const transfer_map transfer = passes_transfer_map(context, index, &kind);
-    appearance->bytes += passes_reduced_map_bytes(&transfer.map, kind.format);
+    transfer_map transfer = passes_transfer_map(context, index, &kind);
+    appearance->bytes +=
+        passes_reduced_map_bytes(&transfer.map, kind.format) +
+        (kind.normals ? passes_reduced_map_bytes(&transfer.facets, kind.format) : 0);
     appearance->base_texels +=
         (uint64_t)material->maps[MAP_HEIGHT].width * material->maps[MAP_HEIGHT].height;
+    if (!kind.normals) // no shader reads them
+        transfer.facets.resource = lobe_graph_import_texture(context->graph, context->scene->white);
     return transfer;
 }
 
 static transfer_map no_transfer(const filter_context *context) {
     static const struct transfer_closure_constants none;
-    return (transfer_map){
-        .map = {.resource = lobe_graph_import_texture(context->graph, context->scene->white)},
-        .closure = lobe_graph_upload(context->graph, "no transfer", &none, sizeof none)};
+    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
+    return (transfer_map){.map = {.resource = white},
+                          .facets = {.resource = white},
+                          .closure =
+                              lobe_graph_upload(context->graph, "no transfer", &none, sizeof none)};
 }
 
 static void build(const filter_context *context, size_t instance, const void *prepared,
@@ -88,11 +95,12 @@ static void build(const filter_context *context, size_t instance, const void *pr
     const bool has_relief = passes_has_relief(material);
     const transfer_map transfer =
         has_relief ? make_transfer(context, index, appearance) : no_transfer(context);
-    passes_appearance_bind(appearance, "transfer_map", transfer.map.resource,
-                           (lobe_sampler){.texels = LOBE_SAMPLE_LINEAR,
-                                          .levels = LOBE_SAMPLE_LINEAR,
-                                          .maximum_anisotropy = (float)passes_knob_value(
-                                              context, &passes_knob_anisotropy)});
+    const lobe_sampler sampler = {.texels = LOBE_SAMPLE_LINEAR,
+                                  .levels = LOBE_SAMPLE_LINEAR,
+                                  .maximum_anisotropy =
+                                      (float)passes_knob_value(context, &passes_knob_anisotropy)};
+    passes_appearance_bind(appearance, "transfer_map", transfer.map.resource, sampler);
+    passes_appearance_bind(appearance, "facet_map", transfer.facets.resource, sampler);
     passes_appearance_bind(appearance, "closure_block", transfer.closure, (lobe_sampler){0});
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
@@ -101,14 +109,17 @@ static void build(const filter_context *context, size_t instance, const void *pr
 static const char *ignores(const lobe_material *material) {
     if (material->height_map.image < 0 || material->height_scale == 0)
         return NULL;
-    return "lobes are those of its normal map, and neither masked nor shadowed by its heights; "
-           "colours do not vary with heights";
+    return material->model == LOBE_MATERIAL_MICROFACET
+               ? "what facets mirror is lost where it meets others; colours do not vary with "
+                 "heights"
+               : "lobes are those of its normal map, and neither masked nor shadowed by its "
+                 "heights; colours do not vary with heights";
 }
 
 const lobe_filter passes_filter_displaced = {
     .name = "displaced",
-    .summary = "diffuse light of the relief of height maps, with its shadows and the light between "
-               "its facets",
+    .summary = "diffuse and mirrored light of the relief of height maps, with its shadows and the "
+               "light between its facets",
     .paper = "after Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "displaced",

@@ -52,7 +52,7 @@ static void add_extent(lobe_graph *graph, relief *relief) {
     const uint32_t rows = relief->constants.height;
     lobe_resource sums =
         lobe_graph_buffer(graph, &(lobe_buffer_description){.name = "rows of heights",
-                                                            .size = rows * 2 * sizeof(float)});
+                                                            .size = rows * 4 * sizeof(float)});
     lobe_pass *pass = add_pass(relief, graph, "height_rows");
     lobe_pass_read(pass, &(lobe_binding){.name = "height_block", .resource = relief->heights});
     sums = lobe_pass_write(pass, &(lobe_binding){.name = "row_block", .resource = sums});

@@ -97,12 +97,27 @@ static void add_cells(const transfer_build *build, reduced_map *map) {
     passes_level_reduction(build->graph, map);
 }
 
+static void add_normals(const transfer_build *build, reduced_map *map) {
+    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "facet_normals");
+    passes_relief_read(&build->relief, pass);
+    passes_reduced_map_write(map, pass, "facet_map", 0);
+    const struct transfer_constants constants = {
+        build->relief.constants.width, build->relief.constants.height, build->kind->azimuths, 0};
+    lobe_dispatch dispatch = {.shader = "filters/displaced/facet_normals.comp",
+                              .constants = &constants,
+                              .constants_size = sizeof constants};
+    passes_reduced_map_dispatch(map, pass, 0, 1, &dispatch);
+    passes_level_reduction(build->graph, map);
+}
+
 static lobe_resource add_closure(const transfer_build *build, const reduced_map *map,
                                  const char *name) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "transfer_closure");
     lobe_pass_read(pass, &(lobe_binding){.name = "transfer_map",
                                          .resource = map->resource,
                                          .range = {map->levels - 1, 1, 0, map->layers}});
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "height_extent_block", .resource = build->relief.extent});
     const lobe_resource closure = lobe_pass_write(
         pass,
         &(lobe_binding){.name = "closure_block",
@@ -151,6 +166,12 @@ transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
     add_links(&build);
     add_bounces(&build);
     add_cells(&build, &result.map);
+    if (kind->normals) {
+        snprintf(name, sizeof name, "normals of facets of material %u", index);
+        result.facets = passes_reduced_map_declare(context->graph, name, kind->format, width,
+                                                   height, 2 * FACET_BINS, true);
+        add_normals(&build, &result.facets);
+    }
     snprintf(name, sizeof name, "closure of material %u", index);
     result.closure = add_closure(&build, &result.map, name);
     return result;

@@ -11,7 +11,8 @@
 
 layout(LOBE_DESCRIPTOR(33), std140) uniform height_field_block { height_field_constants relief; };
 layout(LOBE_DESCRIPTOR(34), std430) readonly buffer height_block { float heights[]; };
-// Mean and largest height.
+// Mean and largest height; the mean distance of the facets' normals from the pole in the Lambert
+// plane.
 layout(LOBE_DESCRIPTOR(35), std430) readonly buffer height_extent_block { vec4 height_extent; };
 
 float mean_height() {

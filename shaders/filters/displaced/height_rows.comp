@@ -1,25 +1,37 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Mean and largest height of each row of a relief.
+// Mean and largest height of each row of a relief, and the mean distance of its facets' normals
+// from the pole in the Lambert plane.
 
 #include "interface/displacement/relief.h"
+#include "lib/lobe/lambert_plane.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 1, std140) uniform height_field_block { height_field_constants relief; };
 layout(set = 0, binding = 2, std430) readonly buffer height_block { float heights[]; };
-layout(set = 0, binding = 3, std430) writeonly buffer row_block { vec2 rows[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer row_block { vec4 rows[]; };
+
+float distance_of(float slope_x, float slope_y) {
+    return length(plane_from_direction(normalize(vec3(slope_x, slope_y, 1.0))));
+}
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= relief.height)
         return;
-    float sum = 0.0, largest = -HEIGHT_MAXIMUM;
+    uint first = row * relief.width, above = (row + 1u) % relief.height * relief.width;
+    float sum = 0.0, largest = -HEIGHT_MAXIMUM, distances = 0.0;
     for (uint i = 0u; i < relief.width; ++i) {
-        float height = heights[row * relief.width + i];
+        uint next = (i + 1u) % relief.width;
+        float height = heights[first + i], along = heights[first + next],
+              up = heights[above + i], across = heights[above + next];
         sum += height;
         largest = max(largest, height);
+        distances += distance_of(along - height, across - along) +
+                     distance_of(across - up, up - height);
     }
-    rows[row] = vec2(sum / float(relief.width), largest);
+    float scale = 1.0 / float(relief.width);
+    rows[row] = vec4(scale * sum, largest, 0.5 * scale * distances, 0.0);
 }

@@ -15,6 +15,7 @@ layout(set = 0, binding = 0) uniform sampler2DArray transfer_map;
 layout(set = 0, binding = 1, std430) writeonly buffer closure_block {
     transfer_closure_constants closure;
 };
+layout(set = 0, binding = 35, std430) readonly buffer height_extent_block { vec4 height_extent; };
 
 const uint DIRECT = ORDER * (ORDER + 1u) / 2u;
 
@@ -52,5 +53,6 @@ void main() {
     float rest = 1.0 - direct, next = entry(DIRECT + TRANSFER_INDIRECT_COUNT);
     closure.persistence = rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
-    closure.padding_0 = closure.padding_1 = 0.0;
+    closure.radius = height_extent.z;
+    closure.padding = 0.0;
 }

@@ -66,13 +66,21 @@ struct transfer_closure_constants {
     float4 visible[3]; // mean a b, likewise
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
-    float padding_0;
-    float padding_1;
+    float radius;      // of the facets' normals, see below
+    float padding;
 };
 INTERFACE_SIZE(transfer_closure_constants, 112)
 INTERFACE_OFFSET(transfer_closure_constants, visible, 48)
 INTERFACE_OFFSET(transfer_closure_constants, persistence, 96)
 INTERFACE_OFFSET(transfer_closure_constants, direct, 100)
+INTERFACE_OFFSET(transfer_closure_constants, radius, 104)
+
+// The facets' normals as places in the Lambert plane of the tangent frame, in bins
+// (lib/displacement/facet_bins.glsl): the first of those nearer to the pole than the others, then
+// one for each half axis. Of each bin, two layers of means over a cell: a and a d_x, a d_y; then a
+// d_x^2, a d_y^2, a d_x d_y, with d the place less the bin's centre. `radius` is the mean distance
+// of the map's places from the pole.
+#define FACET_BINS 5
 
 // Push constants of the passes between.
 struct transfer_constants {

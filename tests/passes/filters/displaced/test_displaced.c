@@ -162,6 +162,66 @@ static void means_are_close_to_the_reference(void **state) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------
+// Metal
+
+static lobe_material metal(double roughness) {
+    lobe_material material = relief_material(1);
+    material.model = LOBE_MATERIAL_MICROFACET;
+    material.distribution = LOBE_DISTRIBUTION_GGX;
+    material.metallic = 1;
+    material.roughness = (float)roughness;
+    material.base_colour[1] = 0.77F; // green, which pictures are measured by
+    return material;
+}
+
+static double metal_under_sun(fixture *f, const char *filter, double roughness,
+                              relief_height height, const double outgoing[3],
+                              const double incoming[3], uint32_t samples) {
+    const lobe_material material = metal(roughness);
+    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, height), outgoing, 40);
+    relief_plane_add_sun(scene, incoming, 1);
+    double found = relief_plane_draw(f, scene, filter, NULL, samples);
+    lobe_scene_destroy(&scene);
+    return found;
+}
+
+/// Facets that all lie in the carrier are the material itself.
+static void a_level_map_mirrors_as_its_material(void **state) {
+    static const double angles[] = {10, 45, 70};
+    for (int i = 0; i < 9; i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(angles[i % 3], 0.3, outgoing);
+        slope_plane_direction(angles[i / 3], 3.2, incoming);
+        const double found =
+                         metal_under_sun(*state, "displaced", 0.4, level, outgoing, incoming, 64),
+                     expected =
+                         metal_under_sun(*state, "direct", 0.4, level, outgoing, incoming, 64);
+        check(found, expected, 2e-3 * expected, "level metal", angles[i % 3]);
+    }
+}
+
+/// Highlights are where the heights' facets mirror the light, with no map of normals. Measured:
+/// 0.209, and 1.404 of a flat carrier.
+static void highlights_are_those_of_the_facets(void **state) {
+    static const double angles[] = {10, 35, 60};
+    double error = 0, of_flat = 0, sum = 0;
+    for (int i = 0; i < 9; i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(angles[i % 3], 0.3 + 0.5 * i, outgoing);
+        slope_plane_direction(angles[i / 3], 2.2 + 1.1 * i, incoming);
+        const double expected =
+            metal_under_sun(*state, "displaced-reference", 0.4, waves, outgoing, incoming, 8192);
+        error += fabs(metal_under_sun(*state, "displaced", 0.4, waves, outgoing, incoming, 64) -
+                      expected);
+        of_flat +=
+            fabs(metal_under_sun(*state, "mipmap", 0.4, waves, outgoing, incoming, 64) - expected);
+        sum += expected;
+    }
+    if (!(error <= 0.25 * sum && 3 * error < of_flat))
+        fail_msg("%.4f, flat %.4f", error / sum, of_flat / sum);
+}
+
 /// Of a map of 128 texels whose waves are wider than a pixel, drawn with `texels` a pixel.
 static double broad_waves(uint32_t column, uint32_t row) {
     const double x = 2 * M_PI * column / 128, y = 2 * M_PI * row / 128;
@@ -256,6 +316,8 @@ int main(void) {
         cmocka_unit_test(environments_are_close_to_the_reference),
         cmocka_unit_test(light_and_viewer_may_change_places),
         cmocka_unit_test(means_are_close_to_the_reference),
+        cmocka_unit_test(a_level_map_mirrors_as_its_material),
+        cmocka_unit_test(highlights_are_those_of_the_facets),
         cmocka_unit_test(pictures_are_close_to_the_reference),
         cmocka_unit_test(odd_maps_are_finite),
         cmocka_unit_test(every_run_makes_the_same),
