@@ -12,6 +12,7 @@
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
 
 const bool BIN_COLOUR = false;
@@ -19,7 +20,6 @@ const bool BIN_WIDTHS = false;
 
 #include "filters/moments/plane_bin.glsl"
 
-layout(constant_id = SPECIALISE_RELIEF) const bool RELIEF = false;
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 
 layout(LOBE_DESCRIPTOR(33)) uniform sampler2DArray transfer_map;
@@ -27,9 +27,6 @@ layout(LOBE_DESCRIPTOR(34), std430) readonly buffer closure_block {
     transfer_closure_constants closure;
 };
 layout(LOBE_DESCRIPTOR(35)) uniform sampler2DArray facet_map;
-
-// Radiance towards a viewer nearer to the horizon than this is that of a viewer there.
-const float LEAST_HEIGHT = 0.02;
 
 // Light towards the viewer, for each function of the light's direction: a white relief's at once,
 // and what it gets from other facets as well.
@@ -49,16 +46,6 @@ struct relief_footprint {
     float shone_on[4];  // of the facets' area that faces the light
 };
 relief_footprint drawn;
-
-// Where less is seen, radiance is that of light on so much.
-const float LEAST_VISIBLE = 0.05;
-
-base_material widened_material(appearance fetched) {
-    base_material base = fetched.base;
-    if (FILTERED_LOBES)
-        base.variance += variance_of_mean_normal(length(fetched.mean_normal));
-    return base;
-}
 
 // Quads lie between the centres of texels, half a texel further than these.
 map_area transfer_area(surface_point surface) {
@@ -144,12 +131,6 @@ vec3 indirect_share(vec3 albedo) {
     return albedo * albedo * (1.0 - closure.persistence) / (1.0 - albedo * closure.persistence);
 }
 
-vec3 viewer_of(surface_point surface) {
-    vec3 viewer = surface.outgoing;
-    viewer.z = max(viewer.z, LEAST_HEIGHT);
-    return normalize(viewer);
-}
-
 // Radiance of diffuse facets, for light with these coefficients of the functions. `mirrored`: the
 // part of light that facets mirror at right angles. What of it meets other facets is taken to go on
 // as if it were diffuse.
@@ -167,10 +148,6 @@ vec3 diffuse_radiance(vec3 albedo, vec3 mirrored, float light[9]) {
 
 vec3 mirrored_part(base_material base) {
     return MODEL == MODEL_MICROFACET ? clamp(base.specular, 0.0, 1.0) : vec3(0.0);
-}
-
-bool has_diffuse() {
-    return RELIEF && (MODEL == MODEL_MICROFACET || DIFFUSE);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -314,10 +291,8 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 const int LIGHT_WIDTH = 8;
 
 void light_of_environment(surface_point surface, out float light[3][9]) {
-    mat3 tangent_from_environment = transpose(mat3(to_environment(surface, vec3(1.0, 0.0, 0.0)),
-                                                   to_environment(surface, vec3(0.0, 1.0, 0.0)),
-                                                   to_environment(surface, vec3(0.0, 0.0, 1.0))));
-    int level = max(findMSB(textureSize(environment_faces, 0).x / LIGHT_WIDTH), 0);
+    mat3 tangent_from_environment = tangent_from_environment_of(surface);
+    int level = level_of_faces(LIGHT_WIDTH);
     int size = textureSize(environment_faces, level).x;
     float sums[9];
     for (int k = 0; k < 9; ++k)

@@ -9,14 +9,6 @@
 
 #include "shading/averaged_maps.glsl"
 
-// A length of one widens nothing.
-base_material widened_material(appearance fetched) {
-    base_material base = fetched.base;
-    if (FILTERED_LOBES)
-        base.variance += variance_of_mean_normal(length(fetched.mean_normal));
-    return base;
-}
-
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 

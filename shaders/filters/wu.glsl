@@ -11,24 +11,11 @@
 #include "filters/wu/directions.glsl"
 #include "interface/displacement/relief.h"
 #include "shading/averaged_maps.glsl"
+#include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
-
-layout(constant_id = SPECIALISE_RELIEF) const bool RELIEF = false;
 
 layout(LOBE_DESCRIPTOR(38), std430) readonly buffer ratio_block { vec2 ratios[]; };
 layout(LOBE_DESCRIPTOR(39), std430) readonly buffer energy_block { vec4 energy; };
-
-// Radiance towards a viewer nearer to the horizon than this is that of a viewer there.
-const float LEAST_HEIGHT = 0.02;
-// Where less of a footprint is seen, radiance is that of light on so much.
-const float LEAST_VISIBLE = 0.05;
-
-base_material widened_material(appearance fetched) {
-    base_material base = fetched.base;
-    if (FILTERED_LOBES)
-        base.variance += variance_of_mean_normal(length(fetched.mean_normal));
-    return base;
-}
 
 // The relief's y runs against the tangent frame's.
 vec3 relief_from_tangent(vec3 direction) {
@@ -149,12 +136,6 @@ void add_level(inout cell_light sum, covered_cells covered, float share, vec3 al
     }
 }
 
-vec3 viewer_of(surface_point surface) {
-    vec3 viewer = surface.outgoing;
-    viewer.z = max(viewer.z, LEAST_HEIGHT);
-    return normalize(viewer);
-}
-
 // Radiance of diffuse facets for light of irradiance 1 on a plane that faces it.
 vec3 diffuse_radiance(surface_point surface, vec3 albedo, vec3 incoming) {
     map_area area = area_of(MAP_HEIGHT, vec2(wu.width, wu.height), surface);
@@ -170,10 +151,6 @@ vec3 diffuse_radiance(surface_point surface, vec3 albedo, vec3 incoming) {
             add_level(sum, cells_around(level - 1u, centre), rest, albedo, light, outgoing);
     }
     return sum.light / max(sum.visible, LEAST_VISIBLE * outgoing.z);
-}
-
-bool has_diffuse() {
-    return RELIEF && (MODEL == MODEL_MICROFACET || DIFFUSE);
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
@@ -206,10 +183,8 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
     vec3 albedo = clamp(let_through(surface, base), 0.0, 1.0);
     base.diffuse = vec3(0.0);
     vec3 sum = reflect_base_specular(surface, base);
-    mat3 tangent_from_environment = transpose(mat3(to_environment(surface, vec3(1.0, 0.0, 0.0)),
-                                                   to_environment(surface, vec3(0.0, 1.0, 0.0)),
-                                                   to_environment(surface, vec3(0.0, 0.0, 1.0))));
-    int level = max(findMSB(textureSize(environment_faces, 0).x / LIGHT_WIDTH), 0);
+    mat3 tangent_from_environment = tangent_from_environment_of(surface);
+    int level = level_of_faces(LIGHT_WIDTH);
     int size = textureSize(environment_faces, level).x;
     for (int i = 0; i < 6 * size * size; ++i) {
         int face = i / (size * size);

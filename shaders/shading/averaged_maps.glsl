@@ -79,4 +79,12 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
+// Widened by the length of the mean normal (Toksvig 2005): a length of one widens nothing.
+base_material widened_material(appearance fetched) {
+    base_material base = fetched.base;
+    if (FILTERED_LOBES)
+        base.variance += variance_of_mean_normal(length(fetched.mean_normal));
+    return base;
+}
+
 #endif

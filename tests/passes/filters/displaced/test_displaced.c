@@ -2,9 +2,9 @@
 // `displaced-reference`.
 
 #include <math.h>
-#include <string.h>
 
 #include "tests/passes/filters/displaced/relief_plane.h"
+#include "tests/passes/filters/displaced/relief_waves.h"
 #include "tests/passes/support/slope_plane.h"
 
 static void check(double found, double expected, double bound, const char *what, double angle) {
@@ -222,28 +222,6 @@ static void highlights_are_those_of_the_facets(void **state) {
         fail_msg("%.4f, flat %.4f", error / sum, of_flat / sum);
 }
 
-/// Of a map of 128 texels whose waves are wider than a pixel, drawn with `texels` a pixel.
-static double broad_waves(uint32_t column, uint32_t row) {
-    const double x = 2 * M_PI * column / 128, y = 2 * M_PI * row / 128;
-    return 9 * sin(x) * cos(y) + 0.5 * sin(19 * x + 7 * y);
-}
-
-static lobe_frame draw_waves(fixture *f, const char *filter, uint32_t texels, uint32_t samples) {
-    double outgoing[3];
-    const double incoming[3] = {0.6, 0.3, 0.742};
-    slope_plane_direction(30, 0.9, outgoing);
-    const lobe_material material = relief_material(0.8);
-    lobe_scene *scene =
-        relief_plane(&material, relief_map(128, 128, broad_waves), outgoing, texels / 8.0);
-    relief_plane_add_sun(scene, incoming, 1);
-    scene_end(scene);
-    const picture_request request = {
-        .filter = filter, .settings = {NULL}, .width = 16, .height = 16, .samples = samples};
-    lobe_frame frame = draw_scene(f, scene, &request);
-    lobe_scene_destroy(&scene);
-    return frame;
-}
-
 /// Waves are where the reference has them. Bounds are a fifth above what was measured: 0.047, 0.035
 /// and 0.029, of a flat carrier 0.171, 0.160 and 0.056.
 static void pictures_are_close_to_the_reference(void **state) {
@@ -251,18 +229,9 @@ static void pictures_are_close_to_the_reference(void **state) {
         uint32_t texels;
         double bound;
     } cases[] = {{8, 0.06}, {16, 0.045}, {64, 0.037}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        lobe_frame reference = draw_waves(*state, "displaced-reference", cases[i].texels, 256);
-        lobe_frame found = draw_waves(*state, "displaced", cases[i].texels, 1);
-        lobe_frame flat = draw_waves(*state, "mipmap", cases[i].texels, 1);
-        const double error = relative_l2(&found.radiance, &reference.radiance),
-                     of_flat = relative_l2(&flat.radiance, &reference.radiance);
-        lobe_frame_free(&reference);
-        lobe_frame_free(&found);
-        lobe_frame_free(&flat);
-        if (!(error <= cases[i].bound && error < of_flat))
-            fail_msg("%u texels a pixel: %.4f, flat %.4f", cases[i].texels, error, of_flat);
-    }
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        relief_waves_check(*state, "displaced", (const char *const[]){NULL}, cases[i].texels,
+                           cases[i].bound);
 }
 
 /// Of odd sizes and of one texel; whatever the scale, also negative.
