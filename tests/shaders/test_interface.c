@@ -15,6 +15,7 @@
 #include "shaders/interface/displacement/relief.h"
 #include "shaders/interface/displacement/wu.h"
 #include "shaders/interface/environment/environment_light.h"
+#include "shaders/interface/environment/hemisphere_moments.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/gaussian_mixture.h"
@@ -207,6 +208,7 @@ static known_member known[] = {
     MEMBER(instance_constants, rows, 0),
     MEMBER(draw_constants, first_instance, 0),
     MEMBER(draw_constants, map_width, 1),
+    MEMBER(hemisphere_moments_constants, size, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),
     MEMBER(irradiance_harmonics_constants, size, 0),
     MEMBER(irradiance_harmonics_sum_constants, band_factors, 0),
