@@ -325,7 +325,11 @@ gltf_skin convert(const tinygltf::Skin &from) {
 }
 
 gltf_channel convert(const tinygltf::AnimationChannel &from) {
-    return {from.sampler, from.target_node, from.target_path.c_str()};
+    gltf_channel to = {from.sampler, from.target_node, from.target_path.c_str(), nullptr};
+    const tinygltf::Value *target = extension(from.target_extensions, "KHR_animation_pointer");
+    if (target && target->Has("pointer") && target->Get("pointer").IsString())
+        to.pointer = target->Get("pointer").Get<std::string>().c_str();
+    return to;
 }
 
 gltf_animation_sampler convert(const tinygltf::AnimationSampler &from) {

@@ -121,7 +121,8 @@ typedef struct gltf_skin {
 
 typedef struct gltf_channel {
     int sampler, node;
-    const char *path; ///< "translation", "rotation", "scale", "weights" or garbage
+    const char *path;    ///< "translation", "rotation", "scale", "weights", "pointer" or garbage
+    const char *pointer; ///< of KHR_animation_pointer, whatever the node; NULL: there is none
 } gltf_channel;
 
 typedef struct gltf_animation_sampler {

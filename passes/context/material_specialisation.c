@@ -32,16 +32,21 @@ static bool any(const float colour[3]) {
 }
 
 void passes_material_specialise(const device_material *material, specialisation_list *list) {
+    passes_lobes_specialise(material, material->map_bits, list);
+    passes_specialise(list, SPECIALISE_DIFFUSE, any(material->material->base_colour));
+    passes_specialise(list, SPECIALISE_EMISSION, any(material->material->emissive));
+}
+
+void passes_lobes_specialise(const device_material *material, uint32_t map_bits,
+                             specialisation_list *list) {
     const lobe_material *source = material->material;
     passes_specialise(list, SPECIALISE_MODEL, source->model);
     passes_specialise(list, SPECIALISE_DISTRIBUTION, source->distribution);
     passes_specialise(list, SPECIALISE_LOBE_COUNT, material->lobe_count);
-    passes_specialise(list, SPECIALISE_MAPS, material->map_bits);
+    passes_specialise(list, SPECIALISE_MAPS, map_bits);
     passes_specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
     passes_specialise(list, SPECIALISE_NORMALS, material->maps[MAP_NORMAL].normals);
-    passes_specialise(list, SPECIALISE_DIFFUSE, any(source->base_colour));
     passes_specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
     passes_specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);
     passes_specialise(list, SPECIALISE_METALLIC_MAP, material->metallic_varies);
-    passes_specialise(list, SPECIALISE_EMISSION, any(source->emissive));
 }

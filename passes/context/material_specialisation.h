@@ -17,5 +17,8 @@ void passes_specialise(specialisation_list *list, uint32_t id, uint32_t bits);
 
 /// Sets the constants that compile out maps, lobes and features that a material lacks.
 void passes_material_specialise(const device_material *material, specialisation_list *list);
+/// Those of them on which its lobes depend. `map_bits`: of the maps that the shader may read.
+void passes_lobes_specialise(const device_material *material, uint32_t map_bits,
+                             specialisation_list *list);
 
 #endif

@@ -23,7 +23,7 @@ void passes_base_maps_read(const filter_context *context, const device_material 
         passes_base_map_read(context, material, map, names[map], pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "material_block",
                                          .resource = lobe_graph_import_buffer(
-                                             context->graph, colours ? material->constants
+                                             context->graph, colours ? material->colour_constants
                                                                      : material->map_constants)});
 }
 
@@ -41,7 +41,9 @@ void passes_colour_maps_read(const filter_context *context, const device_materia
 }
 
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
-    passes_material_specialise(material, list);
+    // Without those that no map of lobes reads.
+    const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION;
+    passes_lobes_specialise(material, material->map_bits & ~unread, list);
     passes_specialise(list, SPECIALISE_INTERPOLATED,
                       passes_device_map_is_interpolated(material, MAP_NORMAL) ||
                           passes_device_map_is_interpolated(material, MAP_WIDTH));

@@ -99,7 +99,9 @@ static void fill_context(rendering *r, const lobe_filter *filter) {
 
 static lobe_result prepare(rendering *r) {
     const lobe_filter *filter;
-    lobe_result result = check(r);
+    lobe_result result = passes_renderer_follow_pose(r->renderer);
+    if (result == LOBE_OK)
+        result = check(r);
     if (result == LOBE_OK)
         result = passes_settings_choose(r->parameters->filter, r->parameters->settings,
                                         lobe_device_describe(r->renderer->device),

@@ -85,11 +85,31 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
                                           sizeof *renderer->first_marks);
     if (passes_draw_list_create(&renderer->draws, scene->mesh_count, renderer->host.allocator) &&
         reserve_instances(renderer, scene->instance_count) && renderer->filtered_images &&
-        renderer->first_marks)
+        renderer->first_marks) {
+        passes_device_scene_take_pose(renderer->scene);
         return LOBE_OK;
+    }
     forget_scene(renderer);
     return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                           scene->name);
+}
+
+/// What follows from an update of the scene's copy. Also after an error: it may have come when some
+/// materials were already changed.
+static void end_update(lobe_renderer *renderer) {
+    passes_filter_slots_update(renderer->slots, renderer->scene);
+    if (renderer->scene->torn)
+        forget_scene(renderer);
+}
+
+lobe_result passes_renderer_follow_pose(lobe_renderer *renderer) {
+    bool moved = false;
+    const lobe_result result =
+        renderer->scene ? passes_device_scene_follow_pose(renderer->scene, &renderer->host, &moved)
+                        : LOBE_OK;
+    if (moved)
+        end_update(renderer);
+    return result;
 }
 
 lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene_changes *changes) {
@@ -102,17 +122,15 @@ lobe_result lobe_renderer_update_scene(lobe_renderer *renderer, const lobe_scene
     if (!reserve_instances(renderer, renderer->scene->scene->instance_count))
         return lobe_host_fail(&renderer->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
                               renderer->scene->scene->name);
-    lobe_result result = passes_device_scene_update(renderer->scene, changes, &renderer->host);
-    // Also after an error: it may have come when some materials were already changed.
-    passes_filter_slots_update(renderer->slots, renderer->scene);
+    const lobe_result result =
+        passes_device_scene_update(renderer->scene, changes, &renderer->host);
     if (result == LOBE_OK && changes->material_count > 0)
         renderer->reported_filter = NULL;
     if (result == LOBE_OK && changes->environment)
         passes_environment_light_invalidate(&renderer->environment);
     if (result == LOBE_OK)
         passes_motion_history_update(&renderer->motion, renderer->scene->scene, changes);
-    if (renderer->scene->torn)
-        forget_scene(renderer);
+    end_update(renderer);
     return result;
 }
 

@@ -65,4 +65,7 @@ lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lo
 lobe_result passes_reference_render(rendering *r, const frame_delivery *delivery,
                                     lobe_frame *frame);
 
+/// Uploads materials that a pose has moved. Errors: as lobe_renderer_update_scene.
+lobe_result passes_renderer_follow_pose(lobe_renderer *renderer);
+
 #endif

@@ -69,7 +69,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         {.name = "instance_block", .resource = batch->transforms},
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
-         .resource = lobe_graph_import_buffer(graph, material->map_constants)},
+         .resource = lobe_graph_import_buffer(graph, material->constants)},
         {.name = "tile_block", .resource = upload_map(r, drawn->material)},
     };
     passes_material_maps_bind(context, material, bindings + 4);

@@ -186,11 +186,21 @@ static lobe_result find_maps(device_scene *result, device_material *material,
     return LOBE_OK;
 }
 
-/// What no lobe depends on.
-static void forget_paint(struct material_constants *constants) {
-    memset(constants->base_colour, 0, sizeof constants->base_colour);
+static void forget_nothing(struct material_constants *constants) {
+    (void)constants;
+}
+
+/// What no filtered map depends on.
+static void forget_unfiltered(struct material_constants *constants) {
+    passes_map_places_forget(constants);
     memset(constants->emissive, 0, sizeof constants->emissive);
     constants->occlusion_strength = 0;
+}
+
+/// What no lobe depends on.
+static void forget_paint(struct material_constants *constants) {
+    forget_unfiltered(constants);
+    memset(constants->base_colour, 0, sizeof constants->base_colour);
     constants->largest_colour = 0;
 }
 
@@ -225,23 +235,31 @@ static lobe_result store(lobe_graph *graph, const char *name,
         buffer);
 }
 
-/// Nothing that the device has already is written again.
+/// Writes constants to a buffer, less what `forget` clears, unless it has them already.
+static lobe_result store_part(lobe_graph *graph, const device_material *material,
+                              const struct material_constants *constants,
+                              void (*forget)(struct material_constants *), lobe_buffer **buffer) {
+    struct material_constants part = *constants;
+    if (*buffer && are_equal(constants, &material->values, forget))
+        return LOBE_OK;
+    forget(&part);
+    return store(graph, material->material->name, &part, buffer);
+}
+
 static lobe_result store_constants(lobe_graph *graph, device_material *material) {
-    const char *name = material->material->name;
-    const struct material_constants before = material->values;
     struct material_constants constants;
     fill_constants(material, &constants);
-    lobe_result status = LOBE_OK;
-    if (!material->constants || memcmp(&constants, &before, sizeof constants) != 0)
-        status = store(graph, name, &constants, &material->constants);
-    if (status != LOBE_OK)
-        return status;
-    material->values = constants;
-    if (material->map_constants &&
-        are_equal(&constants, &before, passes_device_material_forget_colours))
-        return LOBE_OK;
-    passes_device_material_forget_colours(&constants);
-    return store(graph, name, &constants, &material->map_constants);
+    lobe_result status =
+        store_part(graph, material, &constants, forget_nothing, &material->constants);
+    if (status == LOBE_OK)
+        status =
+            store_part(graph, material, &constants, forget_unfiltered, &material->colour_constants);
+    if (status == LOBE_OK)
+        status = store_part(graph, material, &constants, passes_device_material_forget_colours,
+                            &material->map_constants);
+    if (status == LOBE_OK)
+        material->values = constants;
+    return status;
 }
 
 static bool is_same_map(const device_map *a, const device_map *b) {
@@ -293,6 +311,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .distribution = source->distribution,
         .lobe_count = source->model == LOBE_MATERIAL_MICROFACET ? 1 : source->lobe_count,
         .constants = before.constants,
+        .colour_constants = before.colour_constants,
         .map_constants = before.map_constants,
         .values = before.values,
         .height_normals = before.height_normals,
@@ -301,7 +320,8 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .height_scale = source->height_scale,
         .version = before.version,
         .parameter_version = before.parameter_version,
-        .factor_version = before.factor_version};
+        .factor_version = before.factor_version,
+        .pose_version = before.pose_version};
     memcpy(material->texel_versions, before.texel_versions, sizeof before.texel_versions);
     if (!passes_has_height_normals(scene->scene, source))
         drop_height_normals(material);

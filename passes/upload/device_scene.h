@@ -30,9 +30,10 @@ typedef struct image_metal {
 typedef struct device_material {
     const lobe_material *material;
     lobe_buffer *constants;
-    /// The same without colours and metal. Maps of directions and widths read these, so that a
-    /// change of colours alone does not rebuild them.
-    lobe_buffer *map_constants;
+    /// The same without what no filtered map depends on, such as emission and where maps lie; and
+    /// without colours and metal, too. Maps of lobes with their colours read the first, those of
+    /// directions and widths the second, so that a change of the rest does not rebuild them.
+    lobe_buffer *colour_constants, *map_constants;
     struct material_constants values; ///< what `constants` holds
     lobe_material_model model;        ///< when it was uploaded, like the next two
     lobe_distribution distribution;
@@ -56,6 +57,7 @@ typedef struct device_material {
     /// that left all of this as it was, and the texels: of roughness, for example.
     uint32_t parameter_version, factor_version;
     uint32_t texel_versions[MAP_COUNT]; ///< increase with each change of the map's texels
+    uint32_t pose_version;              ///< of the lobe_posed_material that moves it
 } device_material;
 
 /// How a lobe_grid lies on a mesh.

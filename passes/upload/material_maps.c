@@ -165,3 +165,25 @@ bool passes_normals_are_signed(lobe_normal_encoding encoding) {
 bool passes_normals_lack_z(lobe_normal_encoding encoding) {
     return encoding == LOBE_NORMALS_UNSIGNED_XY || encoding == LOBE_NORMALS_SIGNED_XY;
 }
+
+static bool lie_alike(const struct material_constants *constants, uint32_t a, uint32_t b) {
+    return memcmp(constants->transforms[2 * a], constants->transforms[2 * b],
+                  2 * sizeof constants->transforms[0]) == 0;
+}
+
+void passes_map_places_forget(struct material_constants *constants) {
+    static const uint32_t of_lobes[] = {MAP_NORMAL, MAP_WIDTH, MAP_BASE_COLOUR, MAP_SPECULAR};
+    enum { COUNT = sizeof of_lobes / sizeof *of_lobes };
+    float first_alike[COUNT];
+    for (uint32_t i = 0; i < COUNT; i++) {
+        uint32_t first = 0;
+        while (!lie_alike(constants, of_lobes[first], of_lobes[i]))
+            ++first;
+        first_alike[i] = (float)first;
+    }
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (map != MAP_HEIGHT)
+            memset(constants->transforms[2 * map], 0, 2 * sizeof constants->transforms[0]);
+    for (uint32_t i = 0; i < COUNT; i++)
+        constants->transforms[2 * of_lobes[i]][0] = first_alike[i];
+}

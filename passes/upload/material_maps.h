@@ -45,4 +45,9 @@ bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float v
 bool passes_normals_are_signed(lobe_normal_encoding encoding);
 bool passes_normals_lack_z(lobe_normal_encoding encoding);
 
+/// Filtered maps are made texel by texel, wherever the map lies on the surface: of the transforms
+/// of texture coordinates only that matters which maps of lobes lie alike. Clears the rest of them,
+/// except those of heights, whose widths say how steep they are.
+void passes_map_places_forget(struct material_constants *constants);
+
 #endif

@@ -321,3 +321,56 @@ lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_cha
     lobe_release(update.instances);
     return result;
 }
+
+// ---------------------------------------------------------------------------------------------
+// Materials that poses move
+
+/// NULL: the material stands still, or the rig names one that is not there.
+static device_material *find_posed(const device_scene *scene, const lobe_posed_material *posed) {
+    return posed->material >= 0 && (size_t)posed->material < scene->scene->material_count
+               ? &scene->materials[posed->material]
+               : NULL;
+}
+
+void passes_device_scene_take_pose(device_scene *scene) {
+    const lobe_rig *rig = scene->scene->rig;
+    for (size_t i = 0; rig && i < rig->material_count; i++) {
+        device_material *material = find_posed(scene, &rig->materials[i]);
+        if (material)
+            material->pose_version = rig->materials[i].version;
+    }
+}
+
+/// Returns how many have moved, the first `room` of them in `materials`.
+static size_t list_moved(const device_scene *scene, uint32_t *materials, size_t room) {
+    const lobe_rig *rig = scene->scene->rig;
+    size_t count = 0;
+    for (size_t i = 0; rig && i < rig->material_count; i++) {
+        const device_material *material = find_posed(scene, &rig->materials[i]);
+        if (!material || material->pose_version == rig->materials[i].version)
+            continue;
+        if (count < room)
+            materials[count] = (uint32_t)rig->materials[i].material;
+        ++count;
+    }
+    return count;
+}
+
+lobe_result passes_device_scene_follow_pose(device_scene *scene, const lobe_host *host,
+                                            bool *moved) {
+    const size_t count = list_moved(scene, NULL, 0);
+    *moved = count > 0;
+    if (count == 0)
+        return LOBE_OK;
+    uint32_t *materials = lobe_allocate(lobe_host_allocator(host), count, sizeof *materials);
+    if (!materials)
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory",
+                              scene->scene->name);
+    const lobe_scene_changes changes = {.materials = materials,
+                                        .material_count = list_moved(scene, materials, count)};
+    const lobe_result result = passes_device_scene_update(scene, &changes, host);
+    lobe_release(materials);
+    if (result == LOBE_OK)
+        passes_device_scene_take_pose(scene);
+    return result;
+}

@@ -112,6 +112,7 @@ void passes_device_scene_destroy(device_scene **scene) {
         lobe_texture_destroy(&s->images[i]);
     for (size_t i = 0; s->materials && i < s->scene->material_count; i++) {
         lobe_buffer_destroy(&s->materials[i].constants);
+        lobe_buffer_destroy(&s->materials[i].colour_constants);
         lobe_buffer_destroy(&s->materials[i].map_constants);
         lobe_texture_destroy(&s->materials[i].height_normals);
         lobe_image_free(&s->materials[i].height_normal_texels);

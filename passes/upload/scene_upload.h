@@ -17,6 +17,12 @@ lobe_result passes_device_scene_create_for_changing_texels(lobe_device *device, 
 /// the copy is `torn`; if it fails for texels alone, it can still be drawn.
 lobe_result passes_device_scene_update(device_scene *scene, const lobe_scene_changes *changes,
                                        const lobe_host *host);
+/// Takes the numbers of materials that a pose moves (lobe_posed_material) to be those that were
+/// uploaded.
+void passes_device_scene_take_pose(device_scene *scene);
+/// Uploads those that poses have moved since: no host announces them. Errors: as above.
+lobe_result passes_device_scene_follow_pose(device_scene *scene, const lobe_host *host,
+                                            bool *moved);
 /// Clears the pointer; NULL is allowed.
 void passes_device_scene_destroy(device_scene **scene);
 

@@ -6,6 +6,7 @@
 
 #include "scenes/animation/channel.h"
 #include "scenes/animation/posed_bounds.h"
+#include "scenes/animation/posed_numbers.h"
 #include "scenes/animation/rig.h"
 #include "scenes/animation/transform.h"
 #include "scenes/mesh/vector.h"
@@ -28,6 +29,9 @@ typedef struct pose_work {
     bool *mirrored;              ///< one for each posed mesh
     size_t weight_count, widest; ///< of all nodes; of a channel
     double *values;              ///< of one channel
+    lobe_material_numbers *materials;
+    lobe_light_numbers *lights;
+    uint32_t *material_parts, *light_parts; ///< what any animation moves of each
 } pose_work;
 
 // ---------------------------------------------------------------------------------------------
@@ -39,6 +43,17 @@ static size_t count_joints(const lobe_rig *rig) {
         if (rig->meshes[i].skin >= 0)
             count += rig->skins[rig->meshes[i].skin].joint_count;
     return count;
+}
+
+static bool allocate_numbers(pose_work *work) {
+    const lobe_allocator *allocator = lobe_host_allocator(work->host);
+    const size_t materials = work->rig->material_count + 1,
+                 lights = work->rig->light_number_count + 1;
+    work->materials = lobe_allocate(allocator, materials, sizeof *work->materials);
+    work->lights = lobe_allocate(allocator, lights, sizeof *work->lights);
+    work->material_parts = lobe_allocate(allocator, materials, sizeof *work->material_parts);
+    work->light_parts = lobe_allocate(allocator, lights, sizeof *work->light_parts);
+    return work->materials && work->lights && work->material_parts && work->light_parts;
 }
 
 static lobe_result allocate(pose_work *work) {
@@ -57,7 +72,7 @@ static lobe_result allocate(pose_work *work) {
     work->mirrored = lobe_allocate(allocator, rig->mesh_count + 1, sizeof *work->mirrored);
     work->values = lobe_allocate(allocator, work->widest, sizeof *work->values);
     if (work->nodes && work->weights && work->worlds && work->joints && work->mirrored &&
-        work->values)
+        work->values && allocate_numbers(work))
         return LOBE_OK;
     return lobe_host_fail(work->host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for a pose",
                           work->scene->name);
@@ -70,10 +85,14 @@ static void release(pose_work *work) {
     lobe_release(work->joints);
     lobe_release(work->mirrored);
     lobe_release(work->values);
+    lobe_release(work->materials);
+    lobe_release(work->lights);
+    lobe_release(work->material_parts);
+    lobe_release(work->light_parts);
 }
 
 // ---------------------------------------------------------------------------------------------
-// Nodes
+// Nodes, and numbers of materials and lights
 
 static void load(const float *from, size_t count, double *to) {
     for (size_t i = 0; i < count; i++)
@@ -92,10 +111,28 @@ static void take_rest(pose_work *work) {
         state->first_weight = first;
         first += node->weight_count;
     }
+    for (size_t i = 0; i < work->rig->material_count; i++)
+        work->materials[i] = work->rig->materials[i].rest;
+    for (size_t i = 0; i < work->rig->light_number_count; i++)
+        work->lights[i] = work->rig->light_numbers[i];
+}
+
+/// Whatever moves in one animation is at rest in the others.
+static void find_parts(pose_work *work) {
+    for (size_t a = 0; a < work->rig->animation_count; a++) {
+        for (size_t i = 0; i < work->rig->animations[a].channel_count; i++) {
+            const lobe_animation_channel *channel = &work->rig->animations[a].channels[i];
+            const channel_owner owner = scenes_channel_owner(channel->path);
+            if (owner == CHANNEL_OF_MATERIAL)
+                work->material_parts[channel->target] |= scenes_posed_part(channel);
+            else if (owner == CHANNEL_OF_LIGHT)
+                work->light_parts[channel->target] |= scenes_posed_part(channel);
+        }
+    }
 }
 
 static double *property(pose_work *work, const lobe_animation_channel *channel) {
-    node_state *state = &work->nodes[channel->node];
+    node_state *state = &work->nodes[channel->target];
     switch (channel->path) {
     case LOBE_CHANNEL_TRANSLATION:
         return state->translation;
@@ -106,6 +143,20 @@ static double *property(pose_work *work, const lobe_animation_channel *channel) 
     default:
         return work->weights + state->first_weight;
     }
+}
+
+/// Gives a channel's values to what it moves.
+static void take_values(pose_work *work, const lobe_animation_channel *channel) {
+    const channel_owner owner = scenes_channel_owner(channel->path);
+    if (owner == CHANNEL_OF_NODE) {
+        memcpy(property(work, channel), work->values, channel->width * sizeof *work->values);
+        return;
+    }
+    float *numbers = scenes_posed_numbers(channel, owner == CHANNEL_OF_MATERIAL
+                                                       ? (void *)&work->materials[channel->target]
+                                                       : (void *)&work->lights[channel->target]);
+    for (size_t i = 0; i < channel->width; i++)
+        numbers[i] = (float)work->values[i];
 }
 
 static double time_in(const lobe_animation *animation, const lobe_pose *pose) {
@@ -120,7 +171,7 @@ static void apply(pose_work *work, const lobe_animation *animation, const lobe_p
     for (size_t i = 0; i < animation->channel_count; i++) {
         const lobe_animation_channel *channel = &animation->channels[i];
         scenes_channel_evaluate(channel, seconds, work->values);
-        memcpy(property(work, channel), work->values, channel->width * sizeof *work->values);
+        take_values(work, channel);
     }
 }
 
@@ -253,12 +304,27 @@ static void pose_instance(const pose_work *work, lobe_posed_instance *posed) {
 
 static void pose_light(const pose_work *work, const lobe_posed_light *posed) {
     lobe_light *light = &work->scene->lights[posed->light];
+    if (posed->numbers >= 0)
+        scenes_posed_light_set(&work->lights[posed->numbers], work->light_parts[posed->numbers],
+                               light);
+    if (posed->node < 0)
+        return;
     const double *world = work->worlds[posed->node];
     vector3 direction = {-world[8], -world[9], -world[10]};
     if (light->type != LOBE_LIGHT_DIRECTIONAL)
         vector3_store((vector3){world[12], world[13], world[14]}, light->position);
     if (light->type != LOBE_LIGHT_POINT && vector3_normalise(&direction, 0))
         vector3_store(direction, light->direction);
+}
+
+static void pose_materials(const pose_work *work) {
+    for (size_t i = 0; i < work->rig->material_count; i++) {
+        lobe_posed_material *posed = &work->scene->rig->materials[i];
+        if (posed->material >= 0 &&
+            scenes_posed_material_set(&work->materials[i], work->material_parts[i],
+                                      &work->scene->materials[posed->material]))
+            ++posed->version;
+    }
 }
 
 static void pose_camera(const pose_work *work) {
@@ -281,6 +347,7 @@ static void commit(const pose_work *work) {
         pose_instance(work, &work->rig->instances[i]);
     for (size_t i = 0; i < work->rig->light_count; i++)
         pose_light(work, &work->rig->lights[i]);
+    pose_materials(work);
     if (work->rig->camera_node >= 0)
         pose_camera(work);
 }
@@ -291,6 +358,7 @@ static void commit(const pose_work *work) {
 static lobe_result evaluate(pose_work *work, const lobe_pose *pose) {
     lobe_result result = LOBE_OK;
     take_rest(work);
+    find_parts(work);
     apply_all(work, pose);
     for (size_t i = 0; result == LOBE_OK && i < work->rig->node_count; i++)
         result = place_node(work, i);

@@ -1,5 +1,7 @@
 #include "scenes/animation/rig.h"
 
+#include "scenes/animation/posed_numbers.h"
+
 static void free_nodes(lobe_rig *rig) {
     for (size_t i = 0; rig->nodes && i < rig->node_count; i++) {
         lobe_release(rig->nodes[i].name);
@@ -43,6 +45,8 @@ void scenes_rig_free(lobe_rig **rig) {
     lobe_release(old->instances);
     lobe_release(old->meshes);
     lobe_release(old->lights);
+    lobe_release(old->light_numbers);
+    lobe_release(old->materials);
     lobe_release(old);
 }
 
@@ -84,14 +88,28 @@ static bool are_skins_sound(const lobe_rig *rig, size_t *bad) {
     return true;
 }
 
+/// How many there are of what the path moves.
+static size_t target_count(const lobe_rig *rig, lobe_channel_path path) {
+    switch (scenes_channel_owner(path)) {
+    case CHANNEL_OF_MATERIAL:
+        return rig->material_count;
+    case CHANNEL_OF_LIGHT:
+        return rig->light_number_count;
+    default:
+        return rig->node_count;
+    }
+}
+
 static bool is_channel_sound(const lobe_rig *rig, const lobe_animation_channel *channel) {
-    if (channel->node >= rig->node_count || (unsigned)channel->path > LOBE_CHANNEL_WEIGHTS ||
+    if ((unsigned)channel->path >= LOBE_CHANNEL_PATH_COUNT ||
+        (unsigned)channel->map >= LOBE_POSED_MAP_COUNT ||
+        channel->target >= target_count(rig, channel->path) ||
         (unsigned)channel->interpolation > LOBE_INTERPOLATION_CUBIC || channel->key_count == 0 ||
         !channel->times || !channel->values)
         return false;
     const size_t width = channel->path == LOBE_CHANNEL_WEIGHTS
-                             ? rig->nodes[channel->node].weight_count
-                             : (channel->path == LOBE_CHANNEL_ROTATION ? 4 : 3);
+                             ? rig->nodes[channel->target].weight_count
+                             : scenes_channel_width(channel->path);
     return channel->width == width;
 }
 
@@ -145,7 +163,18 @@ static bool are_lights_sound(const lobe_scene *scene, size_t *bad) {
     const lobe_rig *rig = scene->rig;
     for (size_t i = 0; i < rig->light_count; i++) {
         *bad = i;
-        if (rig->lights[i].light >= scene->light_count || rig->lights[i].node >= rig->node_count)
+        if (rig->lights[i].light >= scene->light_count ||
+            !is_index(rig->lights[i].node, rig->node_count) ||
+            !is_index(rig->lights[i].numbers, rig->light_number_count))
+            return false;
+    }
+    return true;
+}
+
+static bool are_materials_sound(const lobe_scene *scene, size_t *bad) {
+    for (size_t i = 0; i < scene->rig->material_count; i++) {
+        *bad = i;
+        if (!is_index(scene->rig->materials[i].material, scene->material_count))
             return false;
     }
     return true;
@@ -155,7 +184,9 @@ static bool have_memory(const lobe_rig *rig) {
     return (rig->nodes || rig->node_count == 0) && (rig->skins || rig->skin_count == 0) &&
            (rig->animations || rig->animation_count == 0) &&
            (rig->instances || rig->instance_count == 0) && (rig->meshes || rig->mesh_count == 0) &&
-           (rig->lights || rig->light_count == 0);
+           (rig->lights || rig->light_count == 0) &&
+           (rig->light_numbers || rig->light_number_count == 0) &&
+           (rig->materials || rig->material_count == 0);
 }
 
 lobe_result scenes_rig_check(const lobe_scene *scene, const lobe_host *host) {
@@ -176,6 +207,8 @@ lobe_result scenes_rig_check(const lobe_scene *scene, const lobe_host *host) {
         what = "mesh";
     else if (!are_lights_sound(scene, &bad))
         what = "light";
+    else if (!are_materials_sound(scene, &bad))
+        what = "material";
     else if (!is_index(rig->camera_node, rig->node_count))
         what = "camera";
     return !what ? LOBE_OK

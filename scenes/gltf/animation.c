@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/animation/posed_numbers.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/gltf/pointer/animation_pointer.h"
 
 /// Where a channel is, for messages.
 typedef struct channel_place {
@@ -37,23 +39,18 @@ static lobe_result fail(const channel_place *place, const char *format, ...) {
 // ---------------------------------------------------------------------------------------------
 // Target
 
-static const struct path_rule {
-    const char *name;
-    unsigned channels; // of the output's elements
-    size_t width;      // values of a key; 0: as many as the node has morph targets
-    bool integers;     // normalised integers are allowed
-} paths[] = {
-    [LOBE_CHANNEL_TRANSLATION] = {"translation", 3, 3, false},
-    [LOBE_CHANNEL_ROTATION] = {"rotation", 4, 4, true},
-    [LOBE_CHANNEL_SCALE] = {"scale", 3, 3, false},
-    [LOBE_CHANNEL_WEIGHTS] = {"weights", 1, 0, true},
-};
-
-static int find_path(const char *name) {
-    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
-        if (strcmp(paths[i].name, name) == 0)
-            return (int)i;
-    return -1;
+static bool is_node_path(const char *name, lobe_channel_path *path) {
+    static const char *const names[] = {[LOBE_CHANNEL_TRANSLATION] = "translation",
+                                        [LOBE_CHANNEL_ROTATION] = "rotation",
+                                        [LOBE_CHANNEL_SCALE] = "scale",
+                                        [LOBE_CHANNEL_WEIGHTS] = "weights"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(names[i], name) == 0) {
+            *path = (lobe_channel_path)i;
+            return true;
+        }
+    }
+    return false;
 }
 
 static lobe_result find_interpolation(const channel_place *place, const char *name,
@@ -79,6 +76,12 @@ static lobe_result find_width(const channel_place *place, int node, size_t *widt
             return result;
     }
     return *width > 0 ? LOBE_OK : fail(place, "node %d has no morph targets", node);
+}
+
+/// What a channel moves, for messages: the last part of a pointer.
+static const char *name_of(const gltf_channel *channel) {
+    const char *slash = channel->pointer ? strrchr(channel->pointer, '/') : NULL;
+    return slash ? slash + 1 : channel->path;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -139,10 +142,18 @@ static lobe_result open_input(const channel_place *place, int accessor, gltf_ele
     return LOBE_OK;
 }
 
-static bool is_allowed(const gltf_elements *output, const struct path_rule *rule) {
-    const bool integers =
-        rule->integers && output->normalised && output->component != GLTF_UNSIGNED_INT;
-    return output->channels == rule->channels && (output->component == GLTF_FLOAT || integers);
+/// Of the elements that make up a key.
+static unsigned channels_of(const lobe_animation_channel *channel) {
+    return channel->path == LOBE_CHANNEL_WEIGHTS ? 1
+                                                 : (unsigned)scenes_channel_width(channel->path);
+}
+
+static bool is_allowed(const gltf_elements *output, const lobe_animation_channel *channel) {
+    const bool integers = channel->path != LOBE_CHANNEL_TRANSLATION &&
+                          channel->path != LOBE_CHANNEL_SCALE && output->normalised &&
+                          output->component != GLTF_UNSIGNED_INT;
+    return output->channels == channels_of(channel) &&
+           (output->component == GLTF_FLOAT || integers);
 }
 
 static lobe_result open_output(const channel_place *place, int accessor,
@@ -152,11 +163,11 @@ static lobe_result open_output(const channel_place *place, int accessor,
     lobe_result result = scenes_gltf_open_accessor(place->import, accessor, what, output);
     if (result != LOBE_OK)
         return result;
-    const struct path_rule *rule = &paths[channel->path];
-    if (!is_allowed(output, rule))
+    if (!is_allowed(output, channel))
         return fail(place, "%u components of type %d%s are no %s", output->channels,
-                    output->component, output->normalised ? ", normalised," : "", rule->name);
-    const size_t each = (channel->width / rule->channels) *
+                    output->component, output->normalised ? ", normalised," : "",
+                    name_of(&place->animation->channels[place->channel]));
+    const size_t each = (channel->width / channels_of(channel)) *
                         (channel->interpolation == LOBE_INTERPOLATION_CUBIC ? 3 : 1);
     if (output->count / each != channel->key_count || output->count % each != 0)
         return fail(place, "%zu outputs for %zu keys of %zu", output->count, channel->key_count,
@@ -201,41 +212,74 @@ static lobe_result read_keys(gltf_import *import, const channel_place *place,
 // ---------------------------------------------------------------------------------------------
 // Channels and animations
 
-static void mark_node(gltf_import *import, const gltf_channel *channel, int path) {
+static void mark_node(gltf_import *import, int node, lobe_channel_path path) {
     if (path == LOBE_CHANNEL_WEIGHTS)
-        import->motions[channel->node].weights = true;
+        import->motions[node].weights = true;
     else
-        import->motions[channel->node].moves = true;
+        import->motions[node].moves = true;
 }
 
-/// Leaves `channel` without keys if its path is one of an extension.
+static lobe_result check_node(const channel_place *place, int node, lobe_channel_path path) {
+    const gltf_document *document = place->import->document;
+    if (node < 0 || (size_t)node >= document->node_count)
+        return fail(place, "there is no node %d", node);
+    if (document->nodes[node].has_matrix && path != LOBE_CHANNEL_WEIGHTS)
+        return fail(place, "node %d has a matrix, which cannot be animated", node);
+    return LOBE_OK;
+}
+
+static lobe_result aim_at_node(gltf_import *import, const channel_place *place, int node,
+                               lobe_animation_channel *channel) {
+    lobe_result result = check_node(place, node, channel->path);
+    if (result != LOBE_OK)
+        return result;
+    channel->target = import->rig_nodes[node];
+    mark_node(import, node, channel->path);
+    return channel->path == LOBE_CHANNEL_WEIGHTS ? find_width(place, node, &channel->width)
+                                                 : LOBE_OK;
+}
+
+/// Finds what the channel moves. `*known`: false if lobe does not move it.
+static lobe_result find_target(gltf_import *import, const channel_place *place,
+                               lobe_animation_channel *channel, bool *known) {
+    const gltf_channel *from = &place->animation->channels[place->channel];
+    animation_target target = {.node = from->node};
+    char cause[128];
+    *known = true;
+    if (!from->pointer || strcmp(from->path, "pointer") != 0)
+        *known = is_node_path(from->path, &channel->path);
+    else if (!scenes_gltf_resolve_pointer(import, from->pointer, &target, known, cause,
+                                          sizeof cause))
+        return fail(place, "pointer '%.96s': %s", from->pointer, cause);
+    else
+        channel->path = target.path;
+    if (!*known)
+        return LOBE_OK;
+    channel->width = scenes_channel_width(channel->path);
+    channel->map = target.map;
+    channel->target = target.index;
+    if (scenes_channel_owner(channel->path) == CHANNEL_OF_MATERIAL)
+        import->moved_parts[target.index] |= scenes_posed_part(channel);
+    return scenes_channel_owner(channel->path) == CHANNEL_OF_NODE
+               ? aim_at_node(import, place, target.node, channel)
+               : LOBE_OK;
+}
+
+/// Leaves `channel` without keys if nothing of what it moves is in a scene of lobe.
 static lobe_result convert_channel(gltf_import *import, const channel_place *place,
                                    lobe_animation_channel *channel) {
-    const gltf_document *document = import->document;
     const gltf_channel *from = &place->animation->channels[place->channel];
-    const int path = find_path(from->path);
-    if (path < 0) {
-        scenes_gltf_note_unsupported(import, "animations of other properties");
-        return LOBE_OK;
-    }
+    bool known;
     if (from->sampler < 0 || (size_t)from->sampler >= place->animation->sampler_count)
         return fail(place, "there is no sampler %d", from->sampler);
-    if (from->node < 0 || (size_t)from->node >= document->node_count)
-        return fail(place, "there is no node %d", from->node);
-    if (document->nodes[from->node].has_matrix && path != LOBE_CHANNEL_WEIGHTS)
-        return fail(place, "node %d has a matrix, which cannot be animated", from->node);
+    lobe_result result = find_target(import, place, channel, &known);
+    if (result == LOBE_OK && !known)
+        scenes_gltf_note_unsupported(import, "animations of other properties");
+    if (result != LOBE_OK || !known)
+        return result;
     const gltf_animation_sampler *sampler = &place->animation->samplers[from->sampler];
-    channel->node = import->rig_nodes[from->node];
-    channel->path = (lobe_channel_path)path;
-    channel->width = paths[path].width;
-    lobe_result result = find_interpolation(place, sampler->interpolation, &channel->interpolation);
-    if (result == LOBE_OK && path == LOBE_CHANNEL_WEIGHTS)
-        result = find_width(place, from->node, &channel->width);
-    if (result == LOBE_OK)
-        result = read_keys(import, place, sampler, channel);
-    if (result == LOBE_OK)
-        mark_node(import, from, path);
-    return result;
+    result = find_interpolation(place, sampler->interpolation, &channel->interpolation);
+    return result == LOBE_OK ? read_keys(import, place, sampler, channel) : result;
 }
 
 static lobe_result convert_animation(gltf_import *import, size_t index, lobe_animation *animation) {

@@ -104,3 +104,51 @@ lobe_result scenes_gltf_container_open(gltf_container *container, const char *pa
         return LOBE_OK;
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED, "%s: %s", path, fault);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Insertions
+
+/// Returns where the text ends.
+static char *write_with(char *to, const gltf_container *container, const size_t *places,
+                        size_t count, const char *text) {
+    size_t at = 0;
+    for (size_t i = 0; i < count; i++) {
+        memcpy(to, container->json + at, places[i] - at);
+        to += places[i] - at;
+        memcpy(to, text, strlen(text));
+        to += strlen(text);
+        at = places[i];
+    }
+    memcpy(to, container->json + at, container->json_size - at);
+    return to + (container->json_size - at);
+}
+
+lobe_result scenes_gltf_container_insert(gltf_container *container, const size_t *places,
+                                         size_t count, const char *text, const char *path,
+                                         const lobe_host *host) {
+    if (count == 0)
+        return LOBE_OK;
+    const size_t head = (size_t)(container->json - container->bytes);
+    const size_t tail = container->size - head - container->json_size;
+    const size_t added = (count * strlen(text) + 3) / 4 * 4; // GLB's chunks are padded by spaces
+    if (container->binary && container->size + added > UINT32_MAX)
+        return lobe_host_fail(host, LOBE_ERROR_LIMIT, "%s: is larger than GLB can be", path);
+    char *bytes = lobe_allocate(lobe_host_allocator(host), container->size + added, 1);
+    if (!bytes)
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
+    memcpy(bytes, container->bytes, head);
+    char *end = write_with(bytes + head, container, places, count, text);
+    memset(end, ' ', (size_t)(bytes + head + container->json_size + added - end));
+    memcpy(bytes + head + container->json_size + added, container->json + container->json_size,
+           tail);
+    lobe_release(container->bytes);
+    container->bytes = bytes;
+    container->json = bytes + head;
+    container->json_size += added;
+    container->size += added;
+    if (container->binary) {
+        write_word(bytes + 8, (uint32_t)container->size);
+        write_word(bytes + GLB_HEADER_SIZE, (uint32_t)container->json_size);
+    }
+    return LOBE_OK;
+}

@@ -22,4 +22,10 @@ typedef struct gltf_container {
 lobe_result scenes_gltf_container_open(gltf_container *container, const char *path,
                                        const lobe_host *host);
 
+/// Puts a text into the JSON text, at each of some ascending places. `bytes` is replaced by other
+/// memory of lobe_allocate. Errors: LOBE_ERROR_OUT_OF_MEMORY, LOBE_ERROR_LIMIT (GLB of 4 GiB).
+lobe_result scenes_gltf_container_insert(gltf_container *container, const size_t *places,
+                                         size_t count, const char *text, const char *path,
+                                         const lobe_host *host);
+
 #endif

@@ -77,16 +77,21 @@ static lobe_result read_document(const lobe_scene_open_parameters *parameters,
                                  const lobe_host *host, const gltf_document **document) {
     const char *path = parameters->scene;
     gltf_container container = {0};
+    pointer_nodes pointers = {0};
     uint8_t *bytes = NULL;
     lobe_result result = read_bytes(parameters, host, &bytes, &container.size);
     container.bytes = (char *)bytes;
     if (result == LOBE_OK)
         result = scenes_gltf_container_open(&container, path, host);
     if (result == LOBE_OK)
-        result = scenes_gltf_schema_check(path, container.json, container.json_size, host);
+        result =
+            scenes_gltf_schema_check(path, container.json, container.json_size, host, &pointers);
+    if (result == LOBE_OK)
+        result = scenes_pointer_nodes_insert(&pointers, &container, path, host);
     if (result == LOBE_OK)
         result = parse(&container, path, parameters->files, host, document);
-    lobe_release(bytes);
+    lobe_release(pointers.places);
+    lobe_release(container.bytes);
     return result;
 }
 
@@ -140,6 +145,7 @@ static void free_states(gltf_import *import) {
     lobe_release(import->motions);
     lobe_release(import->rig_nodes);
     lobe_release(import->skins);
+    lobe_release(import->moved_parts);
     lobe_release(import->materials);
     lobe_release(import->images[0]);
     lobe_release(import->images[1]);

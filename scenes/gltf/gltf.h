@@ -70,6 +70,7 @@ typedef struct gltf_import {
     gltf_node_motion *motions;        ///< for each node; NULL: there is no rig
     uint32_t *rig_nodes;              ///< for each node, its index in the rig; NULL: there is none
     int32_t *skins;                   ///< for each, its index in the rig; GLTF_NOT_CONVERTED
+    uint32_t *moved_parts;            ///< of each material (scenes_posed_part); NULL: none
     int64_t *materials;               ///< for each, and for the default material
     int64_t *images[2];               ///< for each scene_image_use and image
     size_t vertices, indices, texels; ///< so far, for checking the limits
@@ -167,8 +168,9 @@ lobe_result scenes_gltf_pose_skinned(gltf_import *import, int32_t posed_mesh);
 /// none).
 lobe_result scenes_gltf_pose_mesh(gltf_import *import, uint32_t mesh, int32_t skin,
                                   int64_t weight_node, int32_t *posed_mesh);
-/// Lets the light that was just added follow a node.
-lobe_result scenes_gltf_pose_light(gltf_import *import, int node);
+/// Lets the light that was just added, `light` of the file, follow a node that moves, or take its
+/// numbers from the rig.
+lobe_result scenes_gltf_pose_light(gltf_import *import, int node, int light);
 /// Puts the scene at rest. Drops a rig that moves nothing.
 lobe_result scenes_gltf_end_rig(gltf_import *import);
 /// The camera is in its place.

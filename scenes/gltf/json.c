@@ -238,6 +238,7 @@ static bool check_required(json_parser *parser, const json_schema *schema, uint3
 static bool check_object(json_parser *parser, const json_schema *schema) {
     uint32_t seen = 0;
     parser->at++;
+    const size_t begin = (size_t)(parser->at - parser->text->bytes);
     skip_space(parser);
     if (!take(parser, '}')) {
         do {
@@ -248,7 +249,11 @@ static bool check_object(json_parser *parser, const json_schema *schema) {
         if (!expect(parser, '}'))
             return false;
     }
-    return check_required(parser, schema, seen);
+    if (!check_required(parser, schema, seen))
+        return false;
+    if (schema->leave)
+        parser->result = schema->leave(parser->text->user, begin, seen);
+    return parser->result == LOBE_OK;
 }
 
 static bool check_array(json_parser *parser, const json_schema *schema) {

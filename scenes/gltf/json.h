@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include <lobe/host.h>
 #include <lobe/result.h>
@@ -38,6 +39,9 @@ struct json_schema {
     /// Unless NULL, called with each string (truncated to 255 bytes). An error, which it must have
     /// logged, ends the check.
     lobe_result (*visit)(void *user, const char *text);
+    /// Unless NULL, called after each object, with the place of its first member in the text, and a
+    /// bit for each listed member that it has. Errors as above.
+    lobe_result (*leave)(void *user, size_t begin, uint32_t members);
 };
 
 typedef struct json_text {
@@ -45,7 +49,7 @@ typedef struct json_text {
     const char *bytes;
     size_t size;
     const lobe_host *host;
-    void *user; ///< for json_schema.visit
+    void *user; ///< for json_schema.visit and .leave
 } json_text;
 
 /// Deepest nesting accepted.

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scenes/animation/posed_numbers.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/scene/scene.h"
 
@@ -50,23 +51,6 @@ static lobe_result convert_sampler(const gltf_import *import, int sampler, lobe_
                           sampler, s->magnification, s->wrap_u, s->wrap_v);
 }
 
-// KHR_texture_transform: T(offset) R(rotation) S(scale), where a positive rotation turns the
-// coordinates counter-clockwise as seen in the image, whose v runs downwards.
-static bool convert_transform(const gltf_texture_reference *reference, float transform[2][3]) {
-    double c = cos(reference->rotation), s = sin(reference->rotation);
-    const double *scale = reference->scale, *offset = reference->offset;
-    double rows[2][3] = {{c * scale[0], s * scale[1], offset[0]},
-                         {-s * scale[0], c * scale[1], offset[1]}};
-    bool finite = true;
-    for (int row = 0; row < 2; row++) {
-        for (int column = 0; column < 3; column++) {
-            transform[row][column] = (float)rows[row][column];
-            finite = finite && isfinite(transform[row][column]);
-        }
-    }
-    return finite;
-}
-
 static lobe_result convert_texture(gltf_import *import, const gltf_texture_reference *reference,
                                    bool colour, lobe_texture_use *use) {
     *use = LOBE_TEXTURE_NONE;
@@ -86,7 +70,8 @@ static lobe_result convert_texture(gltf_import *import, const gltf_texture_refer
     }
     lobe_texture_use converted = LOBE_TEXTURE_NONE;
     converted.texture_coordinates = (uint32_t)reference->coordinates;
-    if (!convert_transform(reference, converted.transform))
+    if (!scenes_map_transform(reference->offset, reference->rotation, reference->scale,
+                              converted.transform))
         return lobe_host_fail(import->host, LOBE_ERROR_MALFORMED,
                               "%s: the transform of texture %d is not finite", import->path,
                               reference->texture);
@@ -126,18 +111,30 @@ static bool is_black(const float colour[3]) {
     return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
 }
 
-// A map whose factor is zero has no effect, and is neither decoded nor sampled.
-static lobe_result convert_maps(gltf_import *import, const gltf_material *from, lobe_material *to) {
+/// Whether an animation moves a number of a material of the file.
+static bool is_moved(const gltf_import *import, size_t material, lobe_channel_path path) {
+    return import->moved_parts && (import->moved_parts[material] & UINT32_C(1) << path);
+}
+
+// A map whose factor is zero, and stays so, has no effect, and is neither decoded nor sampled.
+static lobe_result convert_maps(gltf_import *import, size_t material, lobe_material *to) {
+    const gltf_material *from = &import->document->materials[material];
+    const bool glows = is_moved(import, material, LOBE_CHANNEL_EMISSIVE) ||
+                       is_moved(import, material, LOBE_CHANNEL_EMISSIVE_STRENGTH);
+    const bool tilts = is_moved(import, material, LOBE_CHANNEL_NORMAL_SCALE);
+    const bool occludes = is_moved(import, material, LOBE_CHANNEL_OCCLUSION_STRENGTH);
+    const bool polishes = is_moved(import, material, LOBE_CHANNEL_METALLIC) ||
+                          is_moved(import, material, LOBE_CHANNEL_ROUGHNESS);
     const struct {
         const gltf_texture_reference *reference;
         bool matters, colour;
         lobe_texture_use *use;
     } maps[] = {
         {&from->base_colour_map, true, true, &to->base_colour_map},
-        {&from->normal_map, to->normal_scale != 0, false, &to->normal_map},
-        {&from->emissive_map, !is_black(to->emissive), true, &to->emissive_map},
-        {&from->occlusion_map, to->occlusion_strength > 0, false, &to->occlusion_map},
-        {&from->metallic_roughness_map, to->metallic > 0 || to->roughness > 0, false,
+        {&from->normal_map, to->normal_scale != 0 || tilts, false, &to->normal_map},
+        {&from->emissive_map, !is_black(to->emissive) || glows, true, &to->emissive_map},
+        {&from->occlusion_map, to->occlusion_strength > 0 || occludes, false, &to->occlusion_map},
+        {&from->metallic_roughness_map, to->metallic > 0 || to->roughness > 0 || polishes, false,
          &to->metallic_roughness_map},
     };
     for (size_t i = 0; i < sizeof maps / sizeof *maps; i++) {
@@ -177,7 +174,7 @@ static lobe_result add_material(gltf_import *import, int material, uint32_t *ind
     convert_factors(import, from, &to);
     lobe_result result = convert_alpha_mode(import, from, &to);
     if (result == LOBE_OK)
-        result = convert_maps(import, from, &to);
+        result = convert_maps(import, (size_t)material, &to);
     if (result != LOBE_OK)
         return result;
     char number[32];

@@ -216,9 +216,11 @@ static lobe_result place_mesh(gltf_import *import, int node, const double world[
 }
 
 static lobe_result place_light(gltf_import *import, int node, const double world[16]) {
-    lobe_result result =
-        scenes_gltf_convert_light(import, import->document->nodes[node].light, world);
-    return result == LOBE_OK && moves(import, node) ? scenes_gltf_pose_light(import, node) : result;
+    const int light = import->document->nodes[node].light;
+    lobe_result result = scenes_gltf_convert_light(import, light, world);
+    const bool posed =
+        moves(import, node) || (import->scene->rig && import->scene->rig->light_number_count > 0);
+    return result == LOBE_OK && posed ? scenes_gltf_pose_light(import, node, light) : result;
 }
 
 static lobe_result place_camera(gltf_import *import, int node, const double world[16]) {

@@ -4,6 +4,7 @@
 #include "scenes/animation/posed_bounds.h"
 #include "scenes/animation/rig.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/gltf/pointer/animation_pointer.h"
 #include "scenes/mesh/vector.h"
 
 static lobe_result out_of_memory(const gltf_import *import) {
@@ -93,6 +94,8 @@ lobe_result scenes_gltf_begin_rig(gltf_import *import, const int *order, const i
         result = convert_node(import, order[i], parents[order[i]], &rig->nodes[rig->node_count++]);
     }
     if (result == LOBE_OK)
+        result = scenes_gltf_begin_numbers(import);
+    if (result == LOBE_OK)
         result = scenes_gltf_convert_animations(import);
     if (result == LOBE_OK)
         spread_motion(import, order, parents);
@@ -150,12 +153,14 @@ lobe_result scenes_gltf_pose_mesh(gltf_import *import, uint32_t mesh, int32_t sk
     return scenes_posed_bounds_measure(&import->scene->meshes[mesh], posed, import->host);
 }
 
-lobe_result scenes_gltf_pose_light(gltf_import *import, int node) {
+lobe_result scenes_gltf_pose_light(gltf_import *import, int node, int light) {
     lobe_rig *rig = import->scene->rig;
     if (!grow(import, (void **)&rig->lights, rig->light_count, sizeof *rig->lights))
         return out_of_memory(import);
-    rig->lights[rig->light_count++] =
-        (lobe_posed_light){(uint32_t)import->scene->light_count - 1, import->rig_nodes[node]};
+    rig->lights[rig->light_count++] = (lobe_posed_light){
+        .light = (uint32_t)import->scene->light_count - 1,
+        .node = import->motions[node].moves ? (int32_t)import->rig_nodes[node] : -1,
+        .numbers = rig->light_number_count > 0 ? light : -1};
     return LOBE_OK;
 }
 
@@ -164,6 +169,7 @@ lobe_result scenes_gltf_pose_light(gltf_import *import, int node) {
 
 lobe_result scenes_gltf_end_rig(gltf_import *import) {
     lobe_scene *scene = import->scene;
+    scenes_gltf_end_numbers(import);
     if (scene->rig && scene->rig->animation_count == 0 && scene->rig->mesh_count == 0)
         scenes_rig_free(&scene->rig);
     return lobe_scene_set_pose(scene, &(lobe_pose){.animation = LOBE_ANIMATION_NONE}, import->host);

@@ -10,6 +10,8 @@
 typedef struct gltf_head {
     const char *path;
     const lobe_host *host;
+    bool points; ///< the current target of an animation is a pointer
+    pointer_nodes *pointers;
 } gltf_head;
 
 static lobe_result fail(const gltf_head *head, const char *what, const char *which) {
@@ -35,8 +37,8 @@ static lobe_result visit_required_extension(void *user, const char *text) {
 
 bool scenes_gltf_extension_supported(const char *name) {
     static const char *const supported[] = {
-        "EXT_lights_image_based", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-        "KHR_mesh_quantization",  "KHR_texture_transform",
+        "EXT_lights_image_based",          "KHR_animation_pointer", "KHR_lights_punctual",
+        "KHR_materials_emissive_strength", "KHR_mesh_quantization", "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof supported / sizeof *supported; i++) {
         if (strcmp(supported[i], name) == 0)
@@ -172,7 +174,31 @@ OBJECT(skin, {"joints", &indices, true}, {"skeleton", &integer, false},
        {"inverseBindMatrices", &integer, false}, {"name", &text, false});
 ARRAY_OF(skins, skin);
 
-OBJECT(channel_target, {"node", &integer, false}, {"path", &text, true});
+// KHR_animation_pointer.
+static lobe_result visit_pointer(void *user, const char *text) {
+    (void)text;
+    ((gltf_head *)user)->points = true;
+    return LOBE_OK;
+}
+
+static lobe_result leave_target(void *user, size_t begin, uint32_t members) {
+    gltf_head *head = user;
+    const bool lacks_node = head->points && !(members & 1);
+    head->points = false;
+    return lacks_node ? scenes_pointer_nodes_add(head->pointers, begin, head->path, head->host)
+                      : LOBE_OK;
+}
+
+static const json_schema pointer = {.kind = JSON_STRING, .visit = visit_pointer};
+OBJECT(animation_pointer, {"pointer", &pointer, true});
+OBJECT(target_extensions, {"KHR_animation_pointer", &animation_pointer, false});
+static const json_schema channel_target = {
+    .kind = JSON_OBJECT,
+    .members = (const json_member[]){{"node", &integer, false},
+                                     {"path", &text, true},
+                                     {"extensions", &target_extensions, false},
+                                     END},
+    .leave = leave_target};
 OBJECT(channel, {"sampler", &integer, true}, {"target", &channel_target, true});
 ARRAY_OF(channels, channel);
 OBJECT(animation_sampler, {"input", &integer, true}, {"output", &integer, true},
@@ -206,8 +232,8 @@ OBJECT(root, {"asset", &object, true}, {"extensionsUsed", &texts, false},
        {"extensions", &root_extensions, false});
 
 lobe_result scenes_gltf_schema_check(const char *path, const char *json, size_t json_size,
-                                     const lobe_host *host) {
-    gltf_head head = {path, host};
+                                     const lobe_host *host, pointer_nodes *pointers) {
+    gltf_head head = {.path = path, .host = host, .pointers = pointers};
     json_text content = {path, json, json_size, host, &head};
     lobe_result result = scenes_json_check(&content, &head_schema);
     return result == LOBE_OK ? scenes_json_check(&content, &root) : result;

@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "passes/upload/material_maps.h"
+
 // Within this ratio, as many bins mostly serve as well: docs/concepts.md has errors. Also of metal,
 // on which it depends whether bins have colours of their own.
 static const float most_ratio = 2;
@@ -28,6 +30,7 @@ static bool are_near(const struct material_constants *before,
 static struct material_constants without_factors(const struct material_constants *constants,
                                                  bool shape) {
     struct material_constants rest = *constants;
+    passes_map_places_forget(&rest);
     memset(rest.base_colour, 0, sizeof rest.base_colour);
     memset(rest.emissive, 0, sizeof rest.emissive);
     rest.occlusion_strength = rest.largest_colour = rest.metallic = 0;

@@ -32,11 +32,42 @@ typedef struct lobe_node {
     size_t weight_count;
 } lobe_node;
 
+/// Maps of a material whose place can move.
+typedef enum lobe_posed_map {
+    LOBE_POSED_BASE_COLOUR_MAP,
+    LOBE_POSED_NORMAL_MAP,
+    LOBE_POSED_METALLIC_ROUGHNESS_MAP,
+    LOBE_POSED_EMISSIVE_MAP,
+    LOBE_POSED_OCCLUSION_MAP,
+    LOBE_POSED_MAP_COUNT,
+} lobe_posed_map;
+
+/// What a channel moves, and how many values a key has.
 typedef enum lobe_channel_path {
-    LOBE_CHANNEL_TRANSLATION, ///< three values: metres
+    // Of a node.
+    LOBE_CHANNEL_TRANSLATION, ///< three: metres
     LOBE_CHANNEL_ROTATION,    ///< four: a quaternion (x, y, z, w)
     LOBE_CHANNEL_SCALE,       ///< three
     LOBE_CHANNEL_WEIGHTS,     ///< one for each morph target
+    // Of a material (KHR_animation_pointer): see lobe_material_numbers.
+    LOBE_CHANNEL_BASE_COLOUR,        ///< four
+    LOBE_CHANNEL_METALLIC,           ///< one
+    LOBE_CHANNEL_ROUGHNESS,          ///< one
+    LOBE_CHANNEL_EMISSIVE,           ///< three
+    LOBE_CHANNEL_EMISSIVE_STRENGTH,  ///< one
+    LOBE_CHANNEL_NORMAL_SCALE,       ///< one
+    LOBE_CHANNEL_OCCLUSION_STRENGTH, ///< one
+    LOBE_CHANNEL_ALPHA_CUTOFF,       ///< one
+    LOBE_CHANNEL_MAP_OFFSET,         ///< two
+    LOBE_CHANNEL_MAP_ROTATION,       ///< one: radians
+    LOBE_CHANNEL_MAP_SCALE,          ///< two
+    // Of a light: see lobe_light_numbers.
+    LOBE_CHANNEL_LIGHT_COLOUR,     ///< three
+    LOBE_CHANNEL_LIGHT_INTENSITY,  ///< one
+    LOBE_CHANNEL_LIGHT_RANGE,      ///< one
+    LOBE_CHANNEL_LIGHT_INNER_CONE, ///< one: radians
+    LOBE_CHANNEL_LIGHT_OUTER_CONE, ///< one: radians
+    LOBE_CHANNEL_PATH_COUNT,
 } lobe_channel_path;
 
 /// glTF 2.0, appendix C.
@@ -46,18 +77,19 @@ typedef enum lobe_interpolation {
     LOBE_INTERPOLATION_CUBIC,  ///< Hermite splines; rotations are made unit length after that
 } lobe_interpolation;
 
-/// Key frames of one property of a node.
+/// Key frames of one property.
 typedef struct lobe_animation_channel {
-    uint32_t node;
+    uint32_t target; ///< index into the rig's nodes, materials or light_numbers, as the path says
     lobe_channel_path path;
     lobe_interpolation interpolation;
     float *times; ///< seconds, at least 0, increasing. Before the first and after the last key the
                   ///< value is that key's.
     size_t key_count; ///< at least 1
-    size_t width;     ///< values of a key: 3, 4, or the number of morph targets
+    size_t width;     ///< values of a key
     /// `width` values for each key; of a cubic spline three times as many: its in-tangent, its
     /// values, its out-tangent (per second).
     float *values;
+    lobe_posed_map map; ///< for LOBE_CHANNEL_MAP_...
 } lobe_animation_channel;
 
 typedef struct lobe_animation {
@@ -99,10 +131,41 @@ typedef struct lobe_posed_mesh {
     lobe_box *target_bounds; ///< one for each target: of its deltas' positions
 } lobe_posed_mesh;
 
+/// What can move of a light, as in KHR_lights_punctual.
+typedef struct lobe_light_numbers {
+    float colour[3]; ///< linear RGB
+    float intensity; ///< times the colour: see lobe_light.intensity
+    float range;
+    float inner_cone, outer_cone;
+} lobe_light_numbers;
+
 typedef struct lobe_posed_light {
     uint32_t light;
-    uint32_t node;
+    int32_t node;    ///< whose place and direction it takes; -1: none
+    int32_t numbers; ///< index into the rig's light_numbers; -1: its own stay
 } lobe_posed_light;
+
+/// Where a map lies, as in KHR_texture_transform.
+typedef struct lobe_map_place {
+    float offset[2], rotation, scale[2];
+} lobe_map_place;
+
+/// What can move of a material: see lobe_material.
+typedef struct lobe_material_numbers {
+    float base_colour[4];
+    float metallic, roughness;
+    float emissive[3]; ///< times the strength
+    float emissive_strength;
+    float normal_scale, occlusion_strength, alpha_cutoff;
+    lobe_map_place maps[LOBE_POSED_MAP_COUNT];
+} lobe_material_numbers;
+
+/// A material of which channels move something. What none of them moves, a pose leaves alone.
+typedef struct lobe_posed_material {
+    int32_t material; ///< -1: not in the scene
+    lobe_material_numbers rest;
+    uint32_t version; ///< increases with each pose that changes the material
+} lobe_posed_material;
 
 typedef struct lobe_rig {
     lobe_node *nodes;
@@ -118,6 +181,10 @@ typedef struct lobe_rig {
     size_t mesh_count;
     lobe_posed_light *lights;
     size_t light_count;
+    lobe_light_numbers *light_numbers; ///< at rest
+    size_t light_number_count;
+    lobe_posed_material *materials;
+    size_t material_count;
     int32_t camera_node;    ///< -1: the scene's camera stays
     double camera_distance; ///< from its eye to its target, metres
 } lobe_rig;
@@ -135,9 +202,11 @@ typedef struct lobe_pose {
 } lobe_pose;
 
 /// Moves a scene to a pose: writes the transforms of instances, lights, the camera, the poses of
-/// meshes, and the bounds of meshes and of the scene. These are read in every frame: nothing has to
-/// be announced to renderers. Bounds of a deformed mesh contain it, but may be larger. An instance
-/// that the pose scales to nothing is hidden until it no longer does.
+/// meshes, numbers of materials, and the bounds of meshes and of the scene. These are read in every
+/// frame: nothing has to be announced to renderers. (Of materials, each renderer compares the rig's
+/// versions.) Numbers that an animation takes out of their range are those at its end. Bounds of a
+/// deformed mesh contain it, but may be larger. An instance that the pose scales to nothing is
+/// hidden until it no longer does.
 ///
 /// A file's scene is opened at rest. `pose`: NULL for the first animation at 0 s. A scene without a
 /// rig, or an animation of none, has only its pose at rest. Errors: LOBE_ERROR_INVALID_ARGUMENT (no

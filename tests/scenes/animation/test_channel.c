@@ -47,7 +47,7 @@ static void steps_hold_their_key(void **state) {
     float values[3 * KEYS];
     fill(values, 3 * KEYS, 1);
     const lobe_animation_channel channel = {
-        0, LOBE_CHANNEL_SCALE, LOBE_INTERPOLATION_STEP, times, KEYS, 3, values};
+        0, LOBE_CHANNEL_SCALE, LOBE_INTERPOLATION_STEP, times, KEYS, 3, values, 0};
     for (double seconds = -1; seconds < 6; seconds += 0.125) {
         int key = 0;
         while (key < KEYS - 1 && times[key + 1] <= seconds)
@@ -65,7 +65,7 @@ static void lines_join_keys(void **state) {
     float values[WIDTH * KEYS];
     fill(values, WIDTH * KEYS, 2);
     const lobe_animation_channel channel = {
-        0, LOBE_CHANNEL_WEIGHTS, LOBE_INTERPOLATION_LINEAR, times, KEYS, WIDTH, values};
+        0, LOBE_CHANNEL_WEIGHTS, LOBE_INTERPOLATION_LINEAR, times, KEYS, WIDTH, values, 0};
     for (double seconds = 0.25; seconds <= 4; seconds += 0.01) {
         long double part, expected[WIDTH];
         const int key = locate(seconds, &part);
@@ -122,7 +122,7 @@ static void rotations_turn_at_constant_speed(void **state) {
     float values[4 * KEYS];
     fill(values, 4 * KEYS, 3); // of any length, some of them on opposite sides
     const lobe_animation_channel channel = {
-        0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_LINEAR, times, KEYS, 4, values};
+        0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_LINEAR, times, KEYS, 4, values, 0};
     for (double seconds = 0.25; seconds <= 4; seconds += 0.01) {
         long double part, expected[4], square = 0;
         const int key = locate(seconds, &part);
@@ -151,7 +151,7 @@ static void rotations_at_their_limits(void **state) {
         float values[8];
         memcpy(values, pairs[n], sizeof values);
         const lobe_animation_channel channel = {
-            0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_LINEAR, two, 2, 4, values};
+            0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_LINEAR, two, 2, 4, values, 0};
         for (double part = 0.1; part < 1; part += 0.1) {
             long double expected[4];
             double result[4];
@@ -179,7 +179,7 @@ static void check_spline(lobe_channel_path path, size_t width, uint32_t seed) {
     float values[3 * 8 * KEYS];
     fill(values, 3 * width * KEYS, seed);
     const lobe_animation_channel channel = {
-        0, path, LOBE_INTERPOLATION_CUBIC, times, (size_t)KEYS, width, values};
+        0, path, LOBE_INTERPOLATION_CUBIC, times, (size_t)KEYS, width, values, 0};
     for (double seconds = 0.2; seconds <= 4.1; seconds += 0.013) {
         const double clamped = fmin(fmax(seconds, times[0]), times[KEYS - 1]);
         long double part, expected[8];
@@ -209,7 +209,7 @@ static void splines_of_rotations_never_vanish(void **state) {
     float two[2] = {0, 1};
     float values[24] = {[7] = 1, [19] = -1};
     const lobe_animation_channel channel = {
-        0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_CUBIC, two, 2, 4, values};
+        0, LOBE_CHANNEL_ROTATION, LOBE_INTERPOLATION_CUBIC, two, 2, 4, values, 0};
     for (double part = 0; part <= 1; part += 0.125) {
         double result[4];
         scenes_channel_evaluate(&channel, part, result);
@@ -227,7 +227,8 @@ static void before_and_after_keys_stay(void **state) {
     fill(values, 9 * KEYS, 9);
     for (int interpolation = 0; interpolation < 3; interpolation++) {
         lobe_animation_channel channel = {
-            0, LOBE_CHANNEL_TRANSLATION, (lobe_interpolation)interpolation, times, KEYS, 3, values};
+            0, LOBE_CHANNEL_TRANSLATION, (lobe_interpolation)interpolation, times, KEYS, 3, values,
+            0};
         const bool cubic = interpolation == LOBE_INTERPOLATION_CUBIC;
         for (channel.key_count = 1; channel.key_count <= KEYS; channel.key_count += KEYS - 1)
             for (size_t n = 0; n < sizeof outside / sizeof *outside; n++) {

@@ -380,7 +380,7 @@ static void lose_parent(lobe_rig *rig) {
     rig->nodes[1].parent = -2;
 }
 static void lose_node(lobe_rig *rig) {
-    rig->animations[0].channels[0].node = 3;
+    rig->animations[0].channels[0].target = 3;
 }
 static void lose_keys(lobe_rig *rig) {
     rig->animations[0].channels[0].key_count = 0;
@@ -389,7 +389,7 @@ static void widen(lobe_rig *rig) {
     rig->animations[0].channels[0].width = 5;
 }
 static void lose_path(lobe_rig *rig) {
-    rig->animations[0].channels[0].path = (lobe_channel_path)7;
+    rig->animations[0].channels[0].path = LOBE_CHANNEL_PATH_COUNT;
 }
 static void lose_joint(lobe_rig *rig) {
     rig->skins[0].joints[1] = 3;
