@@ -7,10 +7,15 @@ filters/, which replaces that include. A pass or a filter may name macros that i
 "#pragma variants ENVIRONMENT AOV": it is compiled without and with each. shading/shading.frag and
 filters/lobes.glsl give shading/shading_lobes.frag, shading/shading_lobes_environment.frag, and so
 on. The table records the source of each entry, so that the library can recompile it at run time.
+
+Compiled words are kept in a folder beside the output: only shaders whose text, or that of a file
+they include, has changed are compiled again.
 """
 
 import argparse
 import concurrent.futures
+import functools
+import hashlib
 import os
 import re
 import struct
@@ -22,6 +27,7 @@ from pathlib import Path
 
 STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
 # Drivers inline all functions anyway. Where they need not do it, and meet no variables that merely
 # pass arguments, lavapipe creates a shading pipeline in half the time. Branches that a variant does
@@ -68,6 +74,43 @@ def variants(folder, path):
     return found
 
 
+@functools.lru_cache(maxsize=None)
+def content_and_includes(path):
+    """The digest of a file, and the names that it includes."""
+    content = path.read_bytes()
+    return hashlib.sha256(content).hexdigest(), INCLUDE.findall(content.decode())
+
+
+def files_of(folder, includes, shader):
+    """All files that a shader may be compiled from, also those that a macro leaves out."""
+    found, unread = set(), [folder / shader.source]
+    if shader.substitute:
+        unread.append(folder / shader.substitute)
+    while unread:
+        path = unread.pop()
+        if path in found:
+            continue
+        found.add(path)
+        # Every file of that name counts: so it does not matter which one the compiler takes.
+        candidates = [Path(os.path.normpath(place / name))
+                      for name in content_and_includes(path)[1]
+                      for place in (path.parent, *includes)]
+        unread += [candidate for candidate in candidates if candidate.is_file()]
+    return sorted(found)
+
+
+def digest_of(tools, folder, includes, shader):
+    """Changes with whatever decides a shader's words."""
+    parts = [repr(shader), repr(OPTIMISATIONS)]
+    parts += [os.path.relpath(path, folder) for path in includes]
+    for tool in (tools.compiler, tools.validator, tools.optimiser):
+        status = os.stat(tool)
+        parts.append(f"{tool} {status.st_size} {status.st_mtime_ns}")
+    parts += [f"{os.path.relpath(path, folder)} {content_and_includes(path)[0]}"
+              for path in files_of(folder, includes, shader)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
 def run(shader, command):
     """Raises with the command's own output if it fails."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
@@ -77,7 +120,7 @@ def run(shader, command):
 
 
 def compile_shader(tools, folder, includes, shader, scratch):
-    """Returns the SPIR-V words of one shader. The compiler sometimes generates invalid SPIR-V for
+    """Returns the SPIR-V of one shader. The compiler sometimes generates invalid SPIR-V for
     constants computed from specialisation constants, so it is validated before the optimiser and a
     driver see it."""
     output = Path(scratch) / (shader.name + ".spv")
@@ -94,8 +137,27 @@ def compile_shader(tools, folder, includes, shader, scratch):
     run(shader, validate)
     run(shader, [tools.optimiser, *OPTIMISATIONS, str(output), "-o", str(output)])
     run(shader, validate)
-    code = output.read_bytes()
-    return struct.unpack(f"<{len(code) // 4}I", code)
+    return output.read_bytes()
+
+
+def words_of(tools, folder, includes, shader, scratch):
+    """The SPIR-V words of one shader, and the file in which they are kept."""
+    kept = kept_folder(tools) / digest_of(tools, folder, includes, shader)
+    if not kept.is_file():
+        replace_file(kept, compile_shader(tools, folder, includes, shader, scratch))
+    code = kept.read_bytes()
+    return struct.unpack(f"<{len(code) // 4}I", code), kept
+
+
+def kept_folder(arguments):
+    return arguments.output.with_name(arguments.output.name + ".words")
+
+
+def remove_others(folder, kept):
+    """Removes the words of former texts."""
+    for path in folder.iterdir():
+        if path not in kept:
+            path.unlink()
 
 
 def table_text(table, shaders, codes):
@@ -130,9 +192,9 @@ def write_dependencies(path, target, folders):
     path.write_text(f"{target}: " + " ".join(names) + "\n")
 
 
-def replace_file(path, text):
+def replace_file(path, content):
     temporary = path.with_name(path.name + ".new")
-    temporary.write_text(text)
+    temporary.write_bytes(content)
     os.replace(temporary, path)
 
 
@@ -157,16 +219,18 @@ def main():
     # The library uses binary search.
     shaders = sorted((shader for path in sources for shader in variants(folders[0], path)),
                      key=lambda shader: shader.name)
+    kept_folder(arguments).mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = [pool.submit(compile_shader, arguments, folders[0], folders, shader,
-                               scratch) for shader in shaders]
+        futures = [pool.submit(words_of, arguments, folders[0], folders, shader, scratch)
+                   for shader in shaders]
         failures = [str(future.exception()) for future in futures if future.exception()]
         if failures:
             print("\n".join(failures), file=sys.stderr)
             return 1
-        codes = [future.result() for future in futures]
-    replace_file(arguments.output, table_text(arguments.table, shaders, codes))
+        codes, kept = zip(*(future.result() for future in futures)) if futures else ((), ())
+    replace_file(arguments.output, table_text(arguments.table, shaders, codes).encode())
+    remove_others(kept_folder(arguments), kept)
     write_dependencies(arguments.depfile, arguments.output, folders)
     return 0
 

@@ -33,19 +33,23 @@ def operations(words, code):
     return found
 
 
-def embed(sources, compiler=COMPILER):
+def embed_in(scratch, sources, compiler=COMPILER):
     """Returns exit status, output, and the table (None if none was written)."""
+    folder, output = Path(scratch) / "shaders", Path(scratch) / "table.c"
+    for name, text in sources.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+    done = subprocess.run(
+        [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR,
+         "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output,
+         "--depfile", f"{scratch}/table.d"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return done.returncode, done.stdout, output.read_text() if output.exists() else None
+
+
+def embed(sources, **options):
     with tempfile.TemporaryDirectory() as scratch:
-        folder, output = Path(scratch) / "shaders", Path(scratch) / "table.c"
-        for name, text in sources.items():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(text)
-        done = subprocess.run(
-            [sys.executable, SCRIPT, "--compiler", compiler, "--validator", VALIDATOR,
-             "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output,
-             "--depfile", f"{scratch}/table.d"],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        return done.returncode, done.stdout, output.read_text() if output.exists() else None
+        return embed_in(scratch, sources, **options)
 
 
 def refuses(sources, *words, **options):
@@ -88,6 +92,41 @@ void main() { f(); }
     assert operations(words, OP_FUNCTION_CALL) == [], "a function is not inlined"
     decorations = [operands[1:] for operands in operations(words, OP_DECORATE)]
     assert [SPECIALISATION, 3] in decorations and [BINDING, 2] in decorations, decorations
+
+
+def test_only_what_changed_is_compiled():
+    def half(value):
+        return f"const float HALF = {value};\n"
+    reader = """#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/half.glsl"
+layout(local_size_x = 1) in;
+layout(binding = 0) buffer numbers { float number; };
+void main() { number = HALF; }
+"""
+    with tempfile.TemporaryDirectory() as scratch:
+        compiler, log = Path(scratch) / "compiler", Path(scratch) / "log"
+        compiler.write_text(f'#!/bin/sh\necho "$*" >> {log}\nexec {COMPILER} "$@"\n')
+        compiler.chmod(0o755)
+
+        def compiled(**sources):
+            log.write_text("")
+            status, printed, table = embed_in(
+                scratch, {name.replace("_", "."): text for name, text in sources.items()} | library,
+                compiler=str(compiler))
+            assert status == 0, printed
+            return sorted(Path(line.split()[-1]).name for line in log.read_text().splitlines()), \
+                table
+
+        library = {"lib/half.glsl": half(0.5)}
+        assert compiled(a_comp=GOOD, b_comp=reader)[0] == ["a.comp", "b.comp"]
+        names, first = compiled(a_comp=GOOD, b_comp=reader)
+        assert names == []
+        library = {"lib/half.glsl": half(0.25)}
+        names, second = compiled(a_comp=GOOD, b_comp=reader)
+        assert names == ["b.comp"] and second != first
+        names, third = compiled(a_comp=GOOD + "\n", b_comp=reader)
+        assert names == ["a.comp"] and third == second
 
 
 def test_faulty_source_is_named():
