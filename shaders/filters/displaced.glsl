@@ -12,6 +12,7 @@
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "filters/displaced/functions.glsl"
 #include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
 
@@ -21,6 +22,8 @@ const bool BIN_WIDTHS = false;
 #include "filters/moments/plane_bin.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
+layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
+layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 
 layout(LOBE_DESCRIPTOR(33)) uniform sampler2DArray transfer_map;
 layout(LOBE_DESCRIPTOR(34), std430) readonly buffer closure_block {
@@ -28,12 +31,40 @@ layout(LOBE_DESCRIPTOR(34), std430) readonly buffer closure_block {
 };
 layout(LOBE_DESCRIPTOR(35)) uniform sampler2DArray facet_map;
 
-// Light towards the viewer, for each function of the light's direction: a white relief's at once,
-// and what it gets from other facets as well.
+vec4 function_factors(uint place) {
+    return closure.basis.functions[place];
+}
+
+// A direction, or light, by coefficients: in all polynomials, and in the map's functions.
+struct transfer_light {
+    float polynomials[16];
+    float functions[9]; // as far as they are used
+};
+
+void find_functions(inout transfer_light light) {
+    for (uint k = 0u; k < ORDER; ++k)
+        light.functions[k] = function_of(k, light.polynomials);
+}
+
+// 0 below the horizon.
+transfer_light light_from(vec3 direction) {
+    transfer_light light;
+    transfer_polynomials(direction, light.polynomials);
+    find_functions(light);
+    return light;
+}
+
+const uint CHANNELS = COLOURED ? 3u : 1u;
+
+// Light towards the viewer, for each function of the light's direction, of each channel: a white
+// relief's (or the coloured one's) at once, and what it gets from other facets as well.
 struct transfer_to_viewer {
-    float direct[9];
-    float indirect[9];
+    float direct[3][9];
+    float indirect[3][TRANSFER_INDIRECT];
     float area[9]; // what is seen of it, by the viewer's direction
+    float cosine;  // of the viewer's direction
+    float lacking; // what a white relief lacks towards the viewer
+    vec3 colour;   // the mean diffuse colour, if it varies
     float visible; // the area that the viewer sees, over the map's mean of it
 };
 
@@ -55,25 +86,28 @@ map_area transfer_area(surface_point surface) {
     return area;
 }
 
-const uint DIRECT_ENTRIES = ORDER * (ORDER + 1u) / 2u;
-const uint VISIBLE_ENTRIES = DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT + 1u;
+const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
+const uint INDIRECT_END = DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT;
+const uint VISIBLE_ENTRIES = TRANSFER_ENTRIES(ORDER);
 
-// Adds four entries, of symmetric matrices or of the visible area, times the viewer's functions.
-void add_entries(inout transfer_to_viewer transfer, float outgoing[9], vec4 entries, uint layer,
-                 inout uint row, inout uint column) {
+// Adds four entries, of matrices or of the visible area, times the viewer's functions.
+void add_entries(inout transfer_to_viewer transfer, transfer_light outgoing, vec4 entries,
+                 uint channel, uint layer, inout uint row, inout uint column) {
     for (uint i = 0u; i < 4u; ++i) {
         uint place = 4u * layer + i;
         if (place == DIRECT_ENTRIES)
             row = column = 0u;
         if (place < DIRECT_ENTRIES) {
-            transfer.direct[row] += entries[i] * outgoing[column];
+            transfer.direct[channel][row] += entries[i] * outgoing.functions[column];
             if (row != column)
-                transfer.direct[column] += entries[i] * outgoing[row];
-        } else if (place < DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT) {
-            transfer.indirect[row] += entries[i] * outgoing[column];
+                transfer.direct[channel][column] += entries[i] * outgoing.functions[row];
+        } else if (place < INDIRECT_END) {
+            transfer.indirect[channel][row] += entries[i] * outgoing.polynomials[column];
             if (row != column)
-                transfer.indirect[column] += entries[i] * outgoing[row];
-        } else if (place >= VISIBLE_ENTRIES && place < VISIBLE_ENTRIES + ORDER) {
+                transfer.indirect[channel][column] += entries[i] * outgoing.polynomials[row];
+        } else if (place == INDIRECT_END) {
+            transfer.colour[channel] = entries[i];
+        } else if (channel == 0u && place < VISIBLE_ENTRIES + ORDER) {
             transfer.area[place - VISIBLE_ENTRIES] = entries[i];
         }
         if (++column > row) {
@@ -83,44 +117,52 @@ void add_entries(inout transfer_to_viewer transfer, float outgoing[9], vec4 entr
     }
 }
 
-// Of the closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
-void add_closure(inout transfer_to_viewer transfer, float outgoing[9]) {
-    float lost = 0.0, towards = 0.0;
-    float cosine = TRANSFER_COSINE * outgoing[0];
-    for (uint k = 0u; k < ORDER; ++k) {
-        float lacking = closure.lacking[k / 4u][k % 4u];
-        lost += lacking * TRANSFER_INTEGRAL[k];
-        towards += lacking * outgoing[k];
-        transfer.indirect[k] += INVERSE_PI * lacking * cosine;
-    }
-    transfer.indirect[0] +=
-        TRANSFER_COSINE * INVERSE_PI * (towards - INVERSE_PI * lost * cosine);
+float product_with_lacking(transfer_light light) {
+    float sum = 0.0;
+    for (uint k = 0u; k < 16u; ++k)
+        sum += closure.lacking[k / 4u][k % 4u] * light.polynomials[k];
+    return sum;
 }
 
-// The area of the footprint that is seen from where the functions are these, over the map's mean.
-float visible_area(transfer_to_viewer transfer, float functions[9]) {
+// The closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
+float closing_light(transfer_light light) {
+    float cosine = TRANSFER_COSINE * light.polynomials[0];
+    return INVERSE_PI * (drawn.transfer.lacking * cosine +
+                         drawn.transfer.cosine * (product_with_lacking(light) -
+                                                  INVERSE_PI * closure.lost * cosine));
+}
+
+// The area of the footprint that is seen from a direction, over the map's mean.
+float visible_area(transfer_to_viewer transfer, transfer_light light) {
     float sum = 0.0, mean = 0.0;
     for (uint k = 0u; k < ORDER; ++k) {
-        sum += transfer.area[k] * functions[k];
-        mean += closure.visible[k / 4u][k % 4u] * functions[k];
+        sum += transfer.area[k] * light.functions[k];
+        mean += closure.visible[k / 4u][k % 4u] * light.functions[k];
     }
     return max(sum / max(mean, 1e-6), LEAST_VISIBLE);
 }
 
 transfer_to_viewer fetch_transfer(surface_point surface, vec3 viewer) {
     transfer_to_viewer transfer;
-    float outgoing[9];
-    transfer_functions(viewer, outgoing);
-    for (uint k = 0u; k < 9u; ++k)
-        transfer.direct[k] = transfer.indirect[k] = 0.0;
+    transfer_light outgoing = light_from(viewer);
     for (uint k = 0u; k < 9u; ++k)
         transfer.area[k] = 0.0;
     map_area area = transfer_area(surface);
-    uint row = 0u, column = 0u;
-    for (uint layer = 0u; 4u * layer < VISIBLE_ENTRIES + ORDER; ++layer)
-        add_entries(transfer, outgoing, filtered_layer(transfer_map, area, layer), layer, row,
-                    column);
-    add_closure(transfer, outgoing);
+    uint first = 0u;
+    for (uint channel = 0u; channel < CHANNELS; ++channel) {
+        for (uint k = 0u; k < 9u; ++k)
+            transfer.direct[channel][k] = 0.0;
+        for (uint k = 0u; k < TRANSFER_INDIRECT; ++k)
+            transfer.indirect[channel][k] = 0.0;
+        uint row = 0u, column = 0u;
+        uint layers = channel == 0u ? TRANSFER_FIRST_LAYERS(ORDER) : TRANSFER_FURTHER_LAYERS(ORDER);
+        for (uint layer = 0u; layer < layers; ++layer)
+            add_entries(transfer, outgoing, filtered_layer(transfer_map, area, first + layer),
+                        channel, layer, row, column);
+        first += layers;
+    }
+    transfer.cosine = TRANSFER_COSINE * outgoing.polynomials[0];
+    transfer.lacking = product_with_lacking(outgoing);
     transfer.visible = visible_area(transfer, outgoing);
     return transfer;
 }
@@ -131,23 +173,67 @@ vec3 indirect_share(vec3 albedo) {
     return albedo * albedo * (1.0 - closure.persistence) / (1.0 - albedo * closure.persistence);
 }
 
-// Radiance of diffuse facets, for light with these coefficients of the functions. `mirrored`: the
-// part of light that facets mirror at right angles. What of it meets other facets is taken to go on
-// as if it were diffuse.
-vec3 diffuse_radiance(vec3 albedo, vec3 mirrored, float light[9]) {
-    transfer_to_viewer transfer = drawn.transfer;
-    float direct = 0.0, indirect = 0.0;
-    for (uint k = 0u; k < 9u; ++k) {
-        direct += transfer.direct[k] * light[k];
-        indirect += transfer.indirect[k] * light[k];
-    }
-    albedo = clamp(albedo, 0.0, 1.0);
-    vec3 share = indirect_share(albedo) + indirect_share(mirrored);
-    return max(albedo * direct + share * indirect, 0.0) / (drawn.viewer.z * transfer.visible);
+// What reaches the viewer: of light at once, and of light between facets.
+struct reflected_light {
+    vec3 direct;
+    vec3 indirect;
+};
+
+// Adds a channel's.
+void reflect_channel(inout reflected_light reflected, uint channel, transfer_light light) {
+    uint of_map = COLOURED ? channel : 0u;
+    vec2 sum = vec2(0.0, COLOURED ? 0.0 : closing_light(light));
+    for (uint k = 0u; k < ORDER; ++k)
+        sum.x += light.functions[k] * drawn.transfer.direct[of_map][k];
+    for (uint k = 0u; k < TRANSFER_INDIRECT; ++k)
+        sum.y += light.polynomials[k] * drawn.transfer.indirect[of_map][k];
+    reflected.direct[channel] = sum.x;
+    reflected.indirect[channel] = sum.y;
+}
+
+reflected_light reflect_light(transfer_light light) {
+    reflected_light reflected;
+    reflect_channel(reflected, 0u, light);
+    reflected.direct = reflected.direct.rrr;
+    reflected.indirect = reflected.indirect.rrr;
+    for (uint channel = 1u; channel < CHANNELS; ++channel)
+        reflect_channel(reflected, channel, light);
+    return reflected;
 }
 
 vec3 mirrored_part(base_material base) {
     return MODEL == MODEL_MICROFACET ? clamp(base.specular, 0.0, 1.0) : vec3(0.0);
+}
+
+// By how much the colours of what a pixel sees differ from those that are in the map of transfer:
+// those of the vertices, and, where a pixel is smaller than its texels, of the material's maps.
+vec3 tint_of(base_material base, surface_point surface) {
+    vec3 tint = VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0);
+    if (!MAGNIFIED)
+        return tint;
+    vec2 size = 2.0 * vec2(textureSize(transfer_map, 0).xy);
+    float level = area_over(map_coordinates(MAP_HEIGHT, surface.coordinates, 1.0),
+                            map_coordinates(MAP_HEIGHT, surface.coordinates_dx, 0.0),
+                            map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0), size, true)
+                      .level;
+    vec3 found = (base.diffuse + 0.01) / (tint * drawn.transfer.colour + 0.01);
+    return tint * mix(min(found, 4.0), vec3(1.0), min(level, 1.0));
+}
+
+// Radiance of diffuse facets. `passed`: the part of light that is not mirrored. What is mirrored
+// and meets other facets is taken to go on as if it were diffuse.
+vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
+                      reflected_light reflected) {
+    vec3 sum;
+    if (COLOURED) {
+        vec3 tint = tint_of(base, surface);
+        sum = tint * (passed * reflected.direct + tint * reflected.indirect);
+    } else {
+        vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0);
+        vec3 share = indirect_share(albedo) + indirect_share(mirrored_part(base));
+        sum = albedo * reflected.direct + share * reflected.indirect;
+    }
+    return max(sum, 0.0) / (drawn.viewer.z * drawn.transfer.visible);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -203,9 +289,7 @@ float facing_area(facet_areas areas, vec3 direction) {
 // The part of the area that faces a direction that is also seen from there: the one by the facets'
 // normals alone, the other by their horizons.
 float seen_part(float facing, vec3 direction) {
-    float functions[9];
-    transfer_functions(direction, functions);
-    float seen = direction.z * visible_area(drawn.transfer, functions);
+    float seen = direction.z * visible_area(drawn.transfer, light_from(direction));
     return clamp(seen / max(facing, 1e-6), 0.0, 1.0);
 }
 
@@ -268,8 +352,6 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     base_material base = widened_material(fetched);
     if (!has_diffuse())
         return evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
-    vec3 albedo = base.diffuse;
-    base.diffuse = vec3(0.0);
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 lobes, fresnel = vec3(0.0);
@@ -278,11 +360,12 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
                                   dot(incoming, half_vector(incoming, surface.outgoing)));
         lobes = mirrored_by_facets(fetched.base, fresnel, surface.outgoing, incoming, light);
     } else {
-        lobes = evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
+        base_material mirroring = base;
+        mirroring.diffuse = vec3(0.0);
+        lobes = evaluate_base_material(mirroring, fetched.mean_normal, surface.outgoing, incoming);
     }
-    float functions[9];
-    transfer_functions(incoming, functions);
-    return lobes + diffuse_radiance(albedo * (1.0 - fresnel), mirrored_part(base), functions);
+    return lobes +
+           diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(light_from(incoming)));
 }
 
 #ifdef ENVIRONMENT
@@ -290,35 +373,38 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 // these sums are off for light that is the same everywhere is added with the mean radiance.
 const int LIGHT_WIDTH = 8;
 
-void light_of_environment(surface_point surface, out float light[3][9]) {
+void light_of_environment(surface_point surface, out transfer_light light[3]) {
     mat3 tangent_from_environment = tangent_from_environment_of(surface);
     int level = level_of_faces(LIGHT_WIDTH);
     int size = textureSize(environment_faces, level).x;
-    float sums[9];
-    for (int k = 0; k < 9; ++k)
-        light[0][k] = light[1][k] = light[2][k] = sums[k] = 0.0;
+    float sums[16];
+    for (int k = 0; k < 16; ++k)
+        light[0].polynomials[k] = light[1].polynomials[k] = light[2].polynomials[k] = sums[k] =
+            0.0;
     vec4 mean = vec4(0.0); // radiance times cosine, cosine
     for (int i = 0; i < 6 * size * size; ++i) {
         int face = i / (size * size);
         ivec2 texel = ivec2(i % size, (i / size) % size);
-        float functions[9];
-        transfer_functions(tangent_from_environment * cube_texel_direction(face, texel, size),
-                           functions);
+        float polynomials[16];
+        transfer_polynomials(tangent_from_environment * cube_texel_direction(face, texel, size),
+                             polynomials);
         float solid_angle = cube_texel_solid_angle(texel, size);
         vec3 irradiance = texelFetch(environment_faces, ivec3(texel, face), level).rgb *
                           (environment.intensity * solid_angle);
-        mean += vec4(irradiance, solid_angle) * functions[0];
-        for (int k = 0; k < 9; ++k) {
-            sums[k] += solid_angle * functions[k];
-            light[0][k] += irradiance.r * functions[k];
-            light[1][k] += irradiance.g * functions[k];
-            light[2][k] += irradiance.b * functions[k];
+        mean += vec4(irradiance, solid_angle) * polynomials[0];
+        for (int k = 0; k < 16; ++k) {
+            sums[k] += solid_angle * polynomials[k];
+            light[0].polynomials[k] += irradiance.r * polynomials[k];
+            light[1].polynomials[k] += irradiance.g * polynomials[k];
+            light[2].polynomials[k] += irradiance.b * polynomials[k];
         }
     }
     mean /= max(mean.w, 1e-6);
-    for (int k = 0; k < 9; ++k)
-        for (int channel = 0; channel < 3; ++channel)
-            light[channel][k] += mean[channel] * (TRANSFER_INTEGRAL[k] - sums[k]);
+    for (int channel = 0; channel < 3; ++channel) {
+        for (int k = 0; k < 16; ++k)
+            light[channel].polynomials[k] += mean[channel] * (TRANSFER_INTEGRAL[k] - sums[k]);
+        find_functions(light[channel]);
+    }
 }
 
 // Each bin by the area of it that faces the viewer, masked, and shadowed in the direction that its
@@ -349,15 +435,16 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
     base_material base = widened_material(fetched);
     if (!has_diffuse())
         return reflect_base_material(surface, base, fetched.mean_normal);
-    vec3 albedo = let_through(surface, base);
-    base.diffuse = vec3(0.0);
-    float light[3][9];
+    base_material white = base;
+    white.diffuse = vec3(1.0);
+    transfer_light light[3];
     light_of_environment(surface, light);
     gather_relief(fetched, surface);
-    vec3 sum = has_facets() ? reflect_facets_of_relief(fetched, surface)
-                            : reflect_base_specular(surface, base);
-    for (int channel = 0; channel < 3; ++channel)
-        sum[channel] += diffuse_radiance(albedo, mirrored_part(base), light[channel])[channel];
-    return sum;
+    reflected_light reflected;
+    for (uint channel = 0u; channel < 3u; ++channel)
+        reflect_channel(reflected, channel, light[channel]);
+    return (has_facets() ? reflect_facets_of_relief(fetched, surface)
+                         : reflect_base_specular(surface, base)) +
+           diffuse_radiance(base, let_through(surface, white), surface, reflected);
 }
 #endif

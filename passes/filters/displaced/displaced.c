@@ -3,21 +3,22 @@
 #include "passes/filters/displaced/relief.h"
 #include "passes/filters/displaced/transfer_map.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/magnification.h"
 #include "passes/maps/parameter_averaging.h"
 #include "passes/upload/material_maps.h"
 
-static const char *const orders[] = {"4", "9", NULL};
+static const char *const orders[] = {"4", "6", "9", NULL};
 static const char *const storages[] = {"float16", "float32", NULL};
 
 static const filter_knob order_knob = {
     .description = {.name = "order",
-                    .summary = "functions of direction that direct light is filtered in: "
-                               "polynomials of degree 1 or 2",
+                    .summary = "functions of direction that light is filtered in, those in which "
+                               "the map's parts differ the most",
                     .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 1,
+                    .maximum = 2,
                     .initial = 1,
                     .choices = orders,
-                    .sweep = "4"},
+                    .sweep = "4,9"},
 };
 static const filter_knob azimuths_knob = {
     .description = {.name = "azimuths",
@@ -52,7 +53,8 @@ static const filter_knob *const knobs[] = {
 };
 
 static uint32_t order_of(const filter_context *context) {
-    return passes_knob_choice(context, &order_knob) == 0 ? 4 : TRANSFER_MAXIMUM_ORDER;
+    static const uint32_t values[] = {4, 6, TRANSFER_MAXIMUM_ORDER};
+    return values[passes_knob_choice(context, &order_knob)];
 }
 
 static transfer_map make_transfer(const filter_context *context, uint32_t index,
@@ -66,6 +68,7 @@ static transfer_map make_transfer(const filter_context *context, uint32_t index,
                       ? LOBE_FORMAT_RGBA16_FLOAT
                       : LOBE_FORMAT_RGBA32_FLOAT,
         .normals = material->material->model == LOBE_MATERIAL_MICROFACET,
+        .coloured = passes_has_coloured_relief(material),
     };
     transfer_map transfer = passes_transfer_map(context, index, &kind);
     appearance->bytes +=
@@ -104,16 +107,32 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_bind(appearance, "closure_block", transfer.closure, (lobe_sampler){0});
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
+    const bool coloured = passes_has_coloured_relief(material);
+    const device_map *heights = &material->maps[MAP_HEIGHT];
+    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED, coloured);
+    passes_appearance_specialise(
+        appearance, SPECIALISE_TRANSFER_MAGNIFIED,
+        coloured &&
+            passes_may_be_magnified(context, index, MAP_HEIGHT, heights->width, heights->height,
+                                    passes_knob_value(context, &passes_knob_probes),
+                                    passes_knob_value(context, &passes_knob_bias)));
 }
 
 static const char *ignores(const lobe_material *material) {
     if (material->height_map.image < 0 || material->height_scale == 0)
         return NULL;
-    return material->model == LOBE_MATERIAL_MICROFACET
-               ? "what facets mirror is lost where it meets others; colours do not vary with "
-                 "heights"
+    const bool flat_colours = material->base_colour_map.image >= 0 &&
+                              !passes_lies_on_relief(material, &material->base_colour_map);
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        return flat_colours ? "what facets mirror is lost where it meets others; colours do not "
+                              "vary with heights, whose texture coordinates are other ones"
+                            : "what facets mirror is lost where it meets others";
+    return flat_colours
+               ? "lobes are those of its normal map, and neither masked nor shadowed by its "
+                 "heights; colours do not vary with heights, whose texture coordinates are other "
+                 "ones"
                : "lobes are those of its normal map, and neither masked nor shadowed by its "
-                 "heights; colours do not vary with heights";
+                 "heights";
 }
 
 const lobe_filter passes_filter_displaced = {

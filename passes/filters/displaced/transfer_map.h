@@ -6,11 +6,12 @@
 
 /// How the light of a relief is found.
 typedef struct transfer_kind {
-    uint32_t order;    ///< functions of direct light: 4 or 9
+    uint32_t order;    ///< functions of direct light [4, TRANSFER_MAXIMUM_ORDER]
     uint32_t azimuths; ///< of a facet's horizon [4, 64]
     uint32_t bounces;  ///< between facets, at least 1
     lobe_format format;
-    bool normals; ///< facets' normals are read, for what they mirror
+    bool normals;  ///< facets' normals are read, for what they mirror
+    bool coloured; ///< the diffuse colour varies over the relief
 } transfer_kind;
 
 /// The transfer of light by a relief, of each cell, see shaders/interface/displacement/relief.h.
@@ -20,10 +21,18 @@ typedef struct transfer_map {
     lobe_resource closure; ///< struct transfer_closure_constants
 } transfer_map;
 
-/// Adds the passes that make it for a material with a relief: those of the relief, facet_transfer,
-/// facet_links, facet_bounces, cell_transfer, facet_normals, level_reduction and transfer_closure.
-/// They run when the height map or its scale changes, not when colours do. A map whose facets a
-/// buffer cannot hold fails the frame.
+/// Whether a map lies on the surface as the material's heights do, and repeats as they do.
+bool passes_lies_on_relief(const lobe_material *material, const lobe_texture_use *use);
+/// Whether a material's diffuse colour varies over its relief in such a way that colours can be
+/// found by place: the map of colours, and that of metal, lie on the surface as the heights do.
+bool passes_has_coloured_relief(const device_material *material);
+
+/// Adds the passes that make it for a material with a relief: those of the relief, basis_cells,
+/// transfer_basis, facet_transfer,
+/// facet_links, facet_colours, facet_bounces, cell_transfer, facet_normals, level_reduction and
+/// transfer_closure. They run when the height map or its scale changes; when colours do only if
+/// `coloured`, and then without facet_transfer and facet_links. A map whose facets a buffer cannot
+/// hold fails the frame.
 transfer_map passes_transfer_map(const filter_context *context, uint32_t material,
                                  const transfer_kind *kind);
 

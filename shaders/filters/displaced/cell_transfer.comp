@@ -1,24 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The first level of the map of transfer (interface/displacement/relief.h): means over the facets
-// under each texel, of half the size of the relief. A thread a texel.
+// The first level of a channel of the map of transfer (interface/displacement/relief.h): means over
+// the facets under each texel, of half the size of the relief. A thread a texel.
 
 #include "filters/displaced/facets.glsl"
+#include "filters/displaced/facet_colours.glsl"
+#include "filters/displaced/facet_words.glsl"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/map/box_reduction.glsl"
 
-layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
-
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 4, std430) readonly buffer transfer_words { uint words[]; };
 layout(set = 0, binding = 6, std430) readonly buffer source_block { vec4 source[]; };
 layout(set = 0, binding = 7, std430) readonly buffer first_block { vec4 first_bounce[]; };
 layout(set = 0, binding = 8) uniform writeonly image2DArray transfer_map;
 
-const uint DIRECT = ORDER * (ORDER + 1u) / 2u;
-const uint VISIBLE = DIRECT + TRANSFER_INDIRECT_COUNT + 1u;
+const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
+const uint VISIBLE = TRANSFER_ENTRIES(ORDER);
 const uint MAXIMUM_ENTRIES = 68u;
 
 float entries[MAXIMUM_ENTRIES];
@@ -28,27 +27,26 @@ float integral_of(vec4 coefficients) {
 }
 
 void add_facet(uint index, float weight) {
-    facet own = facet_of(index);
-    float b[10];
-    for (uint k = 0u; k < TRANSFER_WORDS; ++k) {
-        vec2 pair = unpackHalf2x16(words[index * TRANSFER_WORDS + k]);
-        b[2u * k] = pair.x;
-        b[2u * k + 1u] = pair.y;
-    }
-    float area = weight * INVERSE_PI / own.normal.z;
+    float b[TRANSFER_MAXIMUM_ORDER];
+    for (uint k = 0u; k < ORDER; ++k)
+        b[k] = facet_coefficient(index, k);
+    vec4 own = smooth_coefficients(index);
+    vec2 colour = colours_of_facet(index, transfer.channel);
+    float area = weight * INVERSE_PI / facet_of(index).normal.z;
     for (uint i = 0u; i < ORDER; ++i)
         for (uint j = 0u; j <= i; ++j)
-            entries[i * (i + 1u) / 2u + j] += area * b[i] * b[j];
+            entries[i * (i + 1u) / 2u + j] += colour.x * area * b[i] * b[j];
     for (uint i = 0u; i < ORDER; ++i)
         entries[VISIBLE + i] += PI * area * b[i];
     vec4 other = source[index];
     for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
         for (uint j = 0u; j <= i; ++j)
             entries[DIRECT + i * (i + 1u) / 2u + j] +=
-                0.5 * area * (b[i] * other[j] + b[j] * other[i]);
+                0.5 * colour.y * area * (own[i] * other[j] + own[j] * other[i]);
     entries[DIRECT + TRANSFER_INDIRECT_COUNT] +=
-        area * integral_of(vec4(b[0], b[1], b[2], b[3])) * integral_of(first_bounce[index]) *
-        INVERSE_PI;
+        COLOURED ? weight * colour.x
+                 : area * integral_of(own) *
+                       integral_of(first_bounce[index]) * INVERSE_PI;
 }
 
 void main() {
@@ -67,7 +65,7 @@ void main() {
             add_facet(2u * quad + 1u, 0.5 * columns[x] * rows[y]);
         }
     }
-    for (uint i = 0u; 4u * i < VISIBLE + ORDER; ++i)
+    for (uint i = 0u; i < uint(imageSize(transfer_map).z); ++i)
         imageStore(transfer_map, ivec3(texel, i),
                    vec4(entries[4u * i], entries[4u * i + 1u], entries[4u * i + 2u],
                         entries[4u * i + 3u]));

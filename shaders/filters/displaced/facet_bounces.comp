@@ -1,15 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// One step of the light between facets: o = mean over links of b + o, of the first four functions.
-// In the first step o is 0, and what results is also kept as its integral with diffuse light.
+// One step of the light between facets: o = mean over links of r (b + o), of the first four
+// polynomials, with what the facets reflect, r, of one channel. In the first step o is 0.
 
 #include "interface/displacement/relief.h"
-#include "lib/displacement/transfer_basis.glsl"
+#include "filters/displaced/facet_colours.glsl"
+#include "filters/displaced/facet_words.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 4, std430) readonly buffer transfer_words { uint words[]; };
 layout(set = 0, binding = 5, std430) readonly buffer link_block { uint links[]; };
 layout(set = 0, binding = 6, std430) readonly buffer source_block { vec4 source[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer target_block { vec4 target[]; };
@@ -17,9 +17,9 @@ layout(set = 0, binding = 7, std430) writeonly buffer target_block { vec4 target
 layout(push_constant) uniform transfer_block { transfer_constants transfer; };
 
 vec4 seen(uint link) {
-    vec4 b = vec4(unpackHalf2x16(words[link * TRANSFER_WORDS]),
-                  unpackHalf2x16(words[link * TRANSFER_WORDS + 1u]));
-    return transfer.first != 0u ? b : b + source[link];
+    vec4 b = smooth_coefficients(link);
+    return colours_of_facet(link, transfer.channel).y *
+           (transfer.first != 0u ? b : b + source[link]);
 }
 
 void main() {

@@ -2,12 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 // What the mean of a whole map of transfer lacks of reflecting all light, if it were white, and how
-// much of the light between facets goes on. One thread.
+// much of the light between facets goes on. One thread. Nothing where colours vary.
 
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
+layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 
 layout(local_size_x = 1) in;
 
@@ -15,9 +16,12 @@ layout(set = 0, binding = 0) uniform sampler2DArray transfer_map;
 layout(set = 0, binding = 1, std430) writeonly buffer closure_block {
     transfer_closure_constants closure;
 };
+layout(set = 0, binding = 2, std430) readonly buffer basis_block {
+    transfer_basis_constants basis;
+};
 layout(set = 0, binding = 35, std430) readonly buffer height_extent_block { vec4 height_extent; };
 
-const uint DIRECT = ORDER * (ORDER + 1u) / 2u;
+const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
 
 float entry(uint i) {
     return texelFetch(transfer_map, ivec3(0, 0, i / 4u), 0)[i % 4u];
@@ -28,31 +32,42 @@ float of_matrix(uint first, uint i, uint j) {
     return entry(first + row * (row + 1u) / 2u + column);
 }
 
+float integral_of(uint k) {
+    return basis.integrals[k / 4u][k % 4u];
+}
+
 void main() {
-    float lacking[12], visible[12];
-    float direct = 0.0;
+    float lacking[16], functions[9], visible[12];
+    float direct = 0.0, lost = 0.0;
     for (uint i = 0u; i < 12u; ++i)
-        lacking[i] = visible[i] = 0.0;
+        visible[i] = i < ORDER ? entry(TRANSFER_ENTRIES(ORDER) + i) : 0.0;
     for (uint i = 0u; i < ORDER; ++i) {
-        float at_once = 0.0, later = 0.0;
-        for (uint j = 0u; j < ORDER; ++j) {
-            at_once += of_matrix(0u, i, j) * TRANSFER_INTEGRAL[j];
-            if (i < TRANSFER_INDIRECT && j < TRANSFER_INDIRECT)
-                later += of_matrix(DIRECT, i, j) * TRANSFER_INTEGRAL[j];
-        }
-        lacking[i] = (i == 0u ? TRANSFER_COSINE : 0.0) - at_once - later;
-        visible[i] = entry(DIRECT + TRANSFER_INDIRECT_COUNT + 1u + i);
-        direct += INVERSE_PI * TRANSFER_INTEGRAL[i] * at_once;
+        functions[i] = 0.0;
+        for (uint j = 0u; j < ORDER; ++j)
+            functions[i] += of_matrix(0u, i, j) * integral_of(j);
+        direct += INVERSE_PI * integral_of(i) * functions[i];
     }
-    for (int i = 0; i < 3; ++i) {
+    for (uint i = 0u; i < 16u; ++i) {
+        lacking[i] = i == 0u ? TRANSFER_COSINE : 0.0;
+        for (uint k = 0u; k < ORDER; ++k)
+            lacking[i] -= basis.functions[4u * k + i / 4u][i % 4u] * functions[k];
+        for (uint j = 0u; i < TRANSFER_INDIRECT && j < TRANSFER_INDIRECT; ++j)
+            lacking[i] -= of_matrix(DIRECT, i, j) * TRANSFER_INTEGRAL[j];
+        if (COLOURED)
+            lacking[i] = 0.0;
+        lost += lacking[i] * TRANSFER_INTEGRAL[i];
+    }
+    for (int i = 0; i < 4; ++i)
         closure.lacking[i] =
             vec4(lacking[4 * i], lacking[4 * i + 1], lacking[4 * i + 2], lacking[4 * i + 3]);
+    for (int i = 0; i < 3; ++i)
         closure.visible[i] =
             vec4(visible[4 * i], visible[4 * i + 1], visible[4 * i + 2], visible[4 * i + 3]);
-    }
     float rest = 1.0 - direct, next = entry(DIRECT + TRANSFER_INDIRECT_COUNT);
-    closure.persistence = rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
+    closure.lost = lost;
+    closure.persistence =
+        !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
     closure.radius = height_extent.z;
-    closure.padding = 0.0;
+    closure.basis = basis;
 }

@@ -42,38 +42,71 @@ INTERFACE_OFFSET(height_field_constants, levels, 16)
 #define HEIGHT_MAXIMUM 65536.0
 
 // ---------------------------------------------------------------------------------------------
-// What the filter `displaced` keeps of a relief. b are the coefficients, in the functions of
-// lib/displacement/transfer_basis.glsl, of the cosine of a facet's normal where its centre sees the
-// sky; o are those of the light that other facets send it, if all reflect everything and the sky
-// shines as each function. With a, the area of a facet over that of its projection, and means over
-// the facets of a cell:
+// What the filter `displaced` keeps of a relief. b are the coefficients, in functions of direction,
+// of the cosine of a facet's normal where its centre sees the sky; o are those of the light that
+// other facets send it, if all reflect everything and the sky shines as each function. With a, the
+// area of a facet over that of its projection, and means over the facets of a cell:
 //
 // entries of a texel, four to a layer:
 // [0, n (n + 1) / 2)   C = mean a b b^T / pi, lower triangle, row by row; n: order
-// then 10              N = mean a (b o^T + o b^T) / (2 pi), of the first four functions
+// then 10              N = mean a (b o^T + o b^T) / (2 pi), of the first four polynomials: light
+//                      between facets depends on directions smoothly
 // then                 mean of what the facets reflect of light that has met one other facet
 // then n               mean a b: the area that is seen from each direction, over that of the cell
+//
+// Where the diffuse colour varies over the relief, so do these, for red, green and blue, each from
+// a layer of its own on; the seen area is red's. C = mean s a b b^T / pi with the diffuse colour s,
+// N has a factor r, all that a facet reflects, and o is of light that is multiplied by r at each
+// facet. What has met one other facet is the mean of s instead.
 #define TRANSFER_MAXIMUM_ORDER  9
+#define TRANSFER_BASIS_TERMS    16 // polynomials that a function is a sum of
 #define TRANSFER_INDIRECT       4
 #define TRANSFER_INDIRECT_COUNT 10
 #define TRANSFER_LINKS          4
-#define TRANSFER_WORDS          5 // of a facet's b, two coefficients to a word
+#define TRANSFER_COLOUR_WORDS   3 // of a facet's s and r, two to a word
+// Words of a facet's b, which ends with the coefficients in the second to fourth polynomial;
+// entries of a channel, and layers of the first and of each further one.
+#define TRANSFER_WORDS(order)          (((order) + TRANSFER_INDIRECT) / 2u)
+#define TRANSFER_DIRECT_COUNT(order)   ((order) * ((order) + 1u) / 2u)
+#define TRANSFER_ENTRIES(order)        (TRANSFER_DIRECT_COUNT(order) + TRANSFER_INDIRECT_COUNT + 1u)
+#define TRANSFER_FIRST_LAYERS(order)   ((TRANSFER_ENTRIES(order) + (order) + 3u) / 4u)
+#define TRANSFER_FURTHER_LAYERS(order) ((TRANSFER_ENTRIES(order) + 3u) / 4u)
+
+// The functions, made for each map by transfer_basis: sums of the polynomials of
+// lib/displacement/transfer_basis.glsl, orthonormal. The first is the first polynomial; the others
+// are those in which the light that cells of the map reflect at once differs the most. Cells of so
+// many quads' side, in each of which so many quads are looked at, up to so many along a side.
+#define TRANSFER_BASIS_CELL    16
+#define TRANSFER_BASIS_POINTS  8
+#define TRANSFER_BASIS_MAXIMUM 12
+struct transfer_basis_constants {
+    float4 functions[4 * TRANSFER_MAXIMUM_ORDER]; // 16 factors each
+    float4 integrals[3];                          // over the hemisphere; the last is 0, but for x
+};
+INTERFACE_SIZE(transfer_basis_constants, 624)
+INTERFACE_OFFSET(transfer_basis_constants, integrals, 576)
+#ifndef VULKAN
+typedef struct transfer_basis_constants transfer_basis_constants;
+#endif
 
 // Of the whole map, written by transfer_closure.
 struct transfer_closure_constants {
+    transfer_basis_constants basis;
     // What the mean of C and N lacks, so that a white relief reflects all light.
-    float4 lacking[3]; // the last is 0, but for x
-    float4 visible[3]; // mean a b, likewise
+    float4 lacking[4]; // in all polynomials
+    float4 visible[3]; // mean a b; the last is 0, but for x
+    float lost;        // the integral of what lacks
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
     float radius;      // of the facets' normals, see below
-    float padding;
 };
-INTERFACE_SIZE(transfer_closure_constants, 112)
-INTERFACE_OFFSET(transfer_closure_constants, visible, 48)
-INTERFACE_OFFSET(transfer_closure_constants, persistence, 96)
-INTERFACE_OFFSET(transfer_closure_constants, direct, 100)
-INTERFACE_OFFSET(transfer_closure_constants, radius, 104)
+INTERFACE_SIZE(transfer_closure_constants, 752)
+INTERFACE_OFFSET(transfer_closure_constants, lacking, 624)
+INTERFACE_OFFSET(transfer_closure_constants, visible, 688)
+INTERFACE_OFFSET(transfer_closure_constants, lost, 736)
+INTERFACE_OFFSET(transfer_closure_constants, persistence, 740)
+INTERFACE_OFFSET(transfer_closure_constants, direct, 744)
+INTERFACE_OFFSET(transfer_closure_constants, radius, 748)
 
 // The facets' normals as places in the Lambert plane of the tangent frame, in bins
 // (lib/displacement/facet_bins.glsl): the first of those nearer to the pole than the others, then
@@ -87,15 +120,35 @@ struct transfer_constants {
     uint width; // quads
     uint height;
     uint azimuths;
-    uint first; // facet_bounces: 1 in the first step
+    uint first;   // facet_bounces: 1 in the first step
+    uint channel; // of colour, where that varies
 };
-INTERFACE_SIZE(transfer_constants, 16)
+INTERFACE_SIZE(transfer_constants, 20)
 INTERFACE_OFFSET(transfer_constants, height, 4)
 INTERFACE_OFFSET(transfer_constants, azimuths, 8)
 INTERFACE_OFFSET(transfer_constants, first, 12)
+INTERFACE_OFFSET(transfer_constants, channel, 16)
 
-// uint, 4 or 9: how many functions C has
+// Push constants of facet_colours.
+struct colour_constants {
+    float4 base_colour; // factor of the map
+    uint width;         // quads
+    uint height;
+    uint points;    // at which colours are read in each facet, along a side
+    float metallic; // factor of the map
+};
+INTERFACE_SIZE(colour_constants, 32)
+INTERFACE_OFFSET(colour_constants, width, 16)
+INTERFACE_OFFSET(colour_constants, height, 20)
+INTERFACE_OFFSET(colour_constants, points, 24)
+INTERFACE_OFFSET(colour_constants, metallic, 28)
+
+// uint, 4 to 9: how many functions C has
 #define SPECIALISE_TRANSFER_ORDER (SPECIALISE_FILTER + 32)
+// bool: the diffuse colour varies over the relief
+#define SPECIALISE_TRANSFER_COLOURED (SPECIALISE_FILTER + 33)
+// bool: pixels may see less than two of the height map's texels
+#define SPECIALISE_TRANSFER_MAGNIFIED (SPECIALISE_FILTER + 34)
 
 // bool: the material has a relief
 #define SPECIALISE_RELIEF (SPECIALISE_FILTER + 30)

@@ -56,8 +56,8 @@ void relief_plane_add_sky(lobe_scene *scene) {
     scene_surround(scene, 16, shine);
 }
 
-double relief_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
-                         uint32_t samples) {
+void relief_plane_draw_colour(fixture *f, lobe_scene *scene, const char *filter,
+                              const char *setting, uint32_t samples, double mean[3]) {
     scene_end(scene);
     picture_request request = {.filter = filter,
                                .settings = {"env_size=16", setting},
@@ -65,9 +65,18 @@ double relief_plane_draw(fixture *f, lobe_scene *scene, const char *filter, cons
                                .height = SIDE,
                                .samples = samples / (SIDE * SIDE)};
     lobe_frame frame = draw_scene(f, scene, &request);
-    double sum = 0;
-    for (uint32_t i = 0; i < SIDE * SIDE; i++)
-        sum += (double)pixel_at(&frame.radiance, i % SIDE, i / SIDE)[1];
+    for (int channel = 0; channel < 3; channel++) {
+        double sum = 0;
+        for (uint32_t i = 0; i < SIDE * SIDE; i++)
+            sum += (double)pixel_at(&frame.radiance, i % SIDE, i / SIDE)[channel];
+        mean[channel] = sum / (SIDE * SIDE);
+    }
     lobe_frame_free(&frame);
-    return sum / (SIDE * SIDE);
+}
+
+double relief_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
+                         uint32_t samples) {
+    double mean[3];
+    relief_plane_draw_colour(f, scene, filter, setting, samples, mean);
+    return mean[1];
 }

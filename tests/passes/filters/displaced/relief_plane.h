@@ -24,7 +24,10 @@ void relief_plane_add_sun(lobe_scene *scene, const double incoming[3], double ir
 /// Radiance 1 from above.
 void relief_plane_add_sky(lobe_scene *scene);
 
-/// The mean of a picture's green, of so many samples in all, at least 64.
+/// The mean of a picture's red, green and blue, of so many samples in all, at least 64.
+void relief_plane_draw_colour(fixture *f, lobe_scene *scene, const char *filter,
+                              const char *setting, uint32_t samples, double mean[3]);
+/// The same of its green.
 double relief_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
                          uint32_t samples);
 

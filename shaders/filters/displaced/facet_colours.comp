@@ -1,0 +1,68 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// The colours of each facet (interface/displacement/relief.h): of what it reflects diffusely, and
+// of all that it reflects, which counts between facets. The maps lie on the relief as its heights
+// do. One thread a facet.
+
+#include "interface/displacement/relief.h"
+
+layout(local_size_x = 64) in;
+
+layout(constant_id = SPECIALISE_MODEL) const uint MODEL = MODEL_MICROFACET;
+layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = false;
+
+layout(set = 0, binding = 1) uniform sampler2D base_colour_map;
+layout(set = 0, binding = 2) uniform sampler2D width_map;
+layout(set = 0, binding = 3, std430) writeonly buffer colour_words { uint words[]; };
+
+layout(push_constant) uniform colour_block { colour_constants constants; };
+
+struct facet_colours {
+    vec3 diffuse;
+    vec3 reflected;
+};
+
+facet_colours colours_at(vec2 point) {
+    vec3 albedo = clamp(
+        constants.base_colour.rgb * textureLod(base_colour_map, point, 0.0).rgb, 0.0, 1.0);
+    if (MODEL != MODEL_MICROFACET)
+        return facet_colours(albedo, albedo);
+    float metallic = constants.metallic;
+    if (METALLIC_MAP)
+        metallic *= textureLod(width_map, point, 0.0).b;
+    // glTF 2.0, appendix B.2.
+    vec3 mirrored = mix(vec3(0.04), albedo, metallic), diffuse = albedo * (1.0 - metallic);
+    return facet_colours(diffuse, mirrored + diffuse * (1.0 - mirrored));
+}
+
+// The middle of part `i` of `points` * `points` triangles that the facet below the diagonal is
+// divided into.
+vec2 part_of_facet(uint i) {
+    uint column = uint(sqrt(float(i) + 0.5)), row = i - column * column;
+    vec2 inside = (row & 1u) == 0u ? vec2(2.0, 1.0) / 3.0 : vec2(1.0, 2.0) / 3.0;
+    return (vec2(column, row / 2u) + inside) / float(constants.points);
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= 2u * constants.width * constants.height)
+        return;
+    uint quad = index / 2u;
+    vec2 vertex = vec2(quad % constants.width, quad / constants.width) + 0.5;
+    facet_colours mean = facet_colours(vec3(0.0), vec3(0.0));
+    uint count = constants.points * constants.points;
+    for (uint i = 0u; i < count; ++i) {
+        vec2 inside = part_of_facet(i);
+        if ((index & 1u) != 0u)
+            inside = inside.yx;
+        facet_colours colours =
+            colours_at((vertex + inside) / vec2(constants.width, constants.height));
+        mean.diffuse += colours.diffuse / float(count);
+        mean.reflected += colours.reflected / float(count);
+    }
+    words[index * TRANSFER_COLOUR_WORDS] = packHalf2x16(mean.diffuse.rg);
+    words[index * TRANSFER_COLOUR_WORDS + 1u] =
+        packHalf2x16(vec2(mean.diffuse.b, mean.reflected.r));
+    words[index * TRANSFER_COLOUR_WORDS + 2u] = packHalf2x16(mean.reflected.gb);
+}
