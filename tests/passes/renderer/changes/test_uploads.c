@@ -287,12 +287,16 @@ static void equal_constants_are_not_written(void **state) {
     const uint64_t before = picture(f, f->renderer);
     check_update(f, scene, &changes, 0, 0);
     assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN), 1);
-    // A colour is only in what shading reads, a width also in what maps are made of.
-    scene->materials[3].base_colour[1] = 0.25f;
+    // Where a map lies is only in what shading reads, a colour also in what maps of lobes with
+    // their colours are made of, a width in what all are made of.
+    scene->materials[3].normal_map.transform[0][2] = 0.25f;
     check_update(f, scene, &changes, 1, 0);
     assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN), 1);
-    scene->materials[2].lobes[0].width = 50;
+    scene->materials[3].base_colour[1] = 0.25f;
     check_update(f, scene, &changes, 2, 0);
+    assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN), 1);
+    scene->materials[2].lobes[0].width = 50;
+    check_update(f, scene, &changes, 3, 0);
     assert_true(picture(f, f->renderer) != before);
     stop(f, &scene);
 }
