@@ -2,8 +2,8 @@
 #include "passes/context/shared_knobs.h"
 #include "passes/filters/slope_knobs.h"
 #include "passes/maps/filtered_maps.h"
-#include "passes/maps/seen_tiles.h"
 #include "passes/maps/slope_moments.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/maps/waves.h"
 #include "shaders/interface/slope_moments.h"
 

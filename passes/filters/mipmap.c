@@ -1,7 +1,7 @@
 #include "passes/context/filter.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/parameter_averaging.h"
-#include "passes/maps/seen_tiles.h"
+#include "passes/maps/tile_knobs.h"
 
 static const filter_knob *const knobs[] = {&passes_knob_probes,
                                            &passes_knob_anisotropy,

@@ -8,6 +8,7 @@
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
 #include "passes/maps/mask_coverage.h"
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/knobs.h"
 #include "shaders/interface/specialisation.h"
@@ -93,8 +94,8 @@ static lobe_resource filtered_image(const filter_context *context, const device_
         return *filtered;
     char name[64];
     snprintf(name, sizeof name, "filtered image %d", source->use->image);
-    reduced_map reduced = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
-                                                     source->width, source->height, 1, true);
+    reduced_map reduced =
+        passes_seen_image_declare(context, material, map, name, LOBE_FORMAT_RGBA16_FLOAT);
     passes_level_reduction_from(
         context->graph, &reduced,
         passes_device_map_import(context->graph, context->scene, material, map), source->width,
@@ -129,6 +130,11 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
         return false;
     // The filter's own map holds the widths; the map may also hold metalness.
     return map != MAP_WIDTH || material->metallic_varies;
+}
+
+bool passes_filtered_map_is_image(const device_material *material, uint32_t map) {
+    const bool masked = map == MAP_BASE_COLOUR && material->material->alpha_mask;
+    return filtered_names[map] && !masked && needs_filtering(material, map);
 }
 
 /// Whether a map's texels and coordinates are those of the lobes.

@@ -9,6 +9,9 @@
 void passes_filtered_maps_build(const filter_context *context, uint32_t material,
                                 filtered_appearance *appearance);
 
+/// Whether that makes a filtered image of a material's map.
+bool passes_filtered_map_is_image(const device_material *material, uint32_t map);
+
 /// The format of filtered maps that the knob "storage" selects.
 lobe_format passes_filtered_map_format(const filter_context *context);
 

@@ -2,43 +2,8 @@
 
 #include <stdio.h>
 
-#include "passes/context/knob_values.h"
-#include "passes/context/sample_count.h"
-#include "passes/maps/filtered_maps.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/map_tiles.h"
-
-static const char *const extents[] = {"whole", "seen", NULL};
-static const char *const sample_numbers[] = {"all", "4", "16", "64", NULL};
-
-const filter_knob passes_knob_built = {
-    .description = {.name = "built",
-                    .summary = "what is made of the material's map: the whole; or, with samples=1, "
-                               "only tiles that pixels read, for large maps that change often",
-                    .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 1,
-                    .choices = extents},
-    .needs = "fragmentStoresAndAtomics",
-};
-const filter_knob passes_knob_texel_samples = {
-    .description = {.name = "texel_samples",
-                    .summary = "with built=seen: how many points of the base maps a texel of a "
-                               "level above the first is made from; all: it is their exact mean",
-                    .kind = LOBE_KNOB_CHOICE,
-                    .maximum = 3,
-                    .choices = sample_numbers},
-};
-
-bool passes_wants_seen_tiles(const filter_context *context) {
-    const sample_count samples = passes_sample_count(context);
-    return passes_knob_choice(context, &passes_knob_built) > 0 && samples.most == 1 &&
-           passes_knob_choice(context, &passes_knob_anisotropy) == 1;
-}
-
-uint32_t passes_texel_samples(const filter_context *context) {
-    const uint32_t choice = passes_knob_choice(context, &passes_knob_texel_samples);
-    return context->marks && choice > 0 ? 1u << choice : 0;
-}
 
 static uint32_t extent_at(uint32_t size, uint32_t level) {
     return size >> level > 0 ? size >> level : 1;
@@ -87,15 +52,25 @@ static bool is_given(const device_scene *scene, const device_material *material)
     return given;
 }
 
-/// A number, above 0, of what tiles are made from.
+/// A number, above 0. `given`: the host may give other texels in every frame.
+static uint32_t end_digest(const tile_marks *marks, uint32_t digest, bool given) {
+    if (marks->rebuild || given)
+        digest = mix(digest, &marks->frame, sizeof marks->frame);
+    return digest > 0 ? digest : 1;
+}
+
+/// A number of what tiles of a material's lobes are made from.
 static uint32_t content_of(const filter_context *context, const device_material *material) {
-    const tile_marks *marks = context->marks;
     uint32_t digest = mix(2166136261u, &material->version, sizeof material->version);
     digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
     digest = mix(digest, context->settings, sizeof *context->settings);
-    if (marks->rebuild || is_given(context->scene, material))
-        digest = mix(digest, &marks->frame, sizeof marks->frame);
-    return digest > 0 ? digest : 1;
+    return end_digest(context->marks, digest, is_given(context->scene, material));
+}
+
+static uint32_t content_of_image(const filter_context *context, int32_t image) {
+    const uint32_t version = context->scene->image_versions[image];
+    return end_digest(context->marks, mix(2166136261u, &version, sizeof version),
+                      context->scene->scene->images[image].on_device);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -109,12 +84,17 @@ static lobe_resource declare_numbers(lobe_graph *graph, const char *name, uint32
                                                                .retained = retained});
 }
 
-static void list_tiles(const filter_context *context, uint32_t index, const char *name,
-                       bool reduced, reduced_map *map) {
+/// What tiles of a map are made of.
+typedef struct tile_source {
+    uint32_t width, height; ///< texels
+    uint32_t first_mark, content;
+    bool reduced;
+} tile_source;
+
+static void list_tiles(const filter_context *context, const tile_source *source, const char *name,
+                       reduced_map *map) {
     lobe_graph *graph = context->graph;
-    const device_material *material = &context->scene->materials[index];
-    const uint32_t count =
-        passes_map_tile_count(passes_lobe_grid(material).width, passes_lobe_grid(material).height);
+    const uint32_t count = passes_map_tile_count(source->width, source->height);
     char states_name[96], list_name[96];
     snprintf(states_name, sizeof states_name, "tiles of %s", name);
     snprintf(list_name, sizeof list_name, "tile list of %s", name);
@@ -124,14 +104,14 @@ static void list_tiles(const filter_context *context, uint32_t index, const char
     map->keeps =
         lobe_graph_has_content(graph, states) && lobe_graph_has_content(graph, map->resource);
     const struct tile_list_constants constants = {
-        .first_mark = context->marks->first_marks[index],
+        .first_mark = source->first_mark,
         .width = map->width,
         .height = map->height,
         .levels = map->levels,
         .layers = map->layers,
-        .content = content_of(context, material),
+        .content = source->content,
         .forgets = !map->keeps,
-        .reduced = reduced,
+        .reduced = source->reduced,
     };
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass, &(lobe_binding){.name = "mark_block", .resource = context->marks->marks});
@@ -147,10 +127,30 @@ static void list_tiles(const filter_context *context, uint32_t index, const char
 
 reduced_map passes_seen_map_declare(const filter_context *context, uint32_t index, const char *name,
                                     lobe_format format, uint32_t layers, bool reduced) {
-    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[index]);
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
     reduced_map map = passes_reduced_map_declare(context->graph, name, format, grid.width,
                                                  grid.height, layers, !context->marks);
-    if (context->marks)
-        list_tiles(context, index, name, reduced, &map);
+    if (!context->marks)
+        return map;
+    const tile_source source = {grid.width, grid.height, context->marks->first_marks[index],
+                                content_of(context, material), reduced};
+    list_tiles(context, &source, name, &map);
+    return map;
+}
+
+reduced_map passes_seen_image_declare(const filter_context *context,
+                                      const device_material *material, uint32_t index,
+                                      const char *name, lobe_format format) {
+    const device_map *own = &material->maps[index];
+    const uint32_t first =
+        context->marks ? context->marks->first_image_marks[own->image] : NO_TILE_MARKS;
+    reduced_map map = passes_reduced_map_declare(context->graph, name, format, own->width,
+                                                 own->height, 1, first == NO_TILE_MARKS);
+    if (first == NO_TILE_MARKS)
+        return map;
+    const tile_source source = {own->width, own->height, first,
+                                content_of_image(context, own->image), true};
+    list_tiles(context, &source, name, &map);
     return map;
 }

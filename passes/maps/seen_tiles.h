@@ -12,23 +12,16 @@
 
 /// Of which tiles a frame's pixels read texels.
 typedef struct tile_marks {
-    lobe_resource marks;         ///< a number for each tile of all maps; above 0: read
-    const uint32_t *first_marks; ///< of each material of the scene
+    lobe_resource marks; ///< a number for each tile of all maps; above 0: read
+    /// Of the map of lobes of each material of the scene, and of each image, filtered; the latter
+    /// may be NO_TILE_MARKS.
+    const uint32_t *first_marks, *first_image_marks;
     /// Of this frame: what the host gives on the device may differ from frame to frame.
     uint32_t frame;
     bool rebuild; ///< tiles of earlier frames count as out of date
 } tile_marks;
 
-/// Knobs of filters that can make their maps so.
-extern const filter_knob passes_knob_built, passes_knob_texel_samples;
-
-/// Whether the knobs ask for it, and the frame allows it: one sample for each pixel, no anisotropic
-/// sampler, whose texels are the device's choice.
-bool passes_wants_seen_tiles(const filter_context *context);
-
-/// The knob `texel_samples`, along each axis of a texel; 0: all texels, also where maps are made
-/// whole.
-uint32_t passes_texel_samples(const filter_context *context);
+#define NO_TILE_MARKS UINT32_MAX // the map is made whole
 
 /// Tiles of all levels of a map that is made from `width` x `height` texels.
 uint32_t passes_map_tile_count(uint32_t width, uint32_t height);
@@ -43,5 +36,10 @@ uint32_t passes_map_tile_levels(uint32_t width, uint32_t height, uint32_t first_
 reduced_map passes_seen_map_declare(const filter_context *context, uint32_t material,
                                     const char *name, lobe_format format, uint32_t layers,
                                     bool reduced);
+/// The same for the filtered image that a material's map is made of, which has one layer and is
+/// reduced from the image.
+reduced_map passes_seen_image_declare(const filter_context *context,
+                                      const device_material *material, uint32_t map,
+                                      const char *name, lobe_format format);
 
 #endif

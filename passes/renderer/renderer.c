@@ -81,8 +81,9 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     renderer->filtered_images =
         lobe_allocate(renderer->host.allocator, scene->image_count + scene->material_count + 1,
                       sizeof *renderer->filtered_images);
-    renderer->first_marks = lobe_allocate(renderer->host.allocator, scene->material_count + 1,
-                                          sizeof *renderer->first_marks);
+    renderer->first_marks =
+        lobe_allocate(renderer->host.allocator, scene->material_count + scene->image_count + 1,
+                      sizeof *renderer->first_marks);
     if (passes_draw_list_create(&renderer->draws, scene->mesh_count, renderer->host.allocator) &&
         reserve_instances(renderer, scene->instance_count) && renderer->filtered_images &&
         renderer->first_marks) {

@@ -3,20 +3,60 @@
 #include "passes/context/knob_values.h"
 #include "passes/filters/material_shading.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/renderer/shading.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/map_tiles.h"
 
-/// Tells each material where its marks are; returns the number of all.
+static bool marks_lobes(const device_material *material) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    return passes_lobe_grid_varies(&grid);
+}
+
+static bool marks_map(const device_material *material, uint32_t map) {
+    return map == MAP_NORMAL ? marks_lobes(material) : passes_filtered_map_is_image(material, map);
+}
+
+static bool marks_anything(const device_material *material) {
+    bool marks = false;
+    for (uint32_t map = 0; map < MAP_SHADING; map++)
+        marks |= marks_map(material, map);
+    return marks;
+}
+
+/// Where a material's marks of a map are: with those of its lobes, or those of the image.
+static uint32_t *place_of(const rendering *r, size_t material, uint32_t map) {
+    const device_scene *scene = r->context.scene;
+    uint32_t *first = r->renderer->first_marks;
+    return map == MAP_NORMAL ? &first[material]
+                             : &first[scene->scene->material_count +
+                                      (size_t)scene->materials[material].maps[map].image];
+}
+
+static uint32_t width_of(const device_material *material, uint32_t map) {
+    return map == MAP_NORMAL ? passes_lobe_grid(material).width : material->maps[map].width;
+}
+
+static uint32_t height_of(const device_material *material, uint32_t map) {
+    return map == MAP_NORMAL ? passes_lobe_grid(material).height : material->maps[map].height;
+}
+
+/// Tells each material and image where its marks are; returns the number of all.
 static uint32_t place_marks(rendering *r) {
     const device_scene *scene = r->context.scene;
+    const size_t materials = scene->scene->material_count;
     uint32_t count = 0;
-    for (size_t i = 0; i < scene->scene->material_count; i++) {
-        const lobe_grid grid = passes_lobe_grid(&scene->materials[i]);
-        r->renderer->first_marks[i] = count;
-        if (scene->materials[i].first_instance > 0 && passes_lobe_grid_varies(&grid))
-            count += passes_map_tile_count(grid.width, grid.height);
+    for (size_t i = 0; i < materials + scene->scene->image_count; i++)
+        r->renderer->first_marks[i] = NO_TILE_MARKS;
+    for (size_t i = 0; i < materials; i++) {
+        const device_material *material = &scene->materials[i];
+        for (uint32_t map = 0; material->first_instance > 0 && map < MAP_SHADING; map++) {
+            if (!marks_map(material, map) || *place_of(r, i, map) != NO_TILE_MARKS)
+                continue;
+            *place_of(r, i, map) = count;
+            count += passes_map_tile_count(width_of(material, map), height_of(material, map));
+        }
     }
     return count;
 }
@@ -35,8 +75,8 @@ static void list_draws(rendering *r) {
     draw_list *draws = &r->renderer->draws;
     passes_draw_list_begin(draws, scene);
     for (size_t i = 0; i < scene->scene->material_count; i++) {
-        const lobe_grid grid = passes_lobe_grid(&scene->materials[i]);
-        uint32_t next = passes_lobe_grid_varies(&grid) ? scene->materials[i].first_instance : 0;
+        uint32_t next =
+            marks_anything(&scene->materials[i]) ? scene->materials[i].first_instance : 0;
         for (; next > 0; next = scene->instances[next - 1].next_of_material)
             if (!scene->scene->instances[next - 1].hidden)
                 passes_draw_list_add(draws, scene, next - 1, NULL, true);
@@ -44,18 +84,26 @@ static void list_draws(rendering *r) {
     passes_draw_list_end(draws, &r->context);
 }
 
-static lobe_resource upload_map(const rendering *r, uint32_t index) {
+static lobe_resource upload_maps(const rendering *r, uint32_t index) {
     static const uint wraps[] = {[LOBE_WRAP_REPEAT] = TILE_WRAP_REPEAT,
                                  [LOBE_WRAP_MIRROR] = TILE_WRAP_MIRROR,
                                  [LOBE_WRAP_CLAMP] = TILE_WRAP_CLAMP};
     const device_material *material = &r->context.scene->materials[index];
-    const lobe_grid grid = passes_lobe_grid(material);
-    const lobe_sampler sampler = passes_filtered_map_sampler(&r->context, material, grid.map);
-    struct tile_marking_constants constants = {.wrap_u = wraps[sampler.wrap_u],
-                                               .wrap_v = wraps[sampler.wrap_v]};
-    constants.count = passes_map_tile_levels(grid.width, grid.height,
-                                             r->renderer->first_marks[index], constants.levels);
-    return lobe_graph_upload(r->context.graph, "tiles", &constants, sizeof constants);
+    struct tile_marking_constants maps[MAP_SHADING] = {{0}};
+    for (uint32_t map = 0; map < MAP_SHADING; map++) {
+        if (!marks_map(material, map))
+            continue;
+        const uint32_t own = map == MAP_NORMAL ? passes_lobe_grid(material).map : map;
+        const uint32_t width = width_of(material, map), height = height_of(material, map);
+        const lobe_sampler sampler = passes_filtered_map_sampler(&r->context, material, own);
+        maps[map] = (struct tile_marking_constants){.wrap_u = wraps[sampler.wrap_u],
+                                                    .wrap_v = wraps[sampler.wrap_v],
+                                                    .width = width,
+                                                    .height = height};
+        maps[map].count =
+            passes_map_tile_levels(width, height, *place_of(r, index, map), maps[map].levels);
+    }
+    return lobe_graph_upload(r->context.graph, "tiles", maps, sizeof maps);
 }
 
 static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pass *pass) {
@@ -70,7 +118,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
          .resource = lobe_graph_import_buffer(graph, material->constants)},
-        {.name = "tile_block", .resource = upload_map(r, drawn->material)},
+        {.name = "tile_block", .resource = upload_maps(r, drawn->material)},
     };
     passes_material_maps_bind(context, material, bindings + 4);
     specialisation_list list = {.graph = graph};
@@ -130,6 +178,8 @@ void passes_tile_marking(rendering *r) {
         marks = draw_marks(r, marks);
     r->tile_marks = (tile_marks){.marks = marks,
                                  .first_marks = r->renderer->first_marks,
+                                 .first_image_marks = r->renderer->first_marks +
+                                                      r->context.scene->scene->material_count,
                                  .frame = ++r->renderer->marked_frames,
                                  .rebuild = r->parameters->rebuild};
     r->context.marks = &r->tile_marks;

@@ -58,18 +58,25 @@ INTERFACE_OFFSET(tile_level, height, 12)
 #define TILE_LEVEL struct tile_level
 #endif
 
-// How a draw marks the tiles that its pixels read (uniform block, std140).
+// How a draw marks the tiles of a map that its pixels read (std140), in a uniform block with one
+// for each map that shading binds. That of MAP_NORMAL is for the map of lobes.
 struct tile_marking_constants {
-    uint count;  // of levels
+    uint count;  // of levels; 0: none is marked
     uint wrap_u; // TILE_WRAP_...
     uint wrap_v;
-    uint padding;
+    uint width; // of what the map is made from, texels; not used for the map of lobes
+    uint height;
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
     TILE_LEVEL levels[MAP_TILE_LEVELS];
 };
-INTERFACE_SIZE(tile_marking_constants, 16 + 16 * MAP_TILE_LEVELS)
+INTERFACE_SIZE(tile_marking_constants, 32 + 16 * MAP_TILE_LEVELS)
 INTERFACE_OFFSET(tile_marking_constants, wrap_u, 4)
 INTERFACE_OFFSET(tile_marking_constants, wrap_v, 8)
-INTERFACE_OFFSET(tile_marking_constants, levels, 16)
+INTERFACE_OFFSET(tile_marking_constants, width, 12)
+INTERFACE_OFFSET(tile_marking_constants, height, 16)
+INTERFACE_OFFSET(tile_marking_constants, levels, 32)
 
 #define TILE_WRAP_REPEAT 0
 #define TILE_WRAP_MIRROR 1

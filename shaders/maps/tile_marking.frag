@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Marks the tiles of a map of lobes that a pixel reads: of both levels that its probes interpolate
+// Marks the tiles of filtered maps that a pixel reads: of both levels that its probes interpolate
 // between, the texels around each probe. Nothing that a device may read is left out: samplers round
 // coordinates and levels, and read texels whose weight is 0.
 
@@ -11,7 +11,9 @@
 
 layout(early_fragment_tests) in;
 
-layout(set = 0, binding = 50, std140) uniform tile_block { tile_marking_constants tiles; };
+layout(set = 0, binding = 50, std140) uniform tile_block {
+    tile_marking_constants maps[MAP_SHADING];
+};
 layout(set = 0, binding = 51, std430) buffer mark_block { uint marks[]; };
 
 // How far apart shading and a sampler may be, in levels and in texels.
@@ -49,9 +51,9 @@ void mark(uint tile) {
         atomicOr(marks[tile], 1u);
 }
 
-void mark_level(vec2 coordinates, vec2 within, tile_level level) {
-    ivec2 u = tiles_along(coordinates.x, within.x, int(level.width), tiles.wrap_u);
-    ivec2 v = tiles_along(coordinates.y, within.y, int(level.height), tiles.wrap_v);
+void mark_level(vec2 coordinates, vec2 within, uvec2 wrap, tile_level level) {
+    ivec2 u = tiles_along(coordinates.x, within.x, int(level.width), wrap.x);
+    ivec2 v = tiles_along(coordinates.y, within.y, int(level.height), wrap.y);
     uint upper = level.first_mark + uint(v.x) * level.columns;
     uint lower = level.first_mark + uint(v.y) * level.columns;
     mark(upper + uint(u.x));
@@ -63,17 +65,30 @@ void mark_level(vec2 coordinates, vec2 within, tile_level level) {
         mark(lower + uint(u.y));
 }
 
-void main() {
-    map_area area = lobe_area(read_surface());
+void mark_area(map_area area, int map) {
     float level = max(area.level - 1.0, 0.0);
-    int last = int(tiles.count) - 1;
+    int last = int(maps[map].count) - 1;
     int finest = clamp(int(floor(level - LEVEL_SLACK)), 0, last);
     int coarsest = clamp(int(floor(level + LEVEL_SLACK)) + 1, 0, last);
+    uvec2 wrap = uvec2(maps[map].wrap_u, maps[map].wrap_v);
     for (uint probe = 0u; probe < probes_of(area); ++probe) {
         vec2 coordinates = probe_position(area, probe);
-        vec2 within = vec2(within_period(coordinates.x, tiles.wrap_u),
-                           within_period(coordinates.y, tiles.wrap_v));
+        vec2 within =
+            vec2(within_period(coordinates.x, wrap.x), within_period(coordinates.y, wrap.y));
         for (int i = finest; i <= coarsest; ++i)
-            mark_level(coordinates, within, tiles.levels[i]);
+            mark_level(coordinates, within, wrap, maps[map].levels[i]);
+    }
+}
+
+void main() {
+    surface_point surface = read_surface();
+    for (int map = 0; map < MAP_SHADING; ++map) {
+        if (maps[map].count == 0u)
+            continue;
+        vec2 size = vec2(maps[map].width, maps[map].height);
+        if (map == MAP_NORMAL)
+            mark_area(lobe_area(surface), map);
+        else
+            mark_area(area_of(map, size, surface), map);
     }
 }

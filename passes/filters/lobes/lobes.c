@@ -6,7 +6,7 @@
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
-#include "passes/maps/seen_tiles.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 #include "passes/upload/transform.h"

@@ -6,6 +6,7 @@
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/seen_tiles.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
 

@@ -11,7 +11,7 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/moment_map.h"
-#include "passes/maps/seen_tiles.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/moment_bins.h"
 #include "shaders/interface/specialisation.h"

@@ -164,8 +164,18 @@ static lobe_scene *mapped_scene(uint32_t width, uint32_t height, double tiles,
     material.normal_map = scene_add_map(scene, random_normal_map(width, height, 0.5, width));
     material.metallic_roughness_map =
         scene_add_map(scene, random_map(width, height, 0.3, 0.9, height));
-    material.normal_map.wrap_u = material.metallic_roughness_map.wrap_u = wrap;
-    material.normal_map.wrap_v = material.metallic_roughness_map.wrap_v = wrap;
+    // Colours are laid out otherwise, and one of them as the lobes.
+    material.base_colour_map = scene_add_map(scene, random_map(2 * width, height, 0.2, 0.9, 3));
+    material.emissive_map = scene_add_map(scene, random_map(width + 33, 2 * height, 0, 1, 4));
+    material.base_colour_map.transform[0][0] = 0.75f;
+    material.base_colour_map.transform[0][2] = 0.3f;
+    material.emissive_map.transform[1][0] = 0.5f;
+    material.emissive[0] = material.emissive[1] = 0.2f;
+    material.metallic = 0.5f;
+    lobe_texture_use *const uses[] = {&material.normal_map, &material.metallic_roughness_map,
+                                      &material.base_colour_map, &material.emissive_map};
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++)
+        uses[i]->wrap_u = uses[i]->wrap_v = wrap;
     scene_add_square(scene, &material, tiles, NULL);
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
     scene_look_from(scene, views[0].towards, views[0].height);
@@ -253,13 +263,19 @@ static void pictures_equal_those_of_whole_maps(void **state) {
 // Content that changes
 
 /// A host that gives a copy of a texture.
+typedef struct texture_giver {
+    lobe_texture *texture;
+    uint32_t image; ///< of the scene
+} texture_giver;
+
 static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
-    const lobe_resource texture = lobe_graph_import_texture(graph, user);
+    const texture_giver *giver = user;
+    const lobe_resource texture = lobe_graph_import_texture(graph, giver->texture);
     lobe_image_description copy = lobe_graph_describe_image(graph, texture);
     copy.name = "given";
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "give");
-    content->images[0] = lobe_pass_copy(pass, texture, (lobe_range){0},
-                                        lobe_graph_image(graph, &copy), (lobe_range){0});
+    content->images[giver->image] = lobe_pass_copy(pass, texture, (lobe_range){0},
+                                                   lobe_graph_image(graph, &copy), (lobe_range){0});
 }
 
 static void fill(lobe_image *image, const float texel[4]) {
@@ -268,45 +284,62 @@ static void fill(lobe_image *image, const float texel[4]) {
 }
 
 /// A frame that sees the whole map, made from `poison`, then one that sees a part of it.
-static lobe_frame frame_after(fixture *f, lobe_scene *scene, lobe_texture *texture,
+static lobe_frame frame_after(fixture *f, lobe_scene *scene, const texture_giver *giver,
                               const lobe_image *poison, bool seen) {
     static const char *const settings[] = {"storage=float32", "partition=hats", NULL};
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     scene_look_from(scene, views[0].towards, views[0].height);
-    assert_int_equal(lobe_texture_update(texture, poison), LOBE_OK);
+    assert_int_equal(lobe_texture_update(giver->texture, poison), LOBE_OK);
     lobe_frame spoilt = picture(f, scene, "moments", settings, seen);
     lobe_frame_free(&spoilt);
-    assert_int_equal(lobe_texture_update(texture, &scene->images[0].image), LOBE_OK);
+    assert_int_equal(lobe_texture_update(giver->texture, &scene->images[giver->image].image),
+                     LOBE_OK);
     scene_look_from(scene, views[2].towards, views[2].height);
     lobe_frame frame = picture(f, scene, "moments", settings, seen);
     assert_true(all_finite(&frame.radiance) && largest_value(&frame.radiance) > 0.01);
     return frame;
 }
 
-static void tiles_that_are_not_read_may_hold_anything(void **state) {
+static void check_unread_tiles(fixture *f, uint32_t index) {
     static const float poisons[2][4] = {{NAN, NAN, NAN, NAN}, {0.95f, 0.5f, 0.6f, 1}};
-    fixture *f = *state;
     lobe_scene *scene = mapped_scene(256, 256, 1, LOBE_SCENE_WRAP_REPEAT);
-    lobe_image *image = &scene->images[0].image, poison;
-    lobe_texture *texture;
+    lobe_image *image = &scene->images[index].image, poison;
+    texture_giver giver = {.image = index};
     const lobe_texture_parameters parameters = {.image = image};
-    assert_int_equal(lobe_image_allocate(&poison, image->format, 256, 256, NULL), LOBE_OK);
-    assert_int_equal(lobe_texture_create(f->device, &parameters, &texture), LOBE_OK);
-    scene->images[0].on_device = true;
-    lobe_renderer_set_content_giver(f->renderer, give, texture);
-    lobe_frame whole = frame_after(f, scene, texture, image, false);
+    assert_int_equal(lobe_image_allocate(&poison, image->format, image->width, image->height, NULL),
+                     LOBE_OK);
+    assert_int_equal(lobe_texture_create(f->device, &parameters, &giver.texture), LOBE_OK);
+    scene->images[index].on_device = true;
+    lobe_renderer_set_content_giver(f->renderer, give, &giver);
+    lobe_frame whole = frame_after(f, scene, &giver, image, false);
     for (int i = 0; i < 2; i++) {
         fill(&poison, poisons[i]);
-        lobe_frame frame = frame_after(f, scene, texture, &poison, true);
-        check_equal(&frame, &whole, "after other texels", i);
+        lobe_frame frame = frame_after(f, scene, &giver, &poison, true);
+        check_equal(&frame, &whole, "after other texels", 10 * index + (size_t)i);
         lobe_frame_free(&frame);
     }
     lobe_frame_free(&whole);
     lobe_renderer_set_content_giver(f->renderer, NULL, NULL);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
-    lobe_texture_destroy(&texture);
+    lobe_texture_destroy(&giver.texture);
     lobe_image_free(&poison);
     lobe_scene_destroy(&scene);
+}
+
+/// Of the map of lobes, and of two maps of colours.
+static void tiles_that_are_not_read_may_hold_anything(void **state) {
+    for (uint32_t image = 0; image < 4; image++)
+        if (image != 1) // of widths
+            check_unread_tiles(*state, image);
+}
+
+/// Swaps the first two channels.
+static void swap_channels(float *texels, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        const float first = texels[4 * i];
+        texels[4 * i] = texels[4 * i + 1];
+        texels[4 * i + 1] = first;
+    }
 }
 
 /// Texels that the host changes, and settings, are other content.
@@ -322,11 +355,8 @@ static void tiles_follow_what_they_are_made_from(void **state) {
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         for (int i = 0; i < 4; i++) {
             // Reflects all normals in a diagonal, and back.
-            for (size_t texel = 0; i > 1 && texel < (size_t)128 * 128; texel++) {
-                const float x = texels[4 * texel];
-                texels[4 * texel] = texels[4 * texel + 1];
-                texels[4 * texel + 1] = x;
-            }
+            if (i > 1)
+                swap_channels(texels, (size_t)128 * 128);
             if (i > 1)
                 assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
             frames[seen][i] = picture(f, scene, "moments", settings[i % 2], seen);
@@ -336,6 +366,42 @@ static void tiles_follow_what_they_are_made_from(void **state) {
         check_equal(&frames[1][i], &frames[0][i], "change", i);
         assert_true(i == 0 ||
                     image_hash(&frames[0][i].radiance) != image_hash(&frames[0][i - 1].radiance));
+        lobe_frame_free(&frames[0][i]);
+        lobe_frame_free(&frames[1][i]);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
+/// Two materials that share an image, one of which is hidden while its texels change.
+static void shared_images_follow_their_texels(void **state) {
+    static const char *const settings[] = {"storage=float32", NULL};
+    static const uint32_t image = 2; // colours
+    const lobe_scene_changes changes = {.images = &image, .image_count = 1};
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(64, 64, 1, LOBE_SCENE_WRAP_REPEAT);
+    lobe_material second = scene->materials[0];
+    float right[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.5f, 0.1f, 0, 1};
+    second.name = NULL;
+    second.roughness = 0.9f;
+    scene_add_square(scene, &second, 1, right);
+    scene_end(scene);
+    float *texels = scene->images[image].image.texels;
+    lobe_frame frames[2][4];
+    for (int seen = 0; seen < 2; seen++) {
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+        for (int i = 0; i < 4; i++) {
+            scene->instances[0].hidden = i == 1;
+            scene->instances[1].hidden = i == 2;
+            if (i > 0)
+                swap_channels(texels, (size_t)128 * 64);
+            assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+            frames[seen][i] = picture(f, scene, "lean", settings, seen);
+        }
+        swap_channels(texels, (size_t)128 * 64);
+    }
+    for (int i = 0; i < 4; i++) {
+        check_equal(&frames[1][i], &frames[0][i], "shared", i);
         lobe_frame_free(&frames[0][i]);
         lobe_frame_free(&frames[1][i]);
     }
@@ -374,6 +440,7 @@ int main(void) {
         cmocka_unit_test(pictures_equal_those_of_whole_maps),
         cmocka_unit_test(tiles_that_are_not_read_may_hold_anything),
         cmocka_unit_test(tiles_follow_what_they_are_made_from),
+        cmocka_unit_test(shared_images_follow_their_texels),
         cmocka_unit_test(samples_of_texels_converge),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
