@@ -7,6 +7,13 @@
 /// The draws of a picture: instances of one mesh and one material are drawn together where they
 /// share filtered maps, so that the host's work grows with the number of draws.
 
+/// Those of a batch that a picture may show (passes/renderer/culling/culling.h).
+typedef struct seen_instances {
+    lobe_resource transforms; ///< as those of the batch, from its first on; all zero: not culled
+    lobe_resource arguments;  ///< lobe_draw_arguments
+    uint32_t record;          ///< index into them
+} seen_instances;
+
 /// Instances that are drawn together. They have the same mesh and material, and all mirror or none.
 typedef struct instance_batch {
     size_t instance; ///< the first of them
@@ -16,9 +23,10 @@ typedef struct instance_batch {
     displaced_geometry displaced;      ///< what is drawn instead of the mesh; all zero: nothing
     lobe_resource transforms;          ///< buffer of struct instance_constants
     lobe_resource previous_transforms; ///< the same of the previous frame; none without motion
-    uint32_t first;                    ///< index of the first instance's
-    uint32_t start;                    ///< the same among the transforms of the whole list
-    uint32_t next_of_mesh;             ///< 1 + index of another batch of the mesh; 0: none
+    seen_instances seen;
+    uint32_t first;        ///< index of the first instance's
+    uint32_t start;        ///< the same among the transforms of the whole list
+    uint32_t next_of_mesh; ///< 1 + index of another batch of the mesh; 0: none
 } instance_batch;
 
 /// Material by material, then in the order of their first instances.

@@ -1,5 +1,6 @@
 #include "passes/context/sample_pattern.h"
 #include "passes/renderer/accumulation.h"
+#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/picture_drawing.h"
 
@@ -35,6 +36,8 @@ static lobe_resource declare_samples(rendering *r, const sample_sum *sum, uint32
     targets.without_background = sum->without_background;
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     lobe_resource resource = declare_sum(r);
+    if (!r->renderer->draws_all)
+        passes_culling(&r->context, &r->renderer->draws);
     for (uint32_t i = 0; i < count; i++) {
         shading_sample sample = {.footprint = 1, .number = first + i, .pattern = sum->pattern};
         passes_sample_position(sample.number, sum->samples, sample.position);

@@ -222,10 +222,17 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
                                        batch->appearance, list);
 }
 
+/// Draws of a selection have arguments of their own.
+static bool draws_seen(const drawing *d, const instance_batch *batch) {
+    return !d->selection && batch->seen.transforms.version > 0;
+}
+
 static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_binding *bindings) {
     const device_scene *scene = d->context->scene;
     const device_instance *drawn = &scene->instances[batch->instance];
-    bindings[0] = (lobe_binding){.name = "instance_block", .resource = batch->transforms};
+    bindings[0] = (lobe_binding){.name = "instance_block",
+                                 .resource = draws_seen(d, batch) ? batch->seen.transforms
+                                                                  : batch->transforms};
     bindings[1] = (lobe_binding){.name = "vertex_block",
                                  .resource = passes_batch_vertices(d->context, batch)};
     return 2 + passes_material_shading_bind(d->context, d->light,
@@ -260,6 +267,10 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
         .binding_count = binding_count,
     };
     passes_batch_set_indices(context, batch, &draw);
+    if (draws_seen(d, batch)) {
+        draw.indirect = batch->seen.arguments;
+        draw.indirect_offset = batch->seen.record * sizeof(lobe_draw_arguments);
+    }
     select_draw(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
     lobe_pass_draw(d->pass, &draw);
 }

@@ -44,6 +44,20 @@ static void measure_alpha(const lobe_mesh *mesh, mesh_measures *measures) {
     }
 }
 
+static void measure_bounds(const lobe_mesh *mesh, mesh_measures *measures) {
+    for (int axis = 0; axis < 3; axis++) {
+        measures->minimum[axis] = INFINITY;
+        measures->maximum[axis] = -INFINITY;
+    }
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            const float position = mesh->vertices[i].position[axis];
+            measures->minimum[axis] = fminf(measures->minimum[axis], position);
+            measures->maximum[axis] = fmaxf(measures->maximum[axis], position);
+        }
+    }
+}
+
 static void measure_density(const lobe_mesh *mesh, mesh_measures *measures) {
     for (size_t i = 0; i + 2 < mesh->index_count; i += 3) {
         const lobe_scene_vertex *corners[3];
@@ -65,6 +79,7 @@ static mesh_measures measure(const lobe_mesh *mesh, uint32_t version) {
                               .version = version};
     measure_density(mesh, &measures);
     measure_alpha(mesh, &measures);
+    measure_bounds(mesh, &measures);
     return measures;
 }
 

@@ -91,6 +91,7 @@ typedef struct mesh_measures {
     /// triangles.
     float least_density[2];
     float least_alpha, largest_alpha; ///< of the vertices' colours
+    float minimum[3], maximum[3];     ///< of their positions, before any deformation
     size_t vertex_count, index_count;
     uint32_t version;   ///< increases with each upload, from 1 on
     bool has_instances; ///< hidden ones, too

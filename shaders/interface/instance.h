@@ -17,4 +17,27 @@ struct draw_constants {
 INTERFACE_SIZE(draw_constants, 8)
 INTERFACE_OFFSET(draw_constants, map_width, 4)
 
+// Push constants of culling: what lies behind one of four planes is not seen.
+struct culling_constants {
+    float4 planes[4]; // normals inwards, of any length, and offsets, in the world
+};
+INTERFACE_SIZE(culling_constants, 64)
+
+// Instances that are drawn together, for culling.
+struct culled_batch {
+    float4 minimum; // of the mesh, in the object; w is not used
+    float4 maximum;
+    uint first; // of the transforms
+    uint count;
+    uint index_count; // of an instance
+    uint padding;
+};
+INTERFACE_SIZE(culled_batch, 48)
+INTERFACE_OFFSET(culled_batch, maximum, 16)
+INTERFACE_OFFSET(culled_batch, first, 32)
+INTERFACE_OFFSET(culled_batch, count, 36)
+INTERFACE_OFFSET(culled_batch, index_count, 40)
+
+#define CULLING_THREADS 64 // of a batch
+
 #endif

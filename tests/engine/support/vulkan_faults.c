@@ -232,6 +232,7 @@ WAITS(vkDeviceWaitIdle, (VkDevice device), (device))
 
 /// Called only where a submission has failed already.
 FUNCTION(VkResult, vkQueueWaitIdle, (VkQueue queue), false) {
+    ++stand_in_vkQueueWaitIdle.calls;
     return vkQueueWaitIdle(queue);
 }
 

@@ -22,7 +22,8 @@ static float phase_of(uint32_t frame) {
 
 /// How often lobe waited for the device.
 static int waits(void) {
-    return vulkan_calls("vkWaitSemaphores") + vulkan_calls("vkDeviceWaitIdle");
+    return vulkan_calls("vkWaitSemaphores") + vulkan_calls("vkDeviceWaitIdle") +
+           vulkan_calls("vkQueueWaitIdle");
 }
 
 static void draw(moving_host *m, uint32_t count) {

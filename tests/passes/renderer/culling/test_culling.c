@@ -1,0 +1,281 @@
+// Instances that no pixel can show are left out: those that are drawn keep their order, and
+// pictures are the same to the bit.
+
+#include "passes/renderer/culling/culling.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "passes/context/camera.h"
+#include "passes/renderer/renderer.h"
+#include "scenes/builtin/random.h"
+#include "scenes/scene/scene.h"
+#include "tests/passes/support/pass_run.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { INSTANCES = 400, EXTENT = 32 };
+
+/// Anywhere around the origin, turned, sheared, some of them mirrored.
+static void place(random_sequence *random, float transform[16]) {
+    const double distance = pow(10, scenes_random_between(random, 0.2, 1.5));
+    double position[3], length = 0;
+    for (int i = 0; i < 3; i++) {
+        position[i] = scenes_random_between(random, -1, 1);
+        length += position[i] * position[i];
+    }
+    for (int i = 0; i < 12; i++)
+        transform[i] =
+            i % 4 < 3 ? (float)(scenes_random_between(random, -0.15, 0.15) * distance) : 0;
+    for (int i = 0; i < 3; i++) {
+        transform[5 * i] += (float)(0.05 * distance);
+        transform[12 + i] = (float)(distance * position[i] / sqrt(length));
+    }
+    transform[15] = 1;
+}
+
+static lobe_material bumpy(lobe_scene *scene, float roughness) {
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, roughness, 0.5);
+    material.normal_map = scene_add_map(scene, random_normal_map(16, 16, 0.5, 3));
+    material.double_sided = true;
+    return material;
+}
+
+/// A crowd all around the eye, of two meshes and three materials.
+static lobe_scene *crowd(void) {
+    lobe_scene *scene = scene_begin();
+    random_sequence random = scenes_random_start(17);
+    float transform[16];
+    const lobe_material materials[] = {bumpy(scene, 0.2f), bumpy(scene, 0.5f), bumpy(scene, 0.8f)};
+    scene_add_sphere(scene, &materials[0], 1);
+    scene_add_square(scene, &materials[1], 1, NULL);
+    scene_add_sphere(scene, &materials[2], 2);
+    for (uint32_t i = 0; i < INSTANCES; i++) {
+        place(&random, transform);
+        if (i < 3)
+            memcpy(scene->instances[i].transform, transform, sizeof transform);
+        else
+            assert_int_equal(scenes_add_instance(scene, i % 3, i / 3 % 3, transform, NULL),
+                             LOBE_OK);
+    }
+    scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+    scene_end(scene);
+    scene->camera = (lobe_camera){
+        .target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_field_of_view = 0.8f, .near_plane = 0.01f};
+    return scene;
+}
+
+/// Cameras of all kinds.
+static lobe_camera camera_of(const lobe_scene *scene, int number) {
+    lobe_camera camera = scene->camera;
+    if (number == 1)
+        camera.vertical_field_of_view = 2.6f;
+    if (number == 2) {
+        camera.target[0] = 5;
+        camera.up[2] = 0.7f;
+        camera.shift[0] = 1.5f;
+        camera.jitter[1] = 0.4f;
+    }
+    if (number == 3) {
+        camera.vertical_field_of_view = 0;
+        camera.orthographic_height = 4;
+    }
+    if (number == 4) {
+        camera.eye[1] = 100;
+        camera.vertical_field_of_view = 0.02f;
+    }
+    return camera;
+}
+
+enum { CAMERAS = 5 };
+
+// ---------------------------------------------------------------------------------------------
+// What is kept
+
+/// How far all points of an instance are beyond the farthest side of the picture, over the sizes
+/// that are compared: below 0: one is within all.
+static double distance_beyond(const lobe_mesh *mesh, const float *m, mat4 matrix, double wider) {
+    double beyond = -INFINITY;
+    for (int side = 0; side < 4; side++) {
+        double nearest = INFINITY;
+        for (int corner = 0; corner < 8; corner++) {
+            double world[4] = {0, 0, 0, 1}, clip[4] = {0};
+            for (int row = 0; row < 3; row++) {
+                world[row] = m[12 + row];
+                for (int axis = 0; axis < 3; axis++)
+                    world[row] += (double)m[4 * axis + row] *
+                                  (corner >> axis & 1 ? mesh->maximum : mesh->minimum)[axis];
+            }
+            for (int row = 0; row < 4; row++)
+                for (int column = 0; column < 4; column++)
+                    clip[row] += (double)matrix[column][row] * world[column];
+            const double along = side % 2 ? clip[side / 2] : -clip[side / 2];
+            nearest = fmin(nearest, (along - wider * clip[3]) / (fabs(along) + fabs(clip[3])));
+        }
+        beyond = fmax(beyond, nearest);
+    }
+    return beyond;
+}
+
+static void list_draws(pass_run *run, draw_list *list, const filtered_appearance *maps) {
+    const device_scene *scene = run->scene;
+    assert_true(passes_draw_list_create(list, scene->scene->mesh_count, NULL) &&
+                passes_draw_list_reserve(list, scene->scene->instance_count, NULL));
+    passes_draw_list_begin(list, scene);
+    for (uint32_t m = 0; m < scene->scene->material_count; m++)
+        for (uint32_t next = scene->materials[m].first_instance; next > 0;
+             next = scene->instances[next - 1].next_of_material)
+            passes_draw_list_add(list, scene, next - 1, maps, true);
+    passes_draw_list_end(list, &run->context);
+}
+
+/// Checks one batch, whose instances are those of the list's transforms; returns how many are kept.
+static uint32_t check_batch(const draw_list *list, const instance_batch *batch,
+                            const lobe_mesh *mesh, mat4 matrix,
+                            const struct instance_constants *seen,
+                            const lobe_draw_arguments *arguments) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < batch->count; i++) {
+        const struct instance_constants *own = &list->transforms[batch->start + i];
+        float transform[16] = {0};
+        for (int row = 0; row < 3; row++)
+            for (int column = 0; column < 4; column++)
+                transform[4 * column + row] = own->rows[row][column];
+        const bool drawn = kept < arguments->instance_count &&
+                           memcmp(&seen[batch->first + kept], own, sizeof *own) == 0;
+        if (!drawn)
+            assert_true(distance_beyond(mesh, transform, matrix, 1) > 0);
+        else
+            assert_true(distance_beyond(mesh, transform, matrix, 1 + 2.0 / EXTENT) < 1e-4);
+        kept += drawn;
+    }
+    assert_int_equal(kept, arguments->instance_count);
+    return kept;
+}
+
+static void instances_that_may_be_seen_keep_their_order(void **state) {
+    static const float centre[2] = {0.5f, 0.5f};
+    static const filtered_appearance maps = {0};
+    lobe_scene *scene = crowd();
+    for (int number = 0; number < CAMERAS; number++) {
+        const lobe_camera camera = camera_of(scene, number);
+        pass_run run;
+        draw_list list;
+        mat4 matrix;
+        uint32_t kept = 0;
+        pass_run_begin(&run, *state, scene, "direct", (const char *[]){NULL});
+        run.context.view = (filter_view){&camera, EXTENT, EXTENT};
+        passes_camera_projection(&camera, EXTENT, EXTENT, centre, scene->minimum, scene->maximum,
+                                 matrix);
+        list_draws(&run, &list, &maps);
+        passes_culling(&run.context, &list);
+        const seen_instances *all = &list.batches[0].seen;
+        assert_true(all->transforms.version > 0);
+        lobe_graph_read_back(run.context.graph, all->transforms, (lobe_range){0});
+        lobe_graph_read_back(run.context.graph, all->arguments, (lobe_range){0});
+        pass_run_execute(&run);
+        const struct instance_constants *seen =
+            lobe_graph_data(run.context.graph, all->transforms, NULL);
+        const lobe_draw_arguments *arguments =
+            lobe_graph_data(run.context.graph, all->arguments, NULL);
+        for (uint32_t i = 0; i < list.batch_count; i++) {
+            const uint32_t mesh = run.scene->instances[list.batches[i].instance].mesh;
+            assert_int_equal(arguments[i].index_count, scene->meshes[mesh].index_count);
+            kept += check_batch(&list, &list.batches[i], &scene->meshes[mesh], matrix, seen,
+                                &arguments[list.batches[i].seen.record]);
+        }
+        print_message("# camera %d: %u of %d instances\n", number, kept, INSTANCES);
+        assert_true(kept < 0.8 * INSTANCES);
+        passes_draw_list_destroy(&list);
+        pass_run_end(&run);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Pictures
+
+static lobe_frame picture(fixture *f, const lobe_camera *camera, const picture_request *request,
+                          bool motion) {
+    const lobe_filter *filter = filter_named(request->filter);
+    const lobe_settings settings = settings_of(filter, request->settings);
+    lobe_frame frame;
+    const lobe_render_parameters parameters = {.camera = camera,
+                                               .width = EXTENT,
+                                               .height = EXTENT,
+                                               .filter = filter,
+                                               .settings = &settings,
+                                               .reference.samples = 2,
+                                               .aov = request->outputs,
+                                               .motion.deliver = motion};
+    if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
+        fail_msg("%s", f->error);
+    assert_silence(f, "crowd", request);
+    return frame;
+}
+
+static void pictures_are_those_of_all_instances(void **state) {
+    static const struct {
+        picture_request request;
+        int cameras;
+        bool motion;
+    } cases[] = {
+        {{.filter = "toksvig", .settings = {NULL}, .outputs = true}, CAMERAS, false},
+        {{.filter = "toksvig", .settings = {"samples=4", NULL}}, 1, false},
+        {{.filter = "reference", .settings = {NULL}}, 1, false},
+        {{.filter = "direct", .settings = {"shadows=512", NULL}}, 2, true},
+    };
+    fixture *f = *state;
+    lobe_scene *scene = crowd();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        for (int number = 0; number < cases[i].cameras; number++) {
+            const lobe_camera camera = camera_of(scene, number);
+            lobe_frame frames[2];
+            for (int all = 0; all < 2; all++) {
+                f->renderer->draws_all = all;
+                frames[all] = picture(f, &camera, &cases[i].request, cases[i].motion);
+                assert_int_equal(
+                    count_passes(lobe_renderer_graph(f->renderer), "culling", LOBE_PASS_RUN), !all);
+            }
+            assert_true(number == 4 || largest_value(&frames[1].radiance) > 0.01);
+            if (image_hash(&frames[0].radiance) != image_hash(&frames[1].radiance))
+                fail_msg("case %zu, camera %d: largest difference %g", i, number,
+                         largest_difference(&frames[0].radiance, &frames[1].radiance));
+            if (cases[i].request.outputs)
+                assert_true(image_hash(&frames[0].normal_depth) ==
+                            image_hash(&frames[1].normal_depth));
+            lobe_frame_free(&frames[0]);
+            lobe_frame_free(&frames[1]);
+        }
+    }
+    f->renderer->draws_all = false;
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
+/// Few triangles are drawn as they are.
+static void small_scenes_take_no_pass(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = crowd();
+    const picture_request request = {.filter = "direct", .settings = {NULL}};
+    for (size_t i = 10; i < scene->instance_count; i++)
+        scene->instances[i].hidden = true;
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    lobe_frame frame = picture(f, NULL, &request, false);
+    assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), "culling", LOBE_PASS_RUN), 0);
+    lobe_frame_free(&frame);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(instances_that_may_be_seen_keep_their_order),
+        cmocka_unit_test(pictures_are_those_of_all_instances),
+        cmocka_unit_test(small_scenes_take_no_pass),
+    };
+    return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
+}
