@@ -185,8 +185,8 @@ static void what_had_no_instance_is_uploaded_once(void **state) {
     fixture *f = *state;
     lobe_scene *scene = start(f, &methods[1]);
     append(scene, 2, 2);
-    // The map, two sets of constants, vertices and indices.
-    check_update(f, scene, &methods[1], &nothing, 5);
+    // The map, three sets of constants, vertices and indices.
+    check_update(f, scene, &methods[1], &nothing, 6);
     append(scene, 2, 2);
     assert_int_equal(check_update(f, scene, &methods[1], &nothing, 0), 1);
     // They stay while they have no instance.
