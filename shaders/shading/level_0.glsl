@@ -22,24 +22,24 @@ vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
                                           material.normal_scale * relief, NORMALS), surface);
 }
 
-// In each direction of the pixel two points that have the mean and the variance of all its points
-// if normals change linearly. Otherwise, and where level 0 has no share, its centre.
+// Three points that have the mean and the covariance of all of the pixel's points if normals change
+// linearly: over a box of width one, whose variance is 1/12, the corners of an equilateral triangle
+// at the distance 1/sqrt(6) from its centre. Where level 0 has no share, the surface's own normal.
 level_0_normals normals_of_level_0(surface_point surface, float level, float relief) {
-    if (!has_map(MAP_NORMAL))
+    if (!has_map(MAP_NORMAL) || level >= 1.0)
         return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0);
     vec2 centre = map_coordinates(MAP_NORMAL, surface.coordinates, 1.0);
-    if (!INTERPOLATED || level >= 1.0)
+    if (!INTERPOLATED)
         return level_0_normals(level_0_normal(surface, centre, relief), 0.0);
-    vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(12.0);
-    vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(12.0);
-    vec3 a = level_0_normal(surface, centre - dx - dy, relief);
-    vec3 b = level_0_normal(surface, centre + dx - dy, relief);
-    vec3 c = level_0_normal(surface, centre - dx + dy, relief);
-    vec3 d = level_0_normal(surface, centre + dx + dy, relief);
-    vec3 mean = 0.25 * ((a + b) + (c + d));
+    vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(8.0);
+    vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(6.0);
+    vec3 a = level_0_normal(surface, centre + dy, relief);
+    vec3 b = level_0_normal(surface, centre + dx - 0.5 * dy, relief);
+    vec3 c = level_0_normal(surface, centre - dx - 0.5 * dy, relief);
+    vec3 mean = (a + b + c) / 3.0;
     // 1 - |mean|^2, which would cancel.
-    float complement = 0.25 * (difference_squared(a, mean) + difference_squared(b, mean) +
-                               difference_squared(c, mean) + difference_squared(d, mean));
+    float complement = (difference_squared(a, mean) + difference_squared(b, mean) +
+                        difference_squared(c, mean)) / 3.0;
     float length = max(length(mean), 1e-4);
     return level_0_normals(mean, complement / ((1.0 + length) * length));
 }
