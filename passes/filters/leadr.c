@@ -19,17 +19,12 @@ static const filter_knob base_plane_knob = {
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_BASE_PLANE),
 };
 static const filter_knob *const knobs[] = {
-    &passes_knob_grid,
-    &base_plane_knob,
-    &passes_knob_height,
-    &passes_knob_probes,
-    &passes_knob_anisotropy,
-    &passes_knob_bias,
-    &passes_knob_curvature,
-    &passes_knob_storage,
-    &passes_knob_built,
-    &passes_knob_normal_mapping,
-    NULL,
+    &passes_knob_grid,           &base_plane_knob,
+    &passes_knob_height,         &passes_knob_probes,
+    &passes_knob_anisotropy,     &passes_knob_bias,
+    &passes_knob_level_blend,    &passes_knob_curvature,
+    &passes_knob_storage,        &passes_knob_built,
+    &passes_knob_normal_mapping, NULL,
 };
 
 static const char *ignores(const lobe_material *material) {

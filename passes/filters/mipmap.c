@@ -3,13 +3,9 @@
 #include "passes/maps/parameter_averaging.h"
 #include "passes/maps/tile_knobs.h"
 
-static const filter_knob *const knobs[] = {&passes_knob_probes,
-                                           &passes_knob_anisotropy,
-                                           &passes_knob_bias,
-                                           &passes_knob_curvature,
-                                           &passes_knob_storage,
-                                           &passes_knob_built,
-                                           NULL};
+static const filter_knob *const knobs[] = {
+    &passes_knob_probes,    &passes_knob_anisotropy, &passes_knob_bias,  &passes_knob_level_blend,
+    &passes_knob_curvature, &passes_knob_storage,    &passes_knob_built, NULL};
 
 const lobe_filter passes_filter_mipmap = {
     .name = "mipmap",

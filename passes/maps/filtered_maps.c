@@ -45,6 +45,15 @@ const filter_knob passes_knob_bias = {
                     .initial = -0.5},
     .feeds = KNOB_FEEDS_SHARED(level_bias),
 };
+const filter_knob passes_knob_level_blend = {
+    .description = {.name = "level_blend",
+                    .summary = "part of the way from a MIP level to the next over which both are "
+                               "fetched and blended; 1: everywhere (trilinear), 0: nowhere",
+                    .maximum = 1,
+                    .initial = 1,
+                    .sweep = "0.5,0"},
+    .feeds = KNOB_FEEDS_SHARED(level_blend),
+};
 const filter_knob passes_knob_curvature = {
     .description =
         {.name = "curvature",

@@ -28,7 +28,7 @@ lobe_sampler passes_filtered_map_sampler(const filter_context *context,
 ///
 /// curvature: 1 is the variance of the interpolated normals under the pixel's box.
 extern const filter_knob passes_knob_probes, passes_knob_anisotropy, passes_knob_bias,
-    passes_knob_curvature;
+    passes_knob_level_blend, passes_knob_curvature;
 
 /// The format of maps of numbers that lie between 0 and 1, or are directions.
 /// float16 halves the memory of mixtures. |r| near 1 is then rounded to 5e-4, which costs

@@ -10,11 +10,13 @@
 struct shared_knobs {
     float curvature;  // factor of the macro-surface's curvature; 0: ignored
     float level_bias; // added to the MIP level
+    // Part of the way from a MIP level to the next over which both are blended: [0, 1].
+    float level_blend;
     float padding_0;
-    float padding_1;
 };
 INTERFACE_SIZE(shared_knobs, 16)
 INTERFACE_OFFSET(shared_knobs, level_bias, 4)
+INTERFACE_OFFSET(shared_knobs, level_blend, 8)
 
 // Those of one filter are in a struct in the filter's own header, which its shader declares so:
 //   layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {

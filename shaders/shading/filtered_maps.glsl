@@ -18,19 +18,27 @@ layout(LOBE_DESCRIPTOR(19)) uniform sampler2D specular_filtered;
 layout(LOBE_DESCRIPTOR(20)) uniform sampler2D emissive_filtered;
 layout(LOBE_DESCRIPTOR(21)) uniform sampler2D occlusion_filtered;
 
+// The level of a filtered map to fetch. Two levels are blended over a part of the way from one to
+// the next alone; elsewhere the nearer one is enough, which takes half the fetches.
+float fetched_level(map_area area) {
+    float level = max(area.level - 1.0, 0.0), coarser = fract(level);
+    return level - coarser +
+           clamp((coarser - 0.5) / max(knobs.level_blend, 1e-3) + 0.5, 0.0, 1.0);
+}
+
 // One probe of a filtered map; the second, of one of its layers. An anisotropic sampler takes the
 // level of the ellipse's width, and spreads its own samples along the length. Gradients of texture
 // coordinates fit any map's size, so that a filtered map's own level 0 is again level 1.
 vec4 fetch_probe(sampler2D map, map_area area, uint probe) {
     vec2 position = probe_position(area, probe);
     return ANISOTROPY > 1u ? textureGrad(map, position, area.along, area.across)
-                           : textureLod(map, position, max(area.level - 1.0, 0.0));
+                           : textureLod(map, position, fetched_level(area));
 }
 
 vec4 fetch_probe(sampler2DArray map, uint layer, map_area area, uint probe) {
     vec3 position = vec3(probe_position(area, probe), layer);
     return ANISOTROPY > 1u ? textureGrad(map, position, area.along, area.across)
-                           : textureLod(map, position, max(area.level - 1.0, 0.0));
+                           : textureLod(map, position, fetched_level(area));
 }
 
 // The mean of one layer of a filtered map over the area.

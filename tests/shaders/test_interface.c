@@ -284,6 +284,7 @@ static known_member known[] = {
     MEMBER(refit_constants, bins, 3),
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
+    MEMBER(shared_knobs, level_blend, 2),
     MEMBER(wave_constants, frequency, 0),
     MEMBER(wave_constants, rest, 1),
     MEMBER(wave_constants, total, 2),

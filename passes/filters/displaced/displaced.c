@@ -45,11 +45,17 @@ static const filter_knob transfer_storage_knob = {
                     .choices = storages},
 };
 static const filter_knob *const knobs[] = {
-    &order_knob,          &azimuths_knob,
-    &bounces_knob,        &transfer_storage_knob,
-    &passes_knob_probes,  &passes_knob_anisotropy,
-    &passes_knob_bias,    &passes_knob_curvature,
-    &passes_knob_storage, NULL,
+    &order_knob,
+    &azimuths_knob,
+    &bounces_knob,
+    &transfer_storage_knob,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_level_blend,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 static uint32_t order_of(const filter_context *context) {

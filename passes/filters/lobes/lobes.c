@@ -78,20 +78,11 @@ static const filter_knob blend_knob = {
     .feeds = KNOB_FEEDS_FILTER(lobes_knobs, blend),
 };
 static const filter_knob *const knobs[] = {
-    &space_knob,
-    &subdivision_knob,
-    &clusters_knob,
-    &threshold_knob,
-    &epsilon0_knob,
-    &epsilon1_knob,
-    &blend_knob,
-    &passes_knob_probes,
-    &passes_knob_anisotropy,
-    &passes_knob_bias,
-    &passes_knob_curvature,
-    &passes_knob_storage,
-    &passes_knob_built,
-    NULL,
+    &space_knob,          &subdivision_knob,        &clusters_knob,
+    &threshold_knob,      &epsilon0_knob,           &epsilon1_knob,
+    &blend_knob,          &passes_knob_probes,      &passes_knob_anisotropy,
+    &passes_knob_bias,    &passes_knob_level_blend, &passes_knob_curvature,
+    &passes_knob_storage, &passes_knob_built,       NULL,
 };
 
 /// The space that the user chose, or else the material's. Always tangent if the mesh's texture

@@ -19,7 +19,12 @@ static const filter_knob peaks_knob = {
     .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {
-    &peaks_knob, &passes_knob_bias, &passes_knob_curvature, &passes_knob_storage, NULL,
+    &peaks_knob,
+    &passes_knob_bias,
+    &passes_knob_level_blend,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 static mixture_kind kind_of(const filter_context *context) {

@@ -39,6 +39,7 @@ static const filter_knob *const knobs[] = {
     &passes_knob_probes,
     &passes_knob_anisotropy,
     &passes_knob_bias,
+    &passes_knob_level_blend,
     &passes_knob_curvature,
     &passes_knob_bin_storage,
     &passes_knob_normal_mapping,

@@ -9,11 +9,17 @@
 #include "shaders/interface/moment_bins.h"
 
 static const filter_knob *const knobs[] = {
-    &passes_knob_components, &passes_knob_fit_steps,
-    &passes_knob_grid,       &passes_knob_height,
-    &passes_knob_probes,     &passes_knob_anisotropy,
-    &passes_knob_bias,       &passes_knob_curvature,
-    &passes_knob_storage,    NULL,
+    &passes_knob_components,
+    &passes_knob_fit_steps,
+    &passes_knob_grid,
+    &passes_knob_height,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_level_blend,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    NULL,
 };
 
 static mixture_kind kind_of(const filter_context *context) {
