@@ -66,13 +66,15 @@ INTERFACE_OFFSET(mixture_extremes, lobes, 16)
 struct mixture_fit_constants {
     uint width; // of the lobe grid, texels
     uint height;
-    uint steps;  // of expectation maximisation
-    float prior; // how many samples a neighbour's component is worth, times its part
+    uint steps;     // of expectation maximisation
+    float prior;    // how many samples a neighbour's component is worth, times its part
+    uint first_row; // of mixture_level's texels
 };
-INTERFACE_SIZE(mixture_fit_constants, 16)
+INTERFACE_SIZE(mixture_fit_constants, 20)
 INTERFACE_OFFSET(mixture_fit_constants, height, 4)
 INTERFACE_OFFSET(mixture_fit_constants, steps, 8)
 INTERFACE_OFFSET(mixture_fit_constants, prior, 12)
+INTERFACE_OFFSET(mixture_fit_constants, first_row, 16)
 
 // Push constants of the pass that copies a level of a map that was fitted before.
 struct mixture_restoring_constants {

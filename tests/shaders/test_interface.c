@@ -258,6 +258,7 @@ static known_member known[] = {
     MEMBER(mixture_fit_constants, height, 1),
     MEMBER(mixture_fit_constants, steps, 2),
     MEMBER(mixture_fit_constants, prior, 3),
+    MEMBER(mixture_fit_constants, first_row, 4),
     MEMBER(mixture_restoring_constants, first, 0),
     MEMBER(moment_bin, centre, 0),
     MEMBER(moment_bin, shape, 1),

@@ -15,6 +15,7 @@ typedef struct mixture_build {
     const device_material *material;
     uint32_t index; ///< of the material
     const mixture_kind *kind;
+    lobe_grid grid;
     bool in_parts; ///< what later parts need is kept between frames
     mixture_samples samples;
     moment_map target;
@@ -41,9 +42,9 @@ static uint32_t level_extent(uint32_t extent, uint32_t level) {
 }
 
 /// Of the texels of a level, along the longer side.
-static uint32_t box_side(const mixture_build *build, uint32_t level) {
-    const uint32_t x = build->samples.width / level_extent(build->target.map.width, level);
-    const uint32_t y = build->samples.height / level_extent(build->target.map.height, level);
+static uint32_t box_side(const lobe_grid *grid, uint32_t level) {
+    const uint32_t x = grid->width / level_extent(passes_half_extent(grid->width), level);
+    const uint32_t y = grid->height / level_extent(passes_half_extent(grid->height), level);
     return x > y ? x : y;
 }
 
@@ -94,8 +95,9 @@ static lobe_resource write_components(lobe_pass *pass, lobe_resource components)
     return lobe_pass_write(pass, &(lobe_binding){.name = "component_map", .resource = components});
 }
 
-static void dispatch(const mixture_build *build, const char *shader, uint32_t columns,
-                     uint32_t rows, uint32_t steps, lobe_pass *pass) {
+/// Of the rows from `first_row` on.
+static void dispatch_rows(const mixture_build *build, const char *shader, uint32_t columns,
+                          uint32_t first_row, uint32_t rows, uint32_t steps, lobe_pass *pass) {
     const device_material *material = build->material;
     specialisation_list list = {.graph = build->graph};
     passes_specialise(&list, SPECIALISE_LOBE_COUNT, material->lobe_count);
@@ -107,7 +109,7 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
     passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
     passes_specialise(&list, SPECIALISE_MIXTURE_PRINTED, build->kind->is_printed);
     const struct mixture_fit_constants constants = {build->samples.width, build->samples.height,
-                                                    steps, build->kind->prior};
+                                                    steps, build->kind->prior, first_row};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = shader,
                                  .threads = {columns, rows, 1},
@@ -116,6 +118,11 @@ static void dispatch(const mixture_build *build, const char *shader, uint32_t co
                                  .specialisation = list.items,
                                  .specialisation_count = list.count,
                              });
+}
+
+static void dispatch(const mixture_build *build, const char *shader, uint32_t columns,
+                     uint32_t rows, uint32_t steps, lobe_pass *pass) {
+    dispatch_rows(build, shader, columns, 0, rows, steps, pass);
 }
 
 static void add_root(mixture_build *build) {
@@ -146,19 +153,6 @@ static void add_fit(mixture_build *build, uint32_t level, uint32_t width, uint32
     keep(build, pass);
 }
 
-/// Writes sums for the components after so many steps, and into `components`, where these are of
-/// the same extent, what they have become.
-static lobe_pass *add_sums(mixture_build *build, lobe_binding target, uint32_t width,
-                           uint32_t height, uint32_t steps, lobe_resource *components,
-                           lobe_resource *written) {
-    lobe_pass *pass = add_pass(build, "mixture_level");
-    read_parents(build, pass);
-    *components = write_components(pass, *components);
-    *written = lobe_pass_write(pass, &target);
-    dispatch(build, "filters/mixture/level.comp", width, height, steps, pass);
-    return pass;
-}
-
 static lobe_binding target_level(const mixture_build *build, uint32_t level) {
     return (lobe_binding){"moment_map", build->target.map.resource,
                           .range = {level, 1, 0, build->target.map.layers}};
@@ -175,6 +169,19 @@ static lobe_resource declare_sums_of_parts(const mixture_build *build, uint32_t 
                                           });
 }
 
+/// Sums for the level's components, over parts of its texels.
+static lobe_resource add_sums_of_parts(const mixture_build *build, uint32_t columns,
+                                       uint32_t rows) {
+    lobe_pass *pass = add_pass(build, "mixture_level");
+    read_parents(build, pass);
+    (void)write_components(pass, declare_no_components(build));
+    const lobe_resource sums = lobe_pass_write(
+        pass, &(lobe_binding){.name = "moment_map",
+                              .resource = declare_sums_of_parts(build, columns, rows)});
+    dispatch(build, "filters/mixture/level.comp", columns, rows, 0, pass);
+    return sums;
+}
+
 /// Sums over parts of a level's texels, and the level from these.
 static void add_gathered_level(mixture_build *build, uint32_t level) {
     const reduced_map *map = &build->target.map;
@@ -184,10 +191,7 @@ static void add_gathered_level(mixture_build *build, uint32_t level) {
     const uint32_t box = build->largest_box;
     const uint32_t columns = (build->samples.width + box - 1) / box;
     const uint32_t rows = (build->samples.height + box - 1) / box;
-    lobe_resource none = declare_no_components(build), sums;
-    const lobe_resource parts = declare_sums_of_parts(build, columns, rows);
-    (void)add_sums(build, (lobe_binding){.name = "moment_map", .resource = parts}, columns, rows, 0,
-                   &none, &sums);
+    const lobe_resource sums = add_sums_of_parts(build, columns, rows);
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "mixture_gather");
     lobe_pass_read(pass, &(lobe_binding){.name = "part_map", .resource = sums});
     const lobe_binding target = target_level(build, level);
@@ -199,29 +203,84 @@ static void add_gathered_level(mixture_build *build, uint32_t level) {
 
 /// At the finest level the parent's components share out what lies under a texel as well as ones
 /// fitted to its few lobes. What is printed are the components.
-static uint32_t steps_of_level(const mixture_build *build, uint32_t level) {
-    return level > 0 || build->kind->is_printed ? build->kind->steps : 0;
+static uint32_t steps_of_level(const mixture_kind *kind, uint32_t level) {
+    return level > 0 || kind->is_printed ? kind->steps : 0;
 }
 
-/// Nothing needs the components of the finest level.
-static void add_own_level(mixture_build *build, uint32_t level) {
+/// Bands of a level's rows, so that each takes about a quarter of a second of lavapipe's time at
+/// most.
+typedef struct level_bands {
+    uint32_t count;
+    uint32_t rows; ///< of each but the last, a multiple of a group's
+} level_bands;
+
+static level_bands bands_of_level(const mixture_kind *kind, uint32_t lobe_count,
+                                  const lobe_grid *grid, uint32_t level) {
+    enum { GROUP_ROWS = 8 };
+    const uint64_t visits =
+        (uint64_t)grid->width * grid->height * lobe_count * (steps_of_level(kind, level) + 1);
+    const uint64_t most = (uint64_t)1 << 23;
+    const uint32_t groups =
+        (level_extent(passes_half_extent(grid->height), level) + GROUP_ROWS - 1) / GROUP_ROWS;
+    const uint64_t wanted = (visits + most - 1) / most;
+    const uint32_t count = wanted < groups ? (uint32_t)wanted : groups;
+    const uint32_t groups_of_band = (groups + count - 1) / count;
+    return (level_bands){(groups + groups_of_band - 1) / groups_of_band,
+                         GROUP_ROWS * groups_of_band};
+}
+
+static lobe_resource bind_band(lobe_pass *pass, const lobe_binding *binding, uint32_t band) {
+    return band == 0 ? lobe_pass_write(pass, binding) : lobe_pass_modify(pass, binding);
+}
+
+static lobe_pass *add_band(mixture_build *build, uint32_t level, uint32_t band, uint32_t rows,
+                           lobe_resource *components) {
     const reduced_map *map = &build->target.map;
     const uint32_t width = level_extent(map->width, level);
     const uint32_t height = level_extent(map->height, level);
-    lobe_resource components =
-        declare_components(build, level > 0 ? width : 1, level > 0 ? height : 1, level);
-    lobe_pass *pass =
-        add_sums(build, target_level(build, level), width, height, steps_of_level(build, level),
-                 &components, &build->target.map.resource);
-    keep(build, pass);
-    build->components = components;
+    lobe_pass *pass = add_pass(build, "mixture_level");
+    read_parents(build, pass);
+    *components =
+        bind_band(pass, &(lobe_binding){.name = "component_map", .resource = *components}, band);
+    const lobe_binding target = target_level(build, level);
+    build->target.map.resource = bind_band(pass, &target, band);
+    const uint32_t first = band * rows;
+    dispatch_rows(build, "filters/mixture/level.comp", width, first,
+                  height - first < rows ? height - first : rows, steps_of_level(build->kind, level),
+                  pass);
+    return pass;
 }
 
-static void add_level(mixture_build *build, uint32_t level) {
-    if (box_side(build, level) > build->largest_box)
-        add_gathered_level(build, level);
-    else
-        add_own_level(build, level);
+/// Adds up to `most` bands of a level, and returns their number. Nothing needs the components of
+/// the finest level. Only the last band is kept: it needs those before it, whose own results are no
+/// longer there once it has run.
+static uint32_t add_own_level(mixture_build *build, uint32_t level, uint32_t most) {
+    const reduced_map *map = &build->target.map;
+    const level_bands bands =
+        bands_of_level(build->kind, build->material->lobe_count, &build->grid, level);
+    lobe_resource components =
+        declare_components(build, level > 0 ? level_extent(map->width, level) : 1,
+                           level > 0 ? level_extent(map->height, level) : 1, level);
+    const uint32_t count = bands.count < most ? bands.count : most;
+    lobe_pass *last = NULL;
+    for (uint32_t band = 0; band < count; band++)
+        last = add_band(build, level, band, bands.rows, &components);
+    keep(build, last);
+    build->components = components;
+    return count;
+}
+
+/// Of a level whose texels a group fits, nothing is left out.
+static bool is_gathered(uint32_t largest_box, const lobe_grid *grid, uint32_t level) {
+    return box_side(grid, level) > largest_box;
+}
+
+/// Returns the number of parts that were added.
+static uint32_t add_level(mixture_build *build, uint32_t level, uint32_t most) {
+    if (!is_gathered(build->largest_box, &build->grid, level))
+        return add_own_level(build, level, most);
+    add_gathered_level(build, level);
+    return 1;
 }
 
 static uint32_t layer_count(const mixture_kind *kind) {
@@ -251,9 +310,17 @@ moment_map passes_mixture_map_declare(const filter_context *context, uint32_t in
                                                           layer_count(kind), true)};
 }
 
-uint32_t passes_mixture_part_count(const device_material *material) {
+uint32_t passes_mixture_part_count(const device_material *material, const mixture_kind *kind) {
     const lobe_grid grid = passes_lobe_grid(material);
-    return 1 + passes_level_count(passes_half_extent(grid.width), passes_half_extent(grid.height));
+    const uint32_t largest_box = find_largest_box(material, kind);
+    const uint32_t levels =
+        passes_level_count(passes_half_extent(grid.width), passes_half_extent(grid.height));
+    uint32_t count = 1;
+    for (uint32_t level = 0; level < levels; level++)
+        count += is_gathered(largest_box, &grid, level)
+                     ? 1
+                     : bands_of_level(kind, material->lobe_count, &grid, level).count;
+    return count;
 }
 
 static moment_map add_parts(const filter_context *context, uint32_t index, const mixture_kind *kind,
@@ -264,14 +331,17 @@ static moment_map add_parts(const filter_context *context, uint32_t index, const
         .material = material,
         .index = index,
         .kind = kind,
+        .grid = passes_lobe_grid(material),
         .in_parts = in_parts,
         .largest_box = find_largest_box(material, kind),
         .samples = passes_mixture_samples(context, index, kind->plane, kind->own_colours, in_parts),
         .target = passes_mixture_map_declare(context, index, kind)};
-    if (parts > 0)
+    if (parts > 0) {
         add_root(&build);
-    for (uint32_t level = build.target.map.levels; parts > 1 && level-- > 0; parts--)
-        add_level(&build, level);
+        parts--;
+    }
+    for (uint32_t level = build.target.map.levels; parts > 0 && level-- > 0;)
+        parts -= add_level(&build, level, parts);
     return build.target;
 }
 
@@ -283,5 +353,5 @@ moment_map passes_mixture_map_parts(const filter_context *context, uint32_t inde
 moment_map passes_mixture_map(const filter_context *context, uint32_t index,
                               const mixture_kind *kind) {
     return add_parts(context, index, kind,
-                     passes_mixture_part_count(&context->scene->materials[index]), false);
+                     passes_mixture_part_count(&context->scene->materials[index], kind), false);
 }

@@ -36,8 +36,9 @@ mixture_extent passes_mixture_extent(const device_material *material, const mixt
 moment_map passes_mixture_map(const filter_context *context, uint32_t material,
                               const mixture_kind *kind);
 
-/// The parts of that work: the root with the samples, then each level from the coarsest on.
-uint32_t passes_mixture_part_count(const device_material *material);
+/// The parts of that work: the root with the samples, then each level from the coarsest on, large
+/// ones in bands of rows.
+uint32_t passes_mixture_part_count(const device_material *material, const mixture_kind *kind);
 
 /// The same in several frames: adds the passes of the first `parts` parts only. What later parts
 /// need is kept between frames, 32 bytes for each texel of the maps and base lobe.

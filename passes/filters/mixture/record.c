@@ -47,17 +47,17 @@ static lobe_result create(const filter_context *context, void **slot) {
 }
 
 /// Starts again with other settings, and leaves what was stored where texels were replaced.
-static void update(mixture_record *record, const device_material *material, uint64_t kind,
-                   uint64_t inputs) {
-    const bool other_kind = record->kind != kind;
+static void update(mixture_record *record, const device_material *material,
+                   const mixture_kind *kind, uint64_t kind_digest, uint64_t inputs) {
+    const bool other_kind = record->kind != kind_digest;
     record->reading->waits = false;
     if (!other_kind && record->inputs == inputs)
         return;
     passes_stored_mixture_free(&record->stored);
-    *record = (mixture_record){.kind = kind,
+    *record = (mixture_record){.kind = kind_digest,
                                .inputs = inputs,
                                .changed = !other_kind,
-                               .part_count = passes_mixture_part_count(material),
+                               .part_count = passes_mixture_part_count(material, kind),
                                .reading = record->reading};
 }
 
@@ -115,7 +115,7 @@ lobe_result passes_mixture_prepare(const filter_context *context, uint32_t index
     if (result != LOBE_OK)
         return result;
     const uint64_t inputs = passes_mixture_inputs(material, kind->own_colours);
-    update(record, material, passes_mixture_kind_digest(context, kind), inputs);
+    update(record, material, kind, passes_mixture_kind_digest(context, kind), inputs);
     result = look_up(context, index, kind, record);
     if (result == LOBE_OK)
         advance(context, material, kind, record);

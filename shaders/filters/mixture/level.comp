@@ -195,7 +195,8 @@ void keep_components(level_box box, level_sums sums, mixture_units units,
 }
 
 void main() {
-    uvec2 texel = gl_GlobalInvocationID.xy, size = uvec2(imageSize(moment_map).xy);
+    uvec2 texel = gl_GlobalInvocationID.xy + uvec2(0u, constants.first_row);
+    uvec2 size = uvec2(imageSize(moment_map).xy);
     if (any(greaterThanEqual(texel, size)))
         return;
     level_box box = level_box(texel, size, box_low(texel, size), box_high(texel, size));

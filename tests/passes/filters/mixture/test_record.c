@@ -297,6 +297,37 @@ static void parts_are_drawn_when_complete(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// In rows, so that no part takes long: here all levels of texels of 4 to 32 texels of the map, in
+/// two parts each.
+static void large_levels_are_made_in_parts(void **state) {
+    enum { LARGE = 1024, LARGE_PARTS = 1 + 5 + 4 * 2 + 1 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(LARGE, LARGE, 0.6, 5));
+    scene_add_sun(scene, (double[]){0.4, 1, 0.2}, 3);
+    scene_end_with_square(scene, &material);
+    const char *const settings[] = {"components=1", "steps=8", NULL};
+    uint64_t expected = 0;
+    for (uint32_t parts = 0; parts < 2; parts++) {
+        drawing drawing;
+        start(*state, scene, "mixture", &drawing);
+        memcpy(drawing.settings, settings, sizeof settings);
+        drawing.parts = parts;
+        uint64_t drawn = picture(&drawing, NULL);
+        assert_int_equal(drawing.parts_left, parts == 0 ? 0 : LARGE_PARTS - 1);
+        for (uint32_t left = drawing.parts_left; left > 0; left--) {
+            drawn = picture(&drawing, NULL);
+            assert_int_equal(drawing.parts_left, left - 1);
+            assert_true(ran(&drawing, "mixture_level") <= 1);
+            assert_true(fitted(&drawing));
+        }
+        assert_true(parts == 0 || drawn == expected);
+        expected = drawn;
+        stop(&drawing);
+    }
+    lobe_scene_destroy(&scene);
+}
+
 /// The material is drawn unfiltered until then, as by `direct`.
 static void incomplete_maps_are_not_drawn(void **state) {
     const picture_request request = {.filter = "direct", .width = SIZE, .height = SIZE};
@@ -428,6 +459,7 @@ int main(void) {
         IN_TEST_FOLDER(each_setting_has_its_file),
         IN_TEST_FOLDER(replaced_texels_are_fitted),
         IN_TEST_FOLDER(parts_are_drawn_when_complete),
+        IN_TEST_FOLDER(large_levels_are_made_in_parts),
         cmocka_unit_test(incomplete_maps_are_not_drawn),
         cmocka_unit_test(each_part_runs_once),
         IN_TEST_FOLDER(progress_is_reported),
