@@ -15,7 +15,7 @@
 
 /// Increment it whenever the same material is fitted or stored differently: old files are then no
 /// longer found.
-#define MIXTURE_FILE_VERSION 2
+#define MIXTURE_FILE_VERSION 3
 
 /// Texels of a row: levels, and within a level layers, follow each other in rows of so many texels.
 #define MIXTURE_FILE_ROW 4096

@@ -5,8 +5,10 @@
 #include "tests/passes/support/scene_builder.h"
 
 const char *const changing_material_names[CHANGING_MATERIALS] = {
-    "stones in joints", "two bumps",   "scratches", "weave", "rust",
-    "bricks",           "rough waves", "leaves",
+    "stones in joints", "two bumps",     "scratches",     "weave",           "rust",
+    "bricks",           "rough waves",   "leaves",        "tiles",           "yarn and leather",
+    "pebbles",          "stamped metal", "peeling paint", "gravel and moss", "grooved sheets",
+    "planks",
 };
 
 /// At a texel.
@@ -133,9 +135,126 @@ static changing_texel leaves(double x, double y) {
         waxy ? 1 : 0.5};
 }
 
+// ---------------------------------------------------------------------------------------------
+// Maps that nothing was found on
+
+/// Glazed tiles with bevelled edges and rough grout, a patch of them worn.
+static changing_texel tiles(double x, double y) {
+    const double u = fmod(x, 21) / 10.5 - 1, v = fmod(y + 5, 21) / 10.5 - 1;
+    changing_texel texel = {{0, 0}, 16, 0.3};
+    if (fmax(fabs(u), fabs(v)) > 0.88) {
+        add_noise(x / 2, y / 2, 0.35, &texel);
+        return texel;
+    }
+    const bool worn = hypot(x - 180, y - 70) < 60;
+    texel = (changing_texel){{0, 0}, worn ? 45 : 170, worn ? 0.5 : 0.9};
+    if (fabs(u) > 0.7)
+        texel.slope[0] = copysign(0.6, u);
+    if (fabs(v) > 0.7)
+        texel.slope[1] = copysign(0.6, v);
+    add_noise(x / 9, y / 9, worn ? 0.15 : 0.03, &texel);
+    return texel;
+}
+
+/// Loops of yarn beside leather, along a slanted seam.
+static changing_texel yarn_and_leather(double x, double y) {
+    if (x + 0.4 * y > 170) {
+        changing_texel texel = {{0, 0}, 110, 0.8};
+        add_noise(x / 5, y / 5, 0.45, &texel);
+        return texel;
+    }
+    const double u = fmod(x, 7) / 3.5 - 1, v = fmod(y + (u > 0 ? 2.5 : 0), 5) / 2.5 - 1;
+    return (changing_texel){{0.6 * u + 0.2 * v, 0.7 * v - 0.3 * fabs(u)}, 22, 0.35};
+}
+
+/// Wet pebbles of several sizes in dry sand.
+static changing_texel pebbles(double x, double y) {
+    changing_texel texel = {{0, 0}, 18, 0.4};
+    for (int size = 0; size < 3; size++) {
+        const double pitch = 11 + 9 * size;
+        const int column = (int)(x / pitch), row = (int)(y / pitch);
+        const double radius = 0.25 + 0.2 * random_of(column + 50 * size, row);
+        const double u = x / pitch - column - 0.5, v = y / pitch - row - 0.5;
+        if (random_of(column, row + 40 * size) < 0.4 && hypot(u, v) < radius)
+            return (changing_texel){
+                {0.8 * u / radius, 0.8 * v / radius}, 150, 0.5 + 0.5 * random_of(column, row)};
+    }
+    add_noise(x / 1.5, y / 1.5, 0.3, &texel);
+    return texel;
+}
+
+/// Brushed metal, a third of it stamped with round dents.
+static changing_texel stamped_metal(double x, double y) {
+    changing_texel texel = {{0, 0}, 130, 0.7};
+    add_noise(x / 1.3, y / 60, 0.12, &texel);
+    const double u = fmod(x, 15) / 7.5 - 1, v = fmod(y, 15) / 7.5 - 1, r = hypot(u, v);
+    if (y > 160 + 0.1 * x && r < 0.8)
+        texel = (changing_texel){{-0.7 * u, -0.7 * v}, 60, 1};
+    return texel;
+}
+
+/// Paint that peels off old wood.
+static changing_texel peeling_paint(double x, double y) {
+    const double height = noise(x / 31 + 3, y / 31) + 0.4 * noise(x / 9, y / 9 + 20);
+    changing_texel texel = {{0, 0}, 140, 0.6};
+    if (height > 0.72) {
+        texel = (changing_texel){{0, 0}, 15, 0.25};
+        texel.slope[0] = 0.35 * sin(2 * x + 0.2 * noise(x / 10, y / 40));
+        return texel;
+    }
+    if (height > 0.66)
+        texel.slope[1] = 0.8 * (height - 0.66) / 0.06;
+    add_noise(x / 12, y / 12, 0.08, &texel);
+    return texel;
+}
+
+/// Gravel, moss, and water in between.
+static changing_texel gravel_and_moss(double x, double y) {
+    const double height = noise(x / 40, y / 40 + 7);
+    changing_texel texel = {{0, 0}, 180, 1};
+    if (height > 0.58) {
+        texel = (changing_texel){{0, 0}, 60, 0.5};
+        add_noise(x / 4, y / 4, 0.7, &texel);
+    } else if (height > 0.42) {
+        texel = (changing_texel){{0, 0}, 16, 0.15};
+        add_noise(x / 1.7, y / 1.7, 0.5, &texel);
+    } else {
+        add_noise(x / 15, y / 15, 0.06, &texel);
+    }
+    return texel;
+}
+
+/// Sheets of metal with grooves of three kinds.
+static changing_texel grooved_sheets(double x, double y) {
+    if (y < 80)
+        return (changing_texel){{0.55 * cos(0.8 * x), 0}, 160, 0.9};
+    if (y < 190)
+        return (changing_texel){{fmod(x, 9) < 4.5 ? 0.45 : -0.45, 0.1}, 70, 0.5};
+    return (changing_texel){{0, 0.6 * cos(0.6 * y + 0.2 * x)}, 25, 0.3};
+}
+
+/// Planks with nails, rough grain and a lacquered strip.
+static changing_texel planks(double x, double y) {
+    const double across = fmod(x, 37);
+    changing_texel texel = {{0, 0}, 30, 0.4};
+    if (across < 3)
+        return (changing_texel){{across < 1.5 ? -0.8 : 0.8, 0}, 15, 0.1};
+    const double u = across - 18, v = fmod(y, 64) - 32;
+    if (hypot(u, v) < 4)
+        return (changing_texel){{0.15 * u, 0.15 * v}, 190, 1};
+    const bool lacquered = fabs(y - 0.3 * x - 60) < 45;
+    if (lacquered)
+        texel = (changing_texel){{0, 0}, 150, 0.8};
+    add_noise(x / 1.5, y / 25, lacquered ? 0.1 : 0.3, &texel);
+    return texel;
+}
+
 lobe_image changing_material(int which, uint32_t extent, lobe_image *colours) {
     static changing_texel (*const materials[CHANGING_MATERIALS])(double, double) = {
-        stones, bumps, scratches, weave, rust, bricks, waves, leaves};
+        stones,  bumps,         scratches,     weave,           rust,
+        bricks,  waves,         leaves,        tiles,           yarn_and_leather,
+        pebbles, stamped_metal, peeling_paint, gravel_and_moss, grooved_sheets,
+        planks};
     lobe_image map = map_image(LOBE_FORMAT_RGBA32_FLOAT, extent, extent);
     *colours = map_image(LOBE_FORMAT_R32_FLOAT, extent, extent);
     for (uint32_t i = 0; i < extent * extent; i++) {
