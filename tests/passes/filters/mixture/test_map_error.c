@@ -364,9 +364,10 @@ static void neighbours_blend(void **state) {
     assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
-/// Where relief, sharpness and colour change over the map, at equal bytes.
+/// Where relief, sharpness and colour change over the map, at equal bytes. Of the grooved sheets
+/// that is so only because components without use in a quarter of the map share others there.
 static void materials_that_change_are_fitted_better(void **state) {
-    static const int materials[] = {6, 7};
+    static const int materials[] = {7, 14};
     double sums[2] = {0};
     for (int i = 0; i < 2; i++) {
         lobe_image colours;
