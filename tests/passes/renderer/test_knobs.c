@@ -1,7 +1,8 @@
 // Every knob of every filter, at both ends of its range or with each of its choices, gives a finite
 // picture that is not empty, and no message of the validation layer. Of choices that change no
-// shader, such as sizes, the first and the last are drawn. Views are the same code in all filters:
-// one draws them all here, and each those that show its own numbers below.
+// shader, such as sizes, the first and the last are drawn. Of a knob that filters share, each draws
+// every other value, and the next one the rest. Views are the same code in all filters: one draws
+// them all here, and each those that show its own numbers below.
 
 #include "tests/passes/support/fixture.h"
 
@@ -47,23 +48,48 @@ static void draw_with(fixture *f, const char *filter, const char *assignment) {
     lobe_frame_free(&frame);
 }
 
+/// How many of the first `filter_count` filters have the knob.
+static size_t users(size_t filter_count, const filter_knob *knob) {
+    size_t count = 0;
+    for (size_t i = 0; i < filter_count; i++)
+        for (size_t j = 0; j < lobe_filter_knob_count(lobe_filter_get(i)); j++)
+            count += passes_filter_knob(lobe_filter_get(i), j) == knob;
+    return count;
+}
+
+/// The values of a knob in one filter.
+typedef struct knob_turns {
+    bool shared;
+    size_t next;
+} knob_turns;
+
+static void draw_in_turn(fixture *f, const char *filter, const char *assignment,
+                         knob_turns *turns) {
+    if (!turns->shared || turns->next % 2 == 0)
+        draw_with(f, filter, assignment);
+    turns->next++;
+}
+
 /// The picture of the default is drawn once for all knobs.
-static void draw_knob(fixture *f, const char *filter, const filter_knob *knob_feed) {
+static void draw_knob(fixture *f, size_t filter_index, const filter_knob *knob_feed) {
+    const char *filter = lobe_filter_name(lobe_filter_get(filter_index));
     const lobe_knob *knob = &knob_feed->description;
     const bool ends = knob_feed->feeds.route == KNOB_HOST && !knob_feed->decides_slots;
+    knob_turns turns = {.shared = users(lobe_filter_count(), knob_feed) > 1,
+                        .next = users(filter_index, knob_feed)};
     char assignment[128];
     for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
         if ((double)i == knob->initial || (ends && i > 0 && knob->choices[i + 1]))
             continue;
         snprintf(assignment, sizeof assignment, "%s=%s", knob->name, knob->choices[i]);
-        draw_with(f, filter, assignment);
+        draw_in_turn(f, filter, assignment, &turns);
     }
     for (int i = 0; !knob->choices && i < 2; i++) {
         double end = i ? knob->maximum : knob->minimum;
         if (end == knob->initial)
             continue;
         snprintf(assignment, sizeof assignment, "%s=%g", knob->name, end);
-        draw_with(f, filter, assignment);
+        draw_in_turn(f, filter, assignment, &turns);
     }
 }
 
@@ -76,7 +102,7 @@ static void every_knob_draws_at_both_ends(void **state) {
         draw_with(f, lobe_filter_name(filter), "base=exact");
         for (size_t j = 0; j < lobe_filter_knob_count(filter); j++)
             if (i == 0 || strcmp(lobe_filter_knob(filter, j)->name, "view") != 0)
-                draw_knob(f, lobe_filter_name(filter), passes_filter_knob(filter, j));
+                draw_knob(f, i, passes_filter_knob(filter, j));
     }
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
