@@ -5,40 +5,15 @@
 // coarse relief's own shadows. A thread a cell.
 
 #define CELL_ACCESS
-#include "filters/displaced/height_field.glsl"
+#include "filters/displaced/horizon.glsl"
 #include "filters/wu/cells.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(push_constant) uniform step_block { wu_step stage; };
 
-// What raises a horizon by less, as a slope, is not looked for, nor what is more than a period
-// away.
+// What raises a horizon by less, as a slope, is not looked for.
 const float LEAST_RISE = 0.005;
-
-// Raises a horizon by the relief at a place of the walk, and behind it.
-float raised(float slope, relief_walk walk, vec4 corners, float place, float unit) {
-    vec2 inside = walk.origin.xy - vec2(walk.quad) + place * walk.direction.xy;
-    float height = corners.x + dot(facet_slope(corners, inside.x < inside.y), inside);
-    return place > 1e-4 ? max(slope, unit * (height - walk.origin.z) / place) : slope;
-}
-
-// The tangent of the elevation above which the sky is seen from a point. `along`: cells for each
-// texel.
-float horizon(vec3 origin, vec2 along, wu_level level, float slope) {
-    relief_walk walk = start_walk(origin, vec3(along, 0.0));
-    float rise = level.unit * (largest_height() - origin.z);
-    float period = float(max(wu.width, wu.height));
-    for (int i = 0; i < WALK_STEPS; ++i) {
-        if (rise <= (slope + LEAST_RISE) * walk.place || walk.place > period)
-            break;
-        vec4 corners = quad_heights(walk.quad);
-        slope = raised(slope, walk, corners, crossing_of_diagonal(walk), level.unit);
-        slope = raised(slope, walk, corners, walk.leave, level.unit);
-        advance(walk);
-    }
-    return slope;
-}
 
 void main() {
     wu_level level = wu.levels[stage.level];
@@ -55,11 +30,14 @@ void main() {
     vec2 low_slope = lower * level.unit / spacing, high_slope = upper * level.unit / spacing;
     uint cell = level.first_cell + index;
     cells[cell].slopes = vec4(low_slope, high_slope);
+    float period = float(max(wu.width, wu.height));
     for (uint i = 0u; i < WU_AZIMUTHS; ++i) {
         float azimuth = 2.0 * PI * float(i) / float(WU_AZIMUTHS);
         vec2 along = vec2(cos(azimuth), sin(azimuth));
         cells[cell].horizons[i] = packHalf2x16(
-            vec2(horizon(low_centre, along / spacing, level, max(dot(low_slope, along), 0.0)),
-                 horizon(high_centre, along / spacing, level, max(dot(high_slope, along), 0.0))));
+            vec2(horizon(low_centre, along / spacing, level.unit, LEAST_RISE, period,
+                         max(dot(low_slope, along), 0.0)),
+                 horizon(high_centre, along / spacing, level.unit, LEAST_RISE, period,
+                         max(dot(high_slope, along), 0.0))));
     }
 }

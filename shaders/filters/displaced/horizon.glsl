@@ -1,0 +1,47 @@
+#ifndef HORIZON_GLSL
+#define HORIZON_GLSL
+
+// How much of the sky a point of a relief sees.
+
+#include "filters/displaced/height_field.glsl"
+
+// Raises a horizon by one vertex of the line that the walk crosses.
+void raise(inout float slope, relief_walk walk, vec4 corners, bool upper, float place,
+           float unit) {
+    vec2 inside = walk.origin.xy - vec2(walk.quad) + place * walk.direction.xy;
+    float height = corners.x + dot(facet_slope(corners, upper), inside);
+    if (place > 1e-4)
+        slope = max(slope, unit * (height - walk.origin.z) / place);
+}
+
+void raise_by_quad(inout float slope, relief_walk walk, float unit) {
+    vec4 corners = quad_heights(walk.quad);
+    float crossing = crossing_of_diagonal(walk);
+    bool first = is_upper(walk, 0.5 * (walk.place + crossing));
+    raise(slope, walk, corners, first, crossing, unit);
+    raise(slope, walk, corners, is_upper(walk, 0.5 * (crossing + walk.leave)), walk.leave, unit);
+}
+
+// The tangent of the elevation above which the sky is seen in a horizontal direction, if that is
+// more than `slope`. `along`: quads for each unit of length, `unit`: lengths for each of heights.
+// What raises the horizon by less than `least_rise`, as a slope, is not looked for, nor what is
+// further away than `reach`.
+float horizon(vec3 origin, vec2 along, float unit, float least_rise, float reach, float slope) {
+    relief_walk walk = start_walk(origin, vec3(along, 0.0));
+    float rise = unit * (largest_height() - origin.z);
+    for (int i = 0; i < WALK_STEPS; ++i) {
+        float least = (slope + least_rise) * walk.place;
+        if (rise <= least || walk.place > reach)
+            break;
+        if (walk.level > 0 && unit * (node_maximum(walk) - origin.z) > least) {
+            descend(walk);
+            continue;
+        }
+        if (walk.level == 0)
+            raise_by_quad(slope, walk, unit);
+        advance(walk);
+    }
+    return slope;
+}
+
+#endif
