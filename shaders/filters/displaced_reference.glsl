@@ -182,8 +182,7 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-}
+#include "shading/lights/no_gathering.glsl"
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     if (!RELIEF)

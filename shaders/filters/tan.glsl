@@ -61,8 +61,7 @@ appearance fetch_appearance(surface_point surface) {
     return result;
 }
 
-void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-}
+#include "shading/lights/no_gathering.glsl"
 
 float density_of(gaussian_lobe lobe, vec2 place) {
     vec2 d = place - lobe.normal.xy;

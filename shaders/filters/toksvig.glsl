@@ -9,8 +9,7 @@
 
 #include "shading/averaged_maps.glsl"
 
-void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-}
+#include "shading/lights/no_gathering.glsl"
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(widened_material(fetched), fetched.mean_normal, surface.outgoing,
