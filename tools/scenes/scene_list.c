@@ -7,6 +7,7 @@
 #include "tools/scenes/fields_scene.h"
 #include "tools/scenes/flag_scene.h"
 #include "tools/scenes/ocean_scene.h"
+#include "tools/scenes/relief/relief_scenes.h"
 
 typedef struct own_scene {
     listed_scene description;
@@ -30,6 +31,15 @@ static const own_scene own_scenes[] = {
     {{"flag", "a flag of canvas in the wind, with a relief of threads that gusts stretch", false,
       "leadr"},
      flag_scene},
+    {{"twill", "a ball on a floor, both of twill in two colours; zoomed out, 64 texels to a pixel",
+      false, "displaced"},
+     relief_scene_twill},
+    {{"cobbles", "the same of stones with dark joints", false, "displaced"}, relief_scene_cobbles},
+    {{"studs", "a diffuse ball of half spheres on a floor of noise", false, "displaced"},
+     relief_scene_studs},
+    {{"furnace", "the same, white, in white light: what a filter loses of it is seen", false,
+      "displaced"},
+     relief_scene_furnace},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 

@@ -171,7 +171,8 @@ def test_scenes_are_listed():
     lines = succeeds("scenes").stdout.splitlines()
     names = [line.split()[0] for line in lines]
     check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "hall", "bunny", "dragon",
-                    "rain", "cloth", "ocean", "fields", "flag"], str(names))
+                    "rain", "cloth", "ocean", "fields", "flag", "twill", "cobbles",
+                    "studs", "furnace"], str(names))
     check(all(len(line.split()) > 3 for line in lines), "no summaries")
 
 
