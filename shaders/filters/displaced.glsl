@@ -19,7 +19,7 @@
 const bool BIN_COLOUR = false;
 const bool BIN_WIDTHS = false;
 
-#include "filters/moments/plane_bin.glsl"
+#include "filters/displaced/mirrored_light.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
@@ -308,8 +308,7 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
     map_area area = transfer_area(surface);
     facet_areas areas;
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
-        drawn.lights[i] =
-            light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+        drawn.lights[i] = no_light();
     for (uint k = 0u; k < FACET_BINS; ++k) {
         plane_bin bin = facet_bin(surface, area, k, fetched.base.width);
         take_area(areas, k, bin, fetched.base.width);
@@ -325,20 +324,12 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
         drawn.shone_on[i] = seen_part(facing_area(areas, incoming[i]), incoming[i]);
 }
 
-// Cook, Torrance, 1982, of all facets: their areas, seen and lit by parts, over the area that the
-// viewer sees.
+// Of facets that are seen and lit by parts, over the area that the viewer sees.
 vec3 mirrored_by_facets(base_material base, vec3 fresnel, vec3 outgoing, vec3 incoming,
                         uint light) {
-    light_sum sum = drawn.lights[light];
-    float scale = 1.0 / max(sum.distribution, 1e-20);
-    facing_cosines cosines = facing_cosines_of(
-        normal_spread_of(scale * sum.place, scale * sum.second_moments), incoming, outgoing);
-    float visible =
-        masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, base.width) *
-        seen_by_both(drawn.seen, drawn.shone_on[light]);
-    return fresnel * scattering_scale(base.specular, cosines.outgoing, base.width) *
-           (cosines.share * sum.distribution * visible /
-            (4.0 * drawn.viewer.z * drawn.transfer.visible));
+    return mirrored_light(base, drawn.lights[light], fresnel, outgoing, incoming) *
+           (seen_by_both(drawn.seen, drawn.shone_on[light]) /
+            (drawn.viewer.z * drawn.transfer.visible));
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {

@@ -1,11 +1,12 @@
-// The diffuse light of a material's relief by a coarse relief, lobes of normals, and factors that
-// stand for shadows and light between facets (interface/displacement/wu.h):
+// The light of a material's relief by a coarse relief, lobes of normals, and factors that stand for
+// shadows and light between facets (interface/displacement/wu.h):
 //
 // Wu, Zhao, Yan, Ramamoorthi, 2019, Accurate Appearance Preserving Prefiltering for Rendering
 // Displacement-Mapped Surfaces. Light is summed over the cells of a footprint, and divided by the
 // area of them that is seen, rather than followed over the coarse relief.
 //
-// Lobes, and materials without a relief, are shaded as by `toksvig`.
+// Microfacets are those of the cells' lobes. Half-vector lobes, and materials without a relief, are
+// shaded as by `toksvig`.
 
 #include "filters/wu/cells.glsl"
 #include "filters/wu/directions.glsl"
@@ -14,11 +15,23 @@
 #include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
 
+const bool BIN_COLOUR = false;
+const bool BIN_WIDTHS = false;
+
+#include "filters/displaced/mirrored_light.glsl"
+
 layout(LOBE_DESCRIPTOR(38), std430) readonly buffer ratio_block { vec2 ratios[]; };
-layout(LOBE_DESCRIPTOR(39), std430) readonly buffer energy_block { vec4 energy; };
+layout(LOBE_DESCRIPTOR(39), std430) readonly buffer whole_block {
+    vec4 energy;
+    float mirrors[];
+};
 
 // The relief's y runs against the tangent frame's.
 vec3 relief_from_tangent(vec3 direction) {
+    return vec3(direction.x, -direction.y, direction.z);
+}
+
+vec3 tangent_from_relief(vec3 direction) {
     return vec3(direction.x, -direction.y, direction.z);
 }
 
@@ -98,6 +111,17 @@ vec2 scaling_of_directions(uint level, table_place incoming, table_place outgoin
     return sum;
 }
 
+// The same of what facets mirror.
+float scaling_of_mirrors(uint level, table_place incoming, table_place outgoing) {
+    uint directions = wu.angular * wu.angular, first = level * mirror_stride();
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            sum += incoming.weights[i] * outgoing.weights[j] *
+                   mirrors[first + incoming.indices[i] * directions + outgoing.indices[j]];
+    return sum;
+}
+
 // The light by way of other facets, over that of a white relief, by albedo; divided by the albedo.
 vec3 indirect_share(vec3 albedo) {
     float persistence = energy.y;
@@ -110,71 +134,289 @@ vec3 scaling_of_cell(uint cell, vec3 share) {
     return (above.x + share * (above.y + share * above.z)) / max(divisor, vec3(1e-20));
 }
 
+float mirror_scaling_of_cell(uint level_index, uint cell) {
+    uint directions = wu.angular * wu.angular;
+    uint first = level_index * mirror_stride() + directions * directions;
+    patch_range range = patches_of_cell(level_index, cell);
+    vec2 sum = vec2(0.0);
+    for (uint y = range.first.y; y <= range.last.y; ++y)
+        for (uint x = range.first.x; x <= range.last.x; ++x) {
+            uint place = first + 2u * (y * wu.patches + x);
+            sum += vec2(mirrors[place], mirrors[place + 1u]);
+        }
+    return sum.y > 0.0 ? sum.x / sum.y : 1.0;
+}
+
 // ---------------------------------------------------------------------------------------------
 // Light
 
-// Towards the viewer: from a light, over the base's area; and the area that is seen.
-struct cell_light {
-    vec3 light;
-    float visible;
-};
+bool has_facets() {
+    return RELIEF && MODEL == MODEL_MICROFACET;
+}
 
-void add_level(inout cell_light sum, covered_cells covered, float share, vec3 albedo, vec3 incoming,
-               vec3 outgoing) {
-    vec2 scaling = scaling_of_directions(covered.level, place_in_table(incoming),
-                                         place_in_table(outgoing));
-    vec3 indirect = indirect_share(albedo);
+#ifdef ENVIRONMENT
+// Light of an environment is that of the upper half of the texels of a coarse level.
+const int LIGHT_WIDTH = 4;
+const int MOST_LIGHTS = 6 * LIGHT_WIDTH * LIGHT_WIDTH;
+#else
+const int MOST_LIGHTS = 4;
+#endif
+
+// What a pixel's lights share. Of each light, towards the viewer, over the base's area: of white
+// facets at once, and by way of others, before the powers of the albedo.
+struct relief_footprint {
+    vec3 viewer;        // in the relief's frame
+    vec3 outgoing;      // the same in the tangent frame
+    float visible;      // the area that the viewer sees
+    vec3 share;         // see indirect_share
+    int lights;         // how many
+    vec3 towards[MOST_LIGHTS];
+    vec3 direct[MOST_LIGHTS];
+    vec3 indirect[MOST_LIGHTS];
+    light_sum mirrored[4]; // of the first lights
+};
+relief_footprint drawn;
+
+// Normals of a cell's lobes, times their weights and cosines to the viewer.
+vec4 facing[8u * WU_LOBES];
+
+float light_of_facing(vec3 light) {
+    float sum = 0.0;
+    for (uint i = 0u; i < 8u * WU_LOBES; ++i)
+        sum += facing[i].w * max(dot(facing[i].xyz, light), 0.0);
+    return sum;
+}
+
+void find_facing(uint cell) {
+    for (uint i = 0u; i < WU_LOBES; ++i) {
+        vec4 lobe = cells[cell].lobes[i];
+        float weight = length(lobe.xyz);
+        lobe_normals normals =
+            normals_of_lobe(weight > 0.0 ? lobe.xyz / weight : vec3(0.0, 0.0, 1.0), lobe.w);
+        for (int k = 0; k < 8; ++k)
+            facing[8u * i + k] =
+                vec4(normals.normals[k],
+                     weight / (8.0 * PI) * (is_printed(WU_PRINTED_LOBES)
+                                                ? 1.0
+                                                : max(dot(normals.normals[k], drawn.viewer), 0.0)));
+    }
+}
+
+// A lobe of normals with microfacets of this width. The relief's y runs against the tangent
+// frame's.
+plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
+    float weight = length(lobe.xyz);
+    plane_bin bin;
+    bin.axis = weight > 0.0 ? tangent_from_relief(lobe.xyz / weight) : vec3(0.0, 0.0, 1.0);
+    bin.mean = plane_from_direction(bin.axis);
+    bin.variance = bin.mean_variance = plane_variance(distribution_kind(), width);
+    bin.sharpness = inversesqrt(bin.variance);
+    // The mean cosine to the axis is coth k - 1 / k.
+    float wide = 1.0 - 1.0 / tanh(min(lobe.w, 40.0)) + 1.0 / lobe.w;
+    vec3 distortion = plane_distortion(bin.mean);
+    bin.places = wide * distortion + curvature;
+    bin.spread = 0.5 * (bin.places.x + bin.places.y);
+    vec3 base = bin.variance * distortion;
+    bin.covariance = bin.places + base;
+    bin.mass = weight * plane_mass(MODEL, distribution_kind(), width);
+    make_terms(bin, bin.places, base, 0.0);
+    keep_shape(bin, 0.0);
+    return bin;
+}
+
+// Wu et al., 2019, Eq. 18: T S f'_low, of microfacets.
+void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, surface_point surface,
+                        float width) {
+    table_place outgoing = place_in_table(drawn.viewer);
+    light_sum sums[4];
+    for (int k = 0; k < 4; ++k)
+        sums[k] = no_light();
+    for (uint i = 0u; i < WU_LOBES; ++i) {
+        plane_bin bin = bin_of_lobe(cells[cell].lobes[i], surface.curvature, width);
+        for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
+            vec3 halfway = half_vector(tangent_from_relief(drawn.towards[k]), drawn.outgoing);
+            if (bin.mass > 0.0)
+                add_bin_to_light(sums[k], bin, halfway, plane_from_direction(halfway));
+        }
+    }
+    float scaling = weight * mirror_scaling_of_cell(level, cell);
+    for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
+        float both = seen_by_both(seen, seen_areas(cell, drawn.towards[k]));
+        if (both > 0.0)
+            add_light(drawn.mirrored[k], sums[k],
+                      scaling * both *
+                          scaling_of_mirrors(level, place_in_table(drawn.towards[k]), outgoing));
+    }
+}
+
+void add_level(uint level, vec2 centre, float share, surface_point surface, float width) {
+    covered_cells covered = cells_around(level, centre);
+    table_place outgoing = place_in_table(drawn.viewer);
+    vec2 scaling[MOST_LIGHTS];
+    for (int k = 0; k < drawn.lights; ++k)
+        scaling[k] = scaling_of_directions(level, place_in_table(drawn.towards[k]), outgoing);
     for (int i = 0; i < 4; ++i) {
         uint cell = covered.cells[i];
         float weight = share * covered.weights[i];
-        vec2 seen = seen_areas(cell, outgoing);
-        sum.visible += weight * 0.5 * (seen.x + seen.y);
-        float both = seen_by_both(seen, seen_areas(cell, incoming));
-        if (both > 0.0)
-            sum.light += weight * both * unshadowed_light(cell, incoming, outgoing) * albedo *
-                         scaling_of_cell(cell, indirect) * (scaling.x + indirect * scaling.y);
+        if (weight <= 0.0)
+            continue;
+        vec2 seen = seen_areas(cell, drawn.viewer);
+        drawn.visible += weight * 0.5 * (seen.x + seen.y);
+        if (seen.x + seen.y <= 0.0)
+            continue;
+        find_facing(cell);
+        vec3 factor = weight * scaling_of_cell(cell, drawn.share);
+        for (int k = 0; k < drawn.lights; ++k) {
+            vec2 lit = seen_areas(cell, drawn.towards[k]);
+            float both = is_printed(WU_PRINTED_LOBES)
+                             ? seen_by_both_printed(cell, seen, lit, drawn.towards[k].z)
+                             : seen_by_both(seen, lit);
+            float light = both > 0.0 ? both * light_of_facing(drawn.towards[k]) : 0.0;
+            drawn.direct[k] += light * scaling[k].x * factor;
+            drawn.indirect[k] += light * scaling[k].y * factor;
+        }
+        if (has_facets() && width > 0.0)
+            add_mirrored_light(level, cell, weight, seen, surface, width);
     }
 }
 
-// Radiance of diffuse facets for light of irradiance 1 on a plane that faces it.
-vec3 diffuse_radiance(surface_point surface, vec3 albedo, vec3 incoming) {
+// Sums over the cells of the footprint, for the lights in `drawn`. `width`: of microfacets; 0: what
+// they mirror is not asked for.
+void gather_cells(appearance fetched, surface_point surface, float width) {
+    drawn.outgoing = viewer_of(surface);
+    drawn.viewer = relief_from_tangent(drawn.outgoing);
+    drawn.share = indirect_share(clamp(fetched.base.diffuse, 0.0, 1.0));
+    drawn.visible = 0.0;
+    for (int k = 0; k < drawn.lights; ++k)
+        drawn.direct[k] = drawn.indirect[k] = vec3(0.0);
+    for (int k = 0; k < 4; ++k)
+        drawn.mirrored[k] = no_light();
     map_area area = area_of(MAP_HEIGHT, vec2(wu.width, wu.height), surface);
-    vec3 outgoing = relief_from_tangent(viewer_of(surface)), light = relief_from_tangent(incoming);
     float share;
     uint level = coarser_level(area.level, share);
-    cell_light sum = cell_light(vec3(0.0), 0.0);
     float part = share / float(probes_of(area)), rest = (1.0 - share) / float(probes_of(area));
     for (uint i = 0u; i < probes_of(area); ++i) {
         vec2 centre = probe_position(area, i);
-        add_level(sum, cells_around(level, centre), part, albedo, light, outgoing);
+        add_level(level, centre, part, surface, width);
         if (rest > 0.0)
-            add_level(sum, cells_around(level - 1u, centre), rest, albedo, light, outgoing);
+            add_level(level - 1u, centre, rest, surface, width);
     }
-    return sum.light / max(sum.visible, LEAST_VISIBLE * outgoing.z);
+    drawn.visible = max(drawn.visible, LEAST_VISIBLE * drawn.viewer.z);
+}
+
+// Radiance of diffuse facets for irradiance 1 of a light. `mirrored`: the part of light that facets
+// mirror at right angles. What of it meets other facets is taken to go on as if it were diffuse.
+vec3 diffuse_radiance(vec3 albedo, vec3 mirrored, int light) {
+    vec3 share = albedo * indirect_share(albedo) + mirrored * indirect_share(mirrored);
+    return (albedo * drawn.direct[light] + share * drawn.indirect[light]) / drawn.visible;
+}
+
+vec3 mirrored_part(base_material base) {
+    return MODEL == MODEL_MICROFACET ? clamp(base.specular, 0.0, 1.0) : vec3(0.0);
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (!has_diffuse())
+        return;
+    drawn.lights = int(LIGHTS_AT_ONCE);
+    for (int k = 0; k < drawn.lights; ++k)
+        drawn.towards[k] = relief_from_tangent(incoming[k]);
+    gather_cells(fetched, surface, has_facets() ? fetched.base.width : 0.0);
 }
 
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     base_material base = widened_material(fetched);
     if (!has_diffuse())
         return evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
-    vec3 albedo = base.diffuse;
+    vec3 albedo = clamp(base.diffuse, 0.0, 1.0);
     base.diffuse = vec3(0.0);
-    vec3 lobes = evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
-        return lobes;
-    vec3 halfway = half_vector(incoming, surface.outgoing);
-    vec3 passed = MODEL == MODEL_MICROFACET
-                      ? 1.0 - fresnel_schlick(base.specular, vec3(1.0), dot(incoming, halfway))
-                      : vec3(1.0);
-    return lobes + diffuse_radiance(surface, clamp(albedo * passed, 0.0, 1.0), incoming);
+        return vec3(0.0);
+    vec3 lobes, fresnel = vec3(0.0);
+    if (has_facets()) {
+        fresnel = fresnel_schlick(base.specular, vec3(1.0),
+                                  dot(incoming, half_vector(incoming, drawn.outgoing)));
+        lobes = mirrored_light(fetched.base, drawn.mirrored[light], fresnel, drawn.outgoing,
+                               incoming) /
+                drawn.visible;
+    } else {
+        lobes = evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
+    }
+    return lobes + diffuse_radiance(albedo * (1.0 - fresnel), mirrored_part(base), int(light));
 }
 
 #ifdef ENVIRONMENT
-// Light of an environment is summed over the texels of a coarse level.
-const int LIGHT_WIDTH = 4;
+// The part of the light from everywhere that the chosen texels' cosines do not sum to is shared out
+// among them. Returns the irradiance of each, perpendicular to its direction.
+vec3 irradiances[MOST_LIGHTS];
+
+void find_lights(surface_point surface) {
+    mat3 tangent_from_environment = tangent_from_environment_of(surface);
+    int level = level_of_faces(LIGHT_WIDTH);
+    int size = min(textureSize(environment_faces, level).x, LIGHT_WIDTH);
+    float cosines = 0.0;
+    drawn.lights = 0;
+    for (int i = 0; i < 6 * size * size; ++i) {
+        int face = i / (size * size);
+        ivec2 texel = ivec2(i % size, (i / size) % size);
+        vec3 incoming = tangent_from_environment * cube_texel_direction(face, texel, size);
+        if (incoming.z <= 0.0)
+            continue;
+        float solid_angle = cube_texel_solid_angle(texel, size);
+        drawn.towards[drawn.lights] = relief_from_tangent(incoming);
+        irradiances[drawn.lights] = texelFetch(environment_faces, ivec3(texel, face), level).rgb *
+                                    (environment.intensity * solid_angle);
+        cosines += solid_angle * incoming.z;
+        ++drawn.lights;
+    }
+    for (int k = 0; k < drawn.lights; ++k)
+        irradiances[k] *= PI / cosines;
+}
+
+// Each lobe by the area of it that faces the viewer, and where both the viewer and the direction
+// that its mean facet mirrors see the coarse relief.
+vec3 mirrored_by_cell(uint level, uint cell, surface_point surface, base_material base) {
+    vec2 seen = seen_areas(cell, drawn.viewer);
+    table_place outgoing = place_in_table(drawn.viewer);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < WU_LOBES; ++i) {
+        plane_bin bin = bin_of_lobe(cells[cell].lobes[i], surface.curvature, base.width);
+        normal_spread normals =
+            normal_spread_of(bin.mean, bin.places + second_moments_of(bin.mean));
+        float share;
+        vec3 normal = facing_normals(normals, drawn.outgoing, share).mean;
+        float area = length(cells[cell].lobes[i].xyz);
+        if (area * share <= 1e-4)
+            continue;
+        vec3 incoming = relief_from_tangent(reflect(-drawn.outgoing, normalize(normal)));
+        float both = seen_by_both(seen, seen_areas(cell, incoming));
+        if (both <= 0.0 || incoming.z <= 0.0)
+            continue;
+        float faces = mean_facing_cosine(normals, drawn.outgoing) / max(share, 1e-3);
+        sum += (area * faces * both *
+                scaling_of_mirrors(level, place_in_table(incoming), outgoing)) *
+               reflect_bin(surface, bin, base.specular);
+    }
+    return mirror_scaling_of_cell(level, cell) * sum;
+}
+
+vec3 mirrored_by_cells(surface_point surface, base_material base) {
+    map_area area = area_of(MAP_HEIGHT, vec2(wu.width, wu.height), surface);
+    float share;
+    uint level = coarser_level(area.level, share);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < 2u * probes_of(area); ++i) {
+        float part = i % 2u == 0u ? share : 1.0 - share;
+        if (part <= 0.0)
+            continue;
+        covered_cells covered = cells_around(level - i % 2u, probe_position(area, i / 2u));
+        for (int k = 0; k < 4; ++k)
+            if (covered.weights[k] > 0.0)
+                sum += part * covered.weights[k] *
+                       mirrored_by_cell(covered.level, covered.cells[k], surface, base);
+    }
+    return sum / (float(probes_of(area)) * drawn.visible);
+}
 
 vec3 reflect_environment(appearance fetched, surface_point surface) {
     base_material base = widened_material(fetched);
@@ -182,20 +424,12 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
         return reflect_base_material(surface, base, fetched.mean_normal);
     vec3 albedo = clamp(let_through(surface, base), 0.0, 1.0);
     base.diffuse = vec3(0.0);
-    vec3 sum = reflect_base_specular(surface, base);
-    mat3 tangent_from_environment = tangent_from_environment_of(surface);
-    int level = level_of_faces(LIGHT_WIDTH);
-    int size = textureSize(environment_faces, level).x;
-    for (int i = 0; i < 6 * size * size; ++i) {
-        int face = i / (size * size);
-        ivec2 texel = ivec2(i % size, (i / size) % size);
-        vec3 incoming = tangent_from_environment * cube_texel_direction(face, texel, size);
-        if (incoming.z <= 0.0)
-            continue;
-        vec3 irradiance = texelFetch(environment_faces, ivec3(texel, face), level).rgb *
-                          (environment.intensity * cube_texel_solid_angle(texel, size));
-        sum += irradiance * diffuse_radiance(surface, albedo, incoming);
-    }
+    find_lights(surface);
+    gather_cells(fetched, surface, 0.0);
+    vec3 sum = has_facets() ? mirrored_by_cells(surface, fetched.base)
+                            : reflect_base_specular(surface, base);
+    for (int k = 0; k < drawn.lights; ++k)
+        sum += irradiances[k] * diffuse_radiance(albedo, mirrored_part(base), k);
     return sum;
 }
 #endif

@@ -10,12 +10,11 @@ lobe_pass *passes_wu_pass(const wu_build *build, const char *name) {
 }
 
 void passes_wu_dispatch(const wu_build *build, lobe_pass *pass, const char *shader,
-                        const uint32_t threads[2], uint32_t level, uint32_t samples) {
-    const struct wu_step step = {.level = level, .samples = samples};
+                        const uint32_t threads[2], const struct wu_step *step) {
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = shader,
                                               .threads = {threads[0], threads[1]},
-                                              .constants = &step,
-                                              .constants_size = sizeof step,
+                                              .constants = step,
+                                              .constants_size = sizeof *step,
                                               .specialisation = &build->lobes,
                                               .specialisation_count = 1});
 }
@@ -81,19 +80,28 @@ static lobe_resource retained(const wu_build *build, const char *what, uint32_t 
         &(lobe_buffer_description){.name = name, .size = (size_t)bytes, .retained = true});
 }
 
-static void declare(wu_build *build, uint32_t material) {
+/// Four floats, and those of mirrors, if there are any.
+static uint64_t whole_bytes(const wu_build *build, uint64_t directions, bool mirrors) {
+    const struct wu_constants *constants = &build->models.constants;
+    const uint64_t patches = (uint64_t)constants->patches * constants->patches,
+                   numbers = constants->level_count * (directions * directions + 2 * patches);
+    return (4 + (mirrors ? numbers : 0)) * sizeof(float);
+}
+
+static void declare(wu_build *build, uint32_t material, const wu_kind *kind) {
     wu_models *models = &build->models;
     const struct wu_level *last = &models->constants.levels[models->constants.level_count - 1];
     const uint64_t cells = last->first_cell + (uint64_t)last->width * last->height;
     const uint64_t directions = models->constants.angular * models->constants.angular;
     const uint64_t cell_bytes = cells * sizeof(struct wu_cell),
-                   ratio_bytes = (last->first_pair + directions * directions) * 2 * sizeof(float);
+                   ratio_bytes = (last->first_pair + directions * directions) * 2 * sizeof(float),
+                   last_bytes = whole_bytes(build, directions, kind->mirrors);
     models->block = lobe_graph_upload(build->graph, "models of a relief", &models->constants,
                                       sizeof models->constants);
     models->cells = retained(build, "cells", material, cell_bytes);
     models->ratios = retained(build, "scaling", material, ratio_bytes);
-    models->energy = retained(build, "energy", material, 4 * sizeof(float));
-    models->bytes = cell_bytes + ratio_bytes + 4 * sizeof(float);
+    models->whole = retained(build, "numbers of the whole map", material, last_bytes);
+    models->bytes = cell_bytes + ratio_bytes + last_bytes;
 }
 
 wu_build passes_wu_begin(const filter_context *context, uint32_t index, const wu_kind *kind) {
@@ -102,6 +110,6 @@ wu_build passes_wu_begin(const filter_context *context, uint32_t index, const wu
                       .relief = passes_relief(context, index, false),
                       .models = {.constants = constants_of(map->width, map->height, kind)},
                       .lobes = {SPECIALISE_WU_LOBES, kind->lobes}};
-    declare(&build, index);
+    declare(&build, index, kind);
     return build;
 }

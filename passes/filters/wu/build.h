@@ -11,7 +11,8 @@ typedef struct wu_kind {
     uint32_t patches; ///< of the map: the square of this
     uint32_t points;  ///< of the map at which paths start
     uint32_t bounces; ///< facets that a path meets, at most
-    bool printed;     ///< means of ratios
+    uint32_t printed; ///< WU_PRINTED_...
+    bool mirrors;     ///< the facets have microfacets
 } wu_kind;
 
 /// The models of a material's relief, see shaders/interface/displacement/wu.h.
@@ -20,7 +21,7 @@ typedef struct wu_models {
     lobe_resource block; ///< of the constants
     lobe_resource cells;
     lobe_resource ratios;
-    lobe_resource energy;
+    lobe_resource whole; ///< what is of the whole map
     uint64_t bytes;
 } wu_models;
 
@@ -31,6 +32,7 @@ typedef struct wu_build {
     wu_models models;
     lobe_specialisation lobes;
     lobe_resource vertices;         ///< of paths
+    lobe_resource first;            ///< what their starts get from each direction
     lobe_resource direct, indirect; ///< of each patch and pair of directions: the relief's light
 } wu_build;
 
@@ -45,7 +47,7 @@ wu_build passes_wu_begin(const filter_context *context, uint32_t material, const
 lobe_pass *passes_wu_pass(const wu_build *build, const char *name);
 /// Adds a pass's only dispatch, of the shader of its name.
 void passes_wu_dispatch(const wu_build *build, lobe_pass *pass, const char *shader,
-                        const uint32_t threads[2], uint32_t level, uint32_t samples);
+                        const uint32_t threads[2], const struct wu_step *step);
 lobe_resource passes_wu_buffer(const wu_build *build, const char *name, uint64_t bytes);
 uint32_t passes_wu_path_count(const wu_build *build);
 /// Directions that are kept of each sample: those of the table, filled up to a multiple of four.
@@ -53,9 +55,16 @@ uint32_t passes_wu_row(const wu_build *build);
 
 /// The paths of light over the relief, and what they bring from each direction to each.
 void passes_wu_add_paths(wu_build *build);
-/// Means of products of what samples of each patch get from two directions.
-lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name, lobe_resource left,
-                                  lobe_resource right, uint32_t samples);
+/// What samples of each patch get from a light's direction, times what they send to a viewer's.
+typedef struct wu_samples {
+    lobe_resource left, right;
+    uint32_t count; ///< of each patch
+    bool one_way;   ///< light and viewer may not change places
+} wu_samples;
+
+/// Means of the products.
+lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name,
+                                  const wu_samples *samples);
 
 /// The coarse relief of a level.
 relief passes_wu_add_low_relief(const wu_build *build, uint32_t level);
@@ -63,5 +72,7 @@ relief passes_wu_add_low_relief(const wu_build *build, uint32_t level);
 void passes_wu_add_cells(wu_build *build, uint32_t level, const relief *low);
 /// S and T of a level.
 void passes_wu_add_scaling(wu_build *build, uint32_t level);
+/// The same of what microfacets mirror.
+void passes_wu_add_mirrors(wu_build *build, uint32_t level);
 
 #endif

@@ -26,7 +26,8 @@ static lobe_resource add_start(const wu_build *build, uint32_t index, relief *lo
         pass, &(lobe_binding){.name = "slope_block",
                               .resource = passes_wu_buffer(build, "mean slopes", 2 * low->bytes)});
     passes_wu_dispatch(build, pass, "filters/wu/low_start.comp",
-                       (uint32_t[]){level->width, level->height}, index, 0);
+                       (uint32_t[]){level->width, level->height},
+                       &(struct wu_step){.level = index});
     return slopes;
 }
 
@@ -45,7 +46,8 @@ relief passes_wu_add_low_relief(const wu_build *build, uint32_t index) {
                               .resource = passes_wu_buffer(build, "products", 4 * low.bytes)});
     low.extent =
         lobe_pass_write(pass, &(lobe_binding){.name = "low_extent_block", .resource = low.extent});
-    passes_wu_dispatch(build, pass, "filters/wu/low_heights.comp", (uint32_t[]){1, 1}, index, 0);
+    passes_wu_dispatch(build, pass, "filters/wu/low_heights.comp", (uint32_t[]){1, 1},
+                       &(struct wu_step){.level = index});
     return low;
 }
 
@@ -57,8 +59,8 @@ static void add_cell_pass(wu_build *build, uint32_t index, const char *name, con
     const lobe_binding cells = {.name = "cell_block", .resource = build->models.cells};
     build->models.cells = is_first ? lobe_pass_write(pass, &cells) : lobe_pass_modify(pass, &cells);
     passes_wu_dispatch(build, pass, shader,
-                       (uint32_t[]){cell_count(&build->models.constants.levels[index]), 1}, index,
-                       0);
+                       (uint32_t[]){cell_count(&build->models.constants.levels[index]), 1},
+                       &(struct wu_step){.level = index});
 }
 
 void passes_wu_add_cells(wu_build *build, uint32_t index, const relief *low) {

@@ -24,6 +24,8 @@ wu_models passes_wu_models(const filter_context *context, uint32_t index, const 
         const relief low = passes_wu_add_low_relief(&build, level);
         passes_wu_add_cells(&build, level, &low);
         passes_wu_add_scaling(&build, level);
+        if (kind->mirrors)
+            passes_wu_add_mirrors(&build, level);
     }
     return build.models;
 }

@@ -49,24 +49,25 @@ static void add_energy(wu_build *build, const path_light *light) {
     lobe_pass_read(pass, &(lobe_binding){.name = "vertex_block", .resource = build->vertices});
     lobe_pass_read(pass, &(lobe_binding){.name = "first_block", .resource = light->first});
     lobe_pass_read(pass, &(lobe_binding){.name = "second_block", .resource = light->second});
-    build->models.energy = lobe_pass_write(
-        pass, &(lobe_binding){.name = "energy_block", .resource = build->models.energy});
+    build->models.whole = lobe_pass_write(
+        pass, &(lobe_binding){.name = "whole_block", .resource = build->models.whole});
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/wu/path_energy.comp"});
 }
 
-lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name, lobe_resource left,
-                                  lobe_resource right, uint32_t samples) {
+lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name,
+                                  const wu_samples *samples) {
     const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
     const uint32_t angular = build->models.constants.angular, blocks = passes_wu_row(build) / 4;
     const uint64_t pairs = (uint64_t)patches * angular * angular * angular * angular;
     lobe_pass *pass = passes_wu_pass(build, "pair_means");
-    lobe_pass_read(pass, &(lobe_binding){.name = "left_block", .resource = left});
-    lobe_pass_read(pass, &(lobe_binding){.name = "right_block", .resource = right});
+    lobe_pass_read(pass, &(lobe_binding){.name = "left_block", .resource = samples->left});
+    lobe_pass_read(pass, &(lobe_binding){.name = "right_block", .resource = samples->right});
     const lobe_resource means = lobe_pass_write(
         pass, &(lobe_binding){.name = "pair_block",
                               .resource = passes_wu_buffer(build, name, pairs * sizeof(float))});
     passes_wu_dispatch(build, pass, "filters/wu/pair_means.comp",
-                       (uint32_t[]){patches * blocks * blocks, 1}, 0, samples);
+                       (uint32_t[]){patches * blocks * blocks, 1},
+                       &(struct wu_step){.samples = samples->count, .one_way = samples->one_way});
     return means;
 }
 
@@ -75,7 +76,11 @@ void passes_wu_add_paths(wu_build *build) {
     add_vertices(build);
     const path_light light = add_light(build);
     add_energy(build, &light);
-    build->direct = passes_wu_add_pairs(build, "light at once", light.first, light.first, points);
-    build->indirect =
-        passes_wu_add_pairs(build, "light between facets", light.first, light.later, points);
+    build->first = light.first;
+    build->direct = passes_wu_add_pairs(
+        build, "light at once",
+        &(wu_samples){.left = light.first, .right = light.first, .count = points});
+    build->indirect = passes_wu_add_pairs(
+        build, "light between facets",
+        &(wu_samples){.left = light.first, .right = light.later, .count = points});
 }

@@ -7,6 +7,7 @@
 #include "passes/upload/material_maps.h"
 
 static const char *const ratios[] = {"sums", "printed", NULL};
+static const char *const formulas[] = {"repaired", "printed", NULL};
 
 static const filter_knob lobes_knob = {
     .description = {.name = "lobes",
@@ -25,6 +26,15 @@ static const filter_knob ratio_knob = {
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = ratios,
+                    .sweep = "printed"},
+};
+static const filter_knob formulas_knob = {
+    .description = {.name = "formulas",
+                    .summary = "what lobes reflect: by the area of them that faces the viewer, or "
+                               "by Eq. 5 as it is printed, without",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = formulas,
                     .sweep = "printed"},
 };
 static const filter_knob patches_knob = {
@@ -63,6 +73,7 @@ static const filter_knob bounces_knob = {
 static const filter_knob *const knobs[] = {
     &lobes_knob,
     &ratio_knob,
+    &formulas_knob,
     &patches_knob,
     &angular_knob,
     &points_knob,
@@ -77,14 +88,17 @@ static const filter_knob *const knobs[] = {
 
 static wu_models make_models(const filter_context *context, uint32_t index,
                              filtered_appearance *appearance) {
-    const device_map *map = &context->scene->materials[index].maps[MAP_HEIGHT];
+    const device_material *material = &context->scene->materials[index];
+    const device_map *map = &material->maps[MAP_HEIGHT];
     const wu_kind kind = {
         .lobes = (uint32_t)passes_knob_value(context, &lobes_knob),
         .angular = (uint32_t)passes_knob_value(context, &angular_knob),
         .patches = (uint32_t)passes_knob_value(context, &patches_knob),
         .points = (uint32_t)passes_knob_value(context, &points_knob),
         .bounces = (uint32_t)passes_knob_value(context, &bounces_knob),
-        .printed = passes_knob_choice(context, &ratio_knob) == 1,
+        .printed = (passes_knob_choice(context, &ratio_knob) == 1 ? WU_PRINTED_RATIO : 0u) |
+                   (passes_knob_choice(context, &formulas_knob) == 1 ? WU_PRINTED_LOBES : 0u),
+        .mirrors = material->material->model == LOBE_MATERIAL_MICROFACET,
     };
     const wu_models models = passes_wu_models(context, index, &kind);
     appearance->bytes += models.bytes;
@@ -97,7 +111,7 @@ static wu_models no_models(const filter_context *context) {
     static const struct wu_constants none;
     const lobe_resource nothing =
         lobe_graph_upload(context->graph, "no models", &none, sizeof none);
-    return (wu_models){.block = nothing, .cells = nothing, .ratios = nothing, .energy = nothing};
+    return (wu_models){.block = nothing, .cells = nothing, .ratios = nothing, .whole = nothing};
 }
 
 static void build(const filter_context *context, size_t instance, const void *prepared,
@@ -110,21 +124,24 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_bind(appearance, "wu_block", models.block, (lobe_sampler){0});
     passes_appearance_bind(appearance, "cell_block", models.cells, (lobe_sampler){0});
     passes_appearance_bind(appearance, "ratio_block", models.ratios, (lobe_sampler){0});
-    passes_appearance_bind(appearance, "energy_block", models.energy, (lobe_sampler){0});
+    passes_appearance_bind(appearance, "whole_block", models.whole, (lobe_sampler){0});
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
 }
 
 static const char *ignores(const lobe_material *material) {
     if (material->height_map.image < 0 || material->height_scale == 0)
         return NULL;
-    return "lobes are those of its normal map, and neither masked nor shadowed by its heights; "
-           "colours do not vary with heights";
+    return material->model == LOBE_MATERIAL_MICROFACET
+               ? "what facets mirror is lost where it meets others; colours do not vary with "
+                 "heights"
+               : "lobes are those of its normal map, and neither masked nor shadowed by its "
+                 "heights; colours do not vary with heights";
 }
 
 const lobe_filter passes_filter_wu = {
     .name = "wu",
-    .summary = "diffuse light of the relief of height maps, by lobes of its normals and factors "
-               "for its shadows and the light between its facets",
+    .summary = "light of the relief of height maps, by lobes of its normals and factors for its "
+               "shadows and the light between its facets",
     .paper = "Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "wu",

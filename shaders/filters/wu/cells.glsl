@@ -18,6 +18,10 @@ layout(constant_id = SPECIALISE_WU_LOBES) const uint WU_LOBES = 6;
 layout(LOBE_DESCRIPTOR(36), std140) uniform wu_block { wu_constants wu; };
 layout(LOBE_DESCRIPTOR(37), std430) CELL_ACCESS buffer cell_block { wu_cell cells[]; };
 
+bool is_printed(uint formula) {
+    return (wu.printed & formula) != 0u;
+}
+
 // The cell of a point of the relief.
 uint cell_at(wu_level level, vec2 position) {
     ivec2 size = ivec2(level.width, level.height);
@@ -25,6 +29,33 @@ uint cell_at(wu_level level, vec2 position) {
     cell -= size * ivec2(floor(vec2(cell) / vec2(size)));
     cell = clamp(cell, ivec2(0), size - 1);
     return level.first_cell + uint(cell.y * size.x + cell.x);
+}
+
+// Of the mirrors' numbers, those of one level: S, then T's numerator and denominator of each patch.
+uint mirror_stride() {
+    uint directions = wu.angular * wu.angular;
+    return directions * directions + 2u * wu.patches * wu.patches;
+}
+
+// The patches that a cell covers, or is in.
+struct patch_range {
+    uvec2 first, last;
+};
+
+patch_range patches_of_cell(uint level_index, uint cell) {
+    wu_level level = wu.levels[level_index];
+    uint index = cell - level.first_cell;
+    uvec2 place = uvec2(index % level.width, index / level.width),
+          size = uvec2(level.width, level.height);
+    patch_range range;
+    for (int k = 0; k < 2; ++k) {
+        bool within = size[k] >= wu.patches;
+        range.first[k] = within ? (2u * place[k] + 1u) * wu.patches / (2u * size[k])
+                                : place[k] * wu.patches / size[k];
+        range.last[k] = within ? range.first[k]
+                               : ((place[k] + 1u) * wu.patches + size[k] - 1u) / size[k] - 1u;
+    }
+    return range;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -52,6 +83,14 @@ float seen_by_both(vec2 areas, vec2 others) {
                   (areas.y > 0.0 && others.y > 0.0 ? 1.0 : 0.0));
 }
 
+// The same for Eq. 5 as it is printed: light on the coarse relief's facets, by their areas that the
+// viewer sees, over the cosine to the base.
+float seen_by_both_printed(uint cell, vec2 seen, vec2 lit, float cosine) {
+    vec4 slopes = cells[cell].slopes;
+    vec2 normals = inversesqrt(1.0 + vec2(dot(slopes.xy, slopes.xy), dot(slopes.zw, slopes.zw)));
+    return 0.5 * dot(seen * lit, normals) / max(cosine, 1e-3);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Lobes of normals
 
@@ -73,37 +112,25 @@ mat3 frame_of_axis(vec3 axis) {
 const float INNER_PART = 0.735758882;
 const float OUTER_PART = 0.183939721;
 
-// The mean, over a lobe's normals, of the product of their cosines to both directions.
-float lobe_product(vec3 axis, float concentration, vec3 first, vec3 second) {
+// Eight normals that stand for a lobe.
+struct lobe_normals {
+    vec3 normals[8];
+};
+
+lobe_normals normals_of_lobe(vec3 axis, float concentration) {
     mat3 frame = frame_of_axis(axis);
-    vec3 a = first * frame, b = second * frame;
-    float sum = 0.0;
+    lobe_normals result;
     for (int ring = 0; ring < 2; ++ring) {
         float cosine = lobe_cosine(concentration, ring == 0 ? INNER_PART : OUTER_PART);
         float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
         // Eighths of a turn, the odd ones in the outer ring.
         vec2 along = ring == 0 ? vec2(1.0, 0.0) : vec2(0.707106781, 0.707106781);
         for (int i = 0; i < 4; ++i) {
-            vec3 normal = vec3(sine * along, cosine);
-            sum += max(dot(normal, a), 0.0) * max(dot(normal, b), 0.0);
+            result.normals[4 * ring + i] = frame * vec3(sine * along, cosine);
             along = vec2(-along.y, along.x);
         }
     }
-    return 0.125 * sum;
-}
-
-// J of white diffuse facets: the light that the cell reflects, over its base's area, if none hides
-// another. After Wu, Zhao, Yan, Ramamoorthi, 2019, Accurate Appearance Preserving Prefiltering for
-// Rendering Displacement-Mapped Surfaces, Eq. 5, with the area of each facet that faces the viewer.
-float unshadowed_light(uint cell, vec3 incoming, vec3 outgoing) {
-    float sum = 0.0;
-    for (uint i = 0u; i < WU_LOBES; ++i) {
-        vec4 lobe = cells[cell].lobes[i];
-        float weight = length(lobe.xyz);
-        if (weight > 0.0)
-            sum += weight * lobe_product(lobe.xyz / weight, lobe.w, incoming, outgoing);
-    }
-    return sum / PI;
+    return result;
 }
 
 #endif

@@ -2,17 +2,19 @@
 #extension GL_GOOGLE_include_directive : require
 
 // What normals drawn from the lobes of the cells at points of each patch get from each direction of
-// the table, where the coarse relief sees it: products of two have the light of f'_low as mean. A
-// thread for each sample and direction.
+// the table, where the coarse relief sees it: products of two have the light of f'_low as mean. By
+// the printed Eq. 5, the second factor is the area that the viewer sees. A thread for each sample
+// and direction.
 
 #include "filters/wu/cells.glsl"
 #include "filters/wu/directions.glsl"
 #include "filters/wu/paths.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant) uniform step_block { wu_step stage; };
 layout(set = 0, binding = 5, std430) writeonly buffer first_block { float first[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer second_block { float second[]; };
 
 float weight_of_lobes(uint cell) {
     float sum = 0.0;
@@ -40,9 +42,10 @@ vec3 drawn_normal(uint cell, float total, uint seed) {
 
 void main() {
     uint directions = filled_direction_count();
-    uint index = gl_GlobalInvocationID.x / directions, which = gl_GlobalInvocationID.x % directions;
-    if (index >= path_count() * WU_DRAWS)
+    uint index = gl_GlobalInvocationID.y, which = gl_GlobalInvocationID.x;
+    if (index >= path_count() * WU_DRAWS || which >= directions)
         return;
+    uint place = index * directions + which;
     uint cell = cell_at(wu.levels[stage.level], path_start(index / WU_DRAWS));
     // Directions that fill up the table get nothing.
     vec3 direction =
@@ -50,6 +53,14 @@ void main() {
     float total = weight_of_lobes(cell);
     vec3 normal = drawn_normal(cell, total, hash(index));
     vec2 areas = seen_areas(cell, direction);
-    bool seen = (index & 1u) == 0u ? areas.x > 0.0 : areas.y > 0.0;
-    first[gl_GlobalInvocationID.x] = seen ? sqrt(total) * max(dot(normal, direction), 0.0) : 0.0;
+    float area = (index & 1u) == 0u ? areas.x : areas.y;
+    float light = max(dot(normal, direction), 0.0);
+    if (!is_printed(WU_PRINTED_LOBES)) {
+        first[place] = area > 0.0 ? sqrt(total) * light : 0.0;
+        return;
+    }
+    vec2 slope = (index & 1u) == 0u ? cells[cell].slopes.xy : cells[cell].slopes.zw;
+    first[place] =
+        total * light * area * inversesqrt(1.0 + dot(slope, slope)) / max(direction.z, 1e-3);
+    second[place] = area;
 }

@@ -14,7 +14,7 @@ layout(set = 0, binding = 4, std430) readonly buffer vertex_block { path_point p
 layout(set = 0, binding = 5, std430) readonly buffer first_block { float first[]; };
 layout(set = 0, binding = 6, std430) readonly buffer second_block { float second[]; };
 // x: the part that is reflected at once; y: persistence [0, 1)
-layout(set = 0, binding = 8, std430) writeonly buffer energy_block { vec4 energy; };
+layout(set = 0, binding = 8, std430) writeonly buffer whole_block { vec4 energy; };
 
 shared vec3 sums[64];
 

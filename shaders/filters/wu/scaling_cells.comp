@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Gives each cell the T of its patch. A thread a cell.
+// Gives each cell the T of its patch, or of all patches that it covers. A thread a cell.
 
 #define CELL_ACCESS
 #include "filters/wu/cells.glsl"
@@ -25,11 +25,15 @@ void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= level.width * level.height)
         return;
-    vec2 middle = (vec2(index % level.width, index / level.width) + 0.5) /
-                  vec2(level.width, level.height);
-    uvec2 place = min(uvec2(middle * float(wu.patches)), uvec2(wu.patches - 1u));
-    uint patch_index = place.y * wu.patches + place.x;
-    cells[level.first_cell + index].numerator = quotients[2u * patch_index];
-    cells[level.first_cell + index].denominator =
-        wu.printed != 0u ? mean_numerator() : quotients[2u * patch_index + 1u];
+    vec4 mean = mean_numerator();
+    patch_range range = patches_of_cell(stage.level, level.first_cell + index);
+    vec4 numerator = vec4(0.0), denominator = vec4(0.0);
+    for (uint y = range.first.y; y <= range.last.y; ++y)
+        for (uint x = range.first.x; x <= range.last.x; ++x) {
+            numerator += quotients[2u * (y * wu.patches + x)];
+            denominator += is_printed(WU_PRINTED_RATIO) ? mean
+                                                        : quotients[2u * (y * wu.patches + x) + 1u];
+        }
+    cells[level.first_cell + index].numerator = numerator;
+    cells[level.first_cell + index].denominator = denominator;
 }

@@ -35,7 +35,7 @@ void main() {
         uint place = patch_index * pairs + i;
         vec2 light = vec2(direct[place], indirect[place]);
         float low = low_pairs[place];
-        if (wu.printed != 0u) {
+        if (is_printed(WU_PRINTED_RATIO)) {
             numerator.xy += weight * min(light / (low + PRINTED), LARGEST_RATIO);
             continue;
         }

@@ -62,6 +62,6 @@ void main() {
     float added = max(PART_OF_MEAN * mean_of_table(pairs * patches), 1e-9);
     for (uint i = gl_LocalInvocationIndex; i < pairs; i += THREADS)
         ratios[wu.levels[stage.level].first_pair + i] =
-            wu.printed != 0u ? mean_of_ratios(i, pairs, patches)
+            is_printed(WU_PRINTED_RATIO) ? mean_of_ratios(i, pairs, patches)
                              : ratio_of_means(i, pairs, patches, added);
 }

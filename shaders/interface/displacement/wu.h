@@ -9,8 +9,17 @@
 // facets under it; and factors that correct what those reflect: a table S of pairs of directions,
 // and one number T for each cell.
 //
+// Of the whole map there are the parts of the light that path_energy finds. Where facets have
+// microfacets, an S and T of what these mirror follow: of each level first S, by pairs of
+// directions, then T, by patches.
+//
 // Frame and lengths are the relief's, but the heights of a coarse relief are in widths of its
 // cells.
+
+// As the paper prints it: means of ratios, not ratios of means; Eq. 5 of lobes of normals, in which
+// the area that they show to the viewer does not count.
+#define WU_PRINTED_RATIO 1
+#define WU_PRINTED_LOBES 2
 
 #define WU_LEVELS        8
 #define WU_MAXIMUM_LOBES 8
@@ -46,7 +55,7 @@ struct wu_constants {
     uint patches; // the map is divided into patches x patches
     uint points;  // of each patch, at which paths start
     uint bounces; // vertices of a path, at most
-    uint printed; // 1: means of ratios, not ratios of means
+    uint printed; // WU_PRINTED_...
     wu_level levels[WU_LEVELS];
 };
 INTERFACE_SIZE(wu_constants, 288)
@@ -83,7 +92,7 @@ INTERFACE_OFFSET(wu_cell, horizons, 176)
 struct wu_step {
     uint level;
     uint samples; // of each patch
-    uint padding_0;
+    uint one_way; // pair_means: 1: the first direction is the light's, the second the viewer's
     uint padding_1;
 };
 INTERFACE_SIZE(wu_step, 16)
@@ -91,6 +100,10 @@ INTERFACE_OFFSET(wu_step, samples, 4)
 
 // Normals drawn for each point of a patch.
 #define WU_DRAWS 4
+
+// Microfacets of the facets from which S and T of what they mirror are found (von Mises-Fisher):
+// how much the coarse relief lacks hardly depends on it.
+#define WU_MIRROR_CONCENTRATION 50.0
 
 // uint, [1, WU_MAXIMUM_LOBES]
 #define SPECIALISE_WU_LOBES (SPECIALISE_FILTER + 40)

@@ -178,7 +178,7 @@ static void begin_light(model_run *model, fixture *f, uint32_t width, relief_hei
         passes_wu_add_scaling(build, i);
     }
     const lobe_resource read[] = {build->direct, build->indirect, build->models.ratios,
-                                  build->models.cells, build->models.energy};
+                                  build->models.cells, build->models.whole};
     for (size_t i = 0; i < sizeof read / sizeof *read; i++)
         lobe_graph_read_back(build->graph, read[i], (lobe_range){0});
     pass_run_execute(&model->run);
@@ -208,7 +208,7 @@ static void a_level_map_is_not_scaled(void **state) {
 static void valleys_reflect_their_closed_form(void **state) {
     model_run model;
     begin_light(&model, *state, 16, groove, &kind);
-    const float *energy = data_of(&model, model.build.models.energy, 4 * sizeof(float));
+    const float *energy = data_of(&model, model.build.models.whole, 4 * sizeof(float));
     assert_float_equal(energy[0], 0.7223, 0.01);
     end(&model);
 }

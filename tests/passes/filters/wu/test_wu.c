@@ -2,6 +2,7 @@
 // `displaced-reference`.
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/passes/filters/displaced/relief_plane.h"
 #include "tests/passes/filters/displaced/relief_waves.h"
@@ -101,7 +102,7 @@ static void light_and_viewer_may_change_places(void **state) {
     }
 }
 
-/// What it lacks at 70 degrees: 0.049; at the others 0.003.
+/// Within 0.0065, and with tables of 11 x 11 directions 0.057 less at 70 degrees.
 static void white_reliefs_reflect_nearly_all_light(void **state) {
     static const double angles[] = {0, 40, 70};
     for (int i = 0; i < 3; i++) {
@@ -109,7 +110,7 @@ static void white_reliefs_reflect_nearly_all_light(void **state) {
         slope_plane_direction(angles[i], 0.7, outgoing);
         lobe_scene *scene = far_plane(1, relief_map(WIDTH, HEIGHT, waves), outgoing);
         relief_plane_add_sky(scene);
-        check(draw_mean(*state, scene, NULL), 1, i < 2 ? 0.01 : 0.06, "furnace", angles[i]);
+        check(draw_mean(*state, scene, "angular=15"), 1, 0.01, "furnace", angles[i]);
         lobe_scene_destroy(&scene);
     }
 }
@@ -132,16 +133,16 @@ static double error_of(fixture *f, const char *setting, double albedo, relief_he
     return error / sum;
 }
 
-/// Bounds are at least a fifth above what was measured: 0.0043, 0.0117, 0.0071 and 0.0544.
+/// Bounds are at least a fifth above what was measured: 0.0091, 0.0032, 0.0111 and 0.0531.
 static void means_are_close_to_the_reference(void **state) {
     static const struct {
         relief_height height;
         const char *setting;
         double albedo, bound;
     } cases[] = {
-        {waves, NULL, 0.9, 0.008},
-        {waves, NULL, 0.3, 0.015},
-        {waves, "ratio=printed", 0.9, 0.01},
+        {waves, NULL, 0.9, 0.011},
+        {waves, NULL, 0.3, 0.011},
+        {waves, "ratio=printed", 0.9, 0.0135},
         {steep, NULL, 0.9, 0.066},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -149,6 +150,41 @@ static void means_are_close_to_the_reference(void **state) {
         if (!(error <= cases[i].bound))
             fail_msg("case %zu: %.4f", i, error);
     }
+}
+
+static double metal_under_sun(fixture *f, const char *filter, const char *setting,
+                              const double outgoing[3], const double incoming[3]) {
+    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.6, 1);
+    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, waves), outgoing, 40);
+    relief_plane_add_sun(scene, incoming, 1);
+    const double found = strcmp(filter, "wu") == 0
+                             ? draw_mean(f, scene, setting)
+                             : relief_plane_draw(f, scene, filter, setting, 8192);
+    lobe_scene_destroy(&scene);
+    return found;
+}
+
+static double error_of_metal(fixture *f, const char *setting) {
+    static const double angles[] = {10, 35, 60};
+    double error = 0, sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(angles[i], 0.3 + 0.5 * i, outgoing);
+        slope_plane_direction(angles[(i + 1) % 3], 2.2 + 1.1 * i, incoming);
+        const double expected =
+            metal_under_sun(f, "displaced-reference", setting, outgoing, incoming);
+        error += fabs(metal_under_sun(f, "wu", setting, outgoing, incoming) - expected);
+        sum += expected;
+    }
+    return error / sum;
+}
+
+/// White metal. Bounds are a fifth above what was measured: 0.051 of what it mirrors once, and
+/// 0.162, as the rest is taken for diffuse light.
+static void metal_is_close_to_the_reference(void **state) {
+    const double once = error_of_metal(*state, "bounces=1"), all = error_of_metal(*state, NULL);
+    if (!(once <= 0.061 && all <= 0.195))
+        fail_msg("once %.4f, all %.4f", once, all);
 }
 
 /// Waves are where the reference has them. Bounds are a fifth above what was measured: 0.047, 0.038
@@ -211,6 +247,7 @@ int main(void) {
         cmocka_unit_test(light_and_viewer_may_change_places),
         cmocka_unit_test(white_reliefs_reflect_nearly_all_light),
         cmocka_unit_test(means_are_close_to_the_reference),
+        cmocka_unit_test(metal_is_close_to_the_reference),
         cmocka_unit_test(pictures_are_close_to_the_reference),
         cmocka_unit_test(odd_maps_are_finite),
         cmocka_unit_test(every_run_makes_the_same),
