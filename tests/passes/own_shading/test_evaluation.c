@@ -14,6 +14,7 @@
 #include "evaluation_lean.h"
 #include "evaluation_moments.h"
 #include "tests/engine/support/host_device.h"
+#include "tests/passes/own_shading/host_evaluation.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -25,112 +26,6 @@ enum { MAP = 16, POINTS = 64, CONSTANT_BASE = 7 };
 typedef struct result {
     float one_by_one[4], at_once[4];
 } result;
-
-// ---------------------------------------------------------------------------------------------
-// The host's pipeline
-
-typedef struct evaluation {
-    host_device *host;
-    host_buffer results;
-    VkDescriptorPool pool;
-    VkDescriptorSetLayout set_layouts[2];
-    VkDescriptorSet sets[2];
-    VkPipelineLayout layout;
-    VkPipeline pipeline;
-} evaluation;
-
-static void create_pool(evaluation *e) {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 32},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 32},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 32}};
-    const VkDescriptorPoolCreateInfo create = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-        .maxSets = 2,
-        .poolSizeCount = 3,
-        .pPoolSizes = sizes,
-    };
-    CHECK(vkCreateDescriptorPool(e->host->vulkan.device, &create, NULL, &e->pool));
-}
-
-static void create_set(evaluation *e, uint32_t number, const lobe_vulkan_descriptor *descriptors,
-                       size_t count) {
-    const VkDevice device = e->host->vulkan.device;
-    VkDescriptorSetLayoutBinding bindings[64];
-    assert_in_range(count, 1, 64);
-    for (size_t i = 0; i < count; i++)
-        bindings[i] = (VkDescriptorSetLayoutBinding){descriptors[i].binding, descriptors[i].type, 1,
-                                                     VK_SHADER_STAGE_COMPUTE_BIT, NULL};
-    const VkDescriptorSetLayoutCreateInfo create = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = (uint32_t)count,
-        .pBindings = bindings,
-    };
-    CHECK(vkCreateDescriptorSetLayout(device, &create, NULL, &e->set_layouts[number]));
-    const VkDescriptorSetAllocateInfo allocate = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-        .descriptorPool = e->pool,
-        .descriptorSetCount = 1,
-        .pSetLayouts = &e->set_layouts[number],
-    };
-    CHECK(vkAllocateDescriptorSets(device, &allocate, &e->sets[number]));
-    for (size_t i = 0; i < count; i++) {
-        const VkWriteDescriptorSet write = {
-            .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-            .dstSet = e->sets[number],
-            .dstBinding = descriptors[i].binding,
-            .descriptorCount = 1,
-            .descriptorType = descriptors[i].type,
-            .pImageInfo = &descriptors[i].image,
-            .pBufferInfo = &descriptors[i].buffer,
-        };
-        vkUpdateDescriptorSets(device, 1, &write, 0, NULL);
-    }
-}
-
-static void create_pipeline(evaluation *e, const uint32_t *words, size_t size,
-                            const lobe_material_maps *maps) {
-    const VkDevice device = e->host->vulkan.device;
-    const VkShaderModuleCreateInfo code = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = words};
-    const VkPipelineLayoutCreateInfo layout = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 2,
-        .pSetLayouts = e->set_layouts,
-    };
-    VkSpecializationMapEntry entries[128];
-    VkShaderModule module;
-    CHECK(vkCreateShaderModule(device, &code, NULL, &module));
-    CHECK(vkCreatePipelineLayout(device, &layout, NULL, &e->layout));
-    assert_in_range(maps->constant_count, 1, 128);
-    for (uint32_t i = 0; i < maps->constant_count; i++)
-        entries[i] = (VkSpecializationMapEntry){
-            CONSTANT_BASE + maps->constants[i].id,
-            (uint32_t)(i * sizeof *maps->constants + offsetof(lobe_specialisation, bits)), 4};
-    const VkSpecializationInfo specialisation = {(uint32_t)maps->constant_count, entries,
-                                                 maps->constant_count * sizeof *maps->constants,
-                                                 maps->constants};
-    const VkComputePipelineCreateInfo create = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main",
-                  .pSpecializationInfo = &specialisation},
-        .layout = e->layout,
-    };
-    CHECK(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &create, NULL, &e->pipeline));
-    vkDestroyShaderModule(device, module, NULL);
-}
-
-static void end_evaluation(evaluation *e) {
-    const VkDevice device = e->host->vulkan.device;
-    vkDestroyPipeline(device, e->pipeline, NULL);
-    vkDestroyPipelineLayout(device, e->layout, NULL);
-    vkDestroyDescriptorPool(device, e->pool, NULL);
-    for (int i = 0; i < 2; i++)
-        vkDestroyDescriptorSetLayout(device, e->set_layouts[i], NULL);
-    host_buffer_destroy(e->host, &e->results);
-}
 
 // ---------------------------------------------------------------------------------------------
 // A host with maps
@@ -181,33 +76,10 @@ static lobe_maps *make_maps(subject *s, lobe_vulkan_image *given) {
     return maps;
 }
 
-/// Filtering and evaluation in one command buffer. The pipeline is made where there is none.
-static void evaluate(subject *s, lobe_maps *maps, evaluation *e, result results[POINTS]) {
-    const size_t size = POINTS * sizeof *results;
-    VkCommandBuffer commands = host_begin(&s->host);
-    if (lobe_maps_record(maps, &(lobe_vulkan_submission){.commands = commands}) != LOBE_OK)
-        fail_msg("%s", s->host.recorder.last_error);
-    if (!e->host) {
-        lobe_material_maps material;
-        assert_int_equal(lobe_maps_get(maps, 0, &material), LOBE_OK);
-        e->host = &s->host;
-        e->results = host_buffer_create(&s->host, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-        create_pool(e);
-        const lobe_vulkan_descriptor own = {.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                            .buffer = {e->results.buffer, 0, size}};
-        create_set(e, 0, &own, 1);
-        create_set(e, 1, material.descriptors, material.descriptor_count);
-        create_pipeline(e, s->words, s->size, &material);
-    }
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, e->pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, e->layout, 0, 2, e->sets, 0,
-                            NULL);
-    vkCmdDispatch(commands, POINTS / 64, 1, 1);
-    host_finish(&s->host, commands);
-    void *mapped;
-    CHECK(vkMapMemory(s->host.vulkan.device, e->results.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
-    memcpy(results, mapped, size);
-    vkUnmapMemory(s->host.vulkan.device, e->results.memory);
+/// Filtering and evaluation in one command buffer.
+static void evaluate(subject *s, lobe_maps *maps, host_evaluation *e, result results[POINTS]) {
+    const host_shader shader = {s->words, s->size, CONSTANT_BASE, POINTS / 64};
+    host_evaluation_run(e, &s->host, maps, &shader, results, POINTS * sizeof *results);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -216,7 +88,7 @@ static void evaluate(subject *s, lobe_maps *maps, evaluation *e, result results[
 static void lights_at_once_are_as_one_by_one(void **state) {
     (void)state;
     subject s;
-    evaluation e = {0};
+    host_evaluation e = {0};
     result results[POINTS];
     open_subject(&s, "moments", evaluation_moments, sizeof evaluation_moments);
     lobe_maps *maps = make_maps(&s, NULL);
@@ -227,7 +99,7 @@ static void lights_at_once_are_as_one_by_one(void **state) {
             assert_true(expected > 0.01f && expected < 100);
             assert_float_equal(results[i].at_once[channel], expected, 1e-6f * expected);
         }
-    end_evaluation(&e);
+    host_evaluation_end(&e);
     lobe_maps_destroy(&maps);
     close_subject(&s);
 }
@@ -237,7 +109,7 @@ static void changed_texels_reach_the_same_pipeline(void **state) {
     (void)state;
     static const uint32_t first = 0;
     subject s;
-    evaluation e = {0}, fresh = {0};
+    host_evaluation e = {0}, fresh = {0};
     result before[POINTS], after[POINTS], unchanged[POINTS], expected[POINTS];
     open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
     lobe_maps *maps = make_maps(&s, NULL);
@@ -254,8 +126,8 @@ static void changed_texels_reach_the_same_pipeline(void **state) {
     lobe_maps *others = make_maps(&s, NULL);
     evaluate(&s, others, &fresh, expected);
     assert_memory_equal(after, expected, sizeof after);
-    end_evaluation(&e);
-    end_evaluation(&fresh);
+    host_evaluation_end(&e);
+    host_evaluation_end(&fresh);
     lobe_maps_destroy(&maps);
     lobe_maps_destroy(&others);
     close_subject(&s);
@@ -292,7 +164,7 @@ static void an_image_of_the_host_is_read_in_place(void **state) {
     (void)state;
     static const float colour[] = {0.6f, 0.45f, 0.9f, 1};
     subject s;
-    evaluation e = {0}, uploaded = {0};
+    host_evaluation e = {0}, uploaded = {0};
     result results[POINTS], expected[POINTS];
     open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
     host_image image =
@@ -309,8 +181,8 @@ static void an_image_of_the_host_is_read_in_place(void **state) {
         evaluate(&s, others, &e, results);
         assert_memory_equal(results, expected, sizeof expected);
     }
-    end_evaluation(&e);
-    end_evaluation(&uploaded);
+    host_evaluation_end(&e);
+    host_evaluation_end(&uploaded);
     lobe_maps_destroy(&maps);
     lobe_maps_destroy(&others);
     vkDestroyImageView(s.host.vulkan.device, given.view, NULL);
@@ -325,7 +197,7 @@ static void encodings_reach_the_hosts_shader(void **state) {
     static const VkFormat formats[] = {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SNORM};
     for (int i = 0; i < 4; i++) {
         subject s;
-        evaluation e = {0}, uploaded = {0};
+        host_evaluation e = {0}, uploaded = {0};
         result results[POINTS], expected[POINTS];
         if (i % 2)
             open_subject(&s, "moments", evaluation_moments, sizeof evaluation_moments);
@@ -349,8 +221,8 @@ static void encodings_reach_the_hosts_shader(void **state) {
             for (int channel = 0; channel < 3; channel++)
                 assert_float_equal(results[n].one_by_one[channel], expected[n].one_by_one[channel],
                                    2e-3f * expected[n].one_by_one[channel]);
-        end_evaluation(&e);
-        end_evaluation(&uploaded);
+        host_evaluation_end(&e);
+        host_evaluation_end(&uploaded);
         lobe_maps_destroy(&maps);
         lobe_maps_destroy(&others);
         vkDestroyImageView(s.host.vulkan.device, given.view, NULL);
@@ -406,7 +278,7 @@ static void waves_reach_the_hosts_shader(void **state) {
     const double variance = 0.04;
     for (int windy = 0; windy < 2; windy++) {
         subject s;
-        evaluation e = {0};
+        host_evaluation e = {0};
         result results[POINTS], later[POINTS];
         lobe_ocean_parameters parameters;
         lobe_ocean_default(&parameters);
@@ -445,7 +317,7 @@ static void waves_reach_the_hosts_shader(void **state) {
         sea.seconds = 2;
         evaluate(&s, maps, &e, later);
         assert_true((memcmp(results, later, sizeof results) != 0) == windy);
-        end_evaluation(&e);
+        host_evaluation_end(&e);
         lobe_maps_destroy(&maps);
         lobe_ocean_destroy(&sea.ocean);
         close_subject(&s);
