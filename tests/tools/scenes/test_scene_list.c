@@ -204,21 +204,23 @@ static void assert_not_found(const char *name, const char *assets, const char *f
 static void the_list_has_the_builtin_scenes_and_the_programs_own(void **state) {
     (void)state;
     const size_t builtin = lobe_builtin_scene_count();
-    static const char *const own[] = {"bunny", "dragon", "rain", "cloth",
-                                      "ocean", "fields", "flag"};
+    static const struct {
+        const char *name, *filter;
+    } own[] = {{"bunny", "moments"},   {"dragon", "moments"},   {"rain", "moments"},
+               {"cloth", "moments"},   {"ocean", "leadr"},      {"fields", "moments"},
+               {"flag", "leadr"},      {"twill", "displaced"},  {"cobbles", "displaced"},
+               {"studs", "displaced"}, {"furnace", "displaced"}};
     assert_int_equal(scene_list_count(), builtin + sizeof own / sizeof *own);
     for (size_t i = 0; i < scene_list_count(); i++) {
         const listed_scene scene = scene_list_get(i);
         const bool animal = i == builtin || i == builtin + 1;
         assert_string_equal(scene.name,
-                            i < builtin ? lobe_builtin_scene_get(i)->name : own[i - builtin]);
+                            i < builtin ? lobe_builtin_scene_get(i)->name : own[i - builtin].name);
         assert_true(strlen(scene.summary) > 20 && !strchr(scene.summary, '\n'));
         assert_int_equal(scene.needs_assets, animal);
         assert_int_equal(scene_list_needs_assets(scene.name), animal);
         assert_string_equal(scene_list_filter(scene.name),
-                            strcmp(scene.name, "ocean") == 0 || strcmp(scene.name, "flag") == 0
-                                ? "leadr"
-                                : "moments");
+                            i < builtin ? "moments" : own[i - builtin].filter);
     }
     assert_string_equal(scene_list_filter("teapot"), "moments");
     assert_string_equal(scene_list_filter(NULL), "moments");
